@@ -1,0 +1,81 @@
+#include "engine/base/file.h"
+
+#include "engine/base/error.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace relume {
+
+std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit) {
+    std::error_code failure;
+    if (std::filesystem::is_directory(path, failure))
+        throw Error("{}: expected a file, found a folder", path.string());
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) throw Error("{}: cannot be read: {}", path.string(), std::strerror(errno));
+    const std::streamoff size = file.tellg();
+    if (size < 0) throw Error("{}: expected a regular file", path.string());
+    if (size_t(size) > limit)
+        throw Error("{}: holds {} bytes, more than the {} that such a file may have", path.string(), size,
+                    limit);
+    std::vector<std::byte> bytes(size_t(size), std::byte(0));
+    file.seekg(0);
+    if (!bytes.empty() && !file.read(reinterpret_cast<char*>(bytes.data()), size))
+        throw Error("{}: cannot be read to its end", path.string());
+    return bytes;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
+    std::string pattern = mPath.string() + ".XXXXXX";
+    mDescriptor = mkstemp(pattern.data());
+    if (mDescriptor < 0)
+        throw Error("{}: cannot be written: {}; is its folder there and writable?", mPath.string(),
+                    std::strerror(errno));
+    mTemporary = pattern;
+    // mkstemp makes private files; the result gets the permissions that any new file would have.
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)fchmod(mDescriptor, 0666 & ~mask);
+}
+
+AtomicFile::~AtomicFile() {
+    if (mDescriptor < 0) return;
+    close(mDescriptor);
+    unlink(mTemporary.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(mDescriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) throw Error("{}: cannot be written: {}", mPath.string(), std::strerror(errno));
+        bytes = bytes.subspan(size_t(written));
+    }
+}
+
+void AtomicFile::commit() {
+    // A library may have replaced the temporary file by name: flush the file that carries the name now.
+    const int current = open(mTemporary.c_str(), O_RDONLY);
+    const bool flushed = current >= 0 && fsync(current) == 0;
+    if (current >= 0) close(current);
+    if (!flushed || rename(mTemporary.c_str(), mPath.c_str()) != 0)
+        throw Error("{}: cannot be written: {}", mPath.string(), std::strerror(errno));
+    close(mDescriptor);
+    mDescriptor = -1;
+}
+
+void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    AtomicFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
+void writeFileAtomically(const std::filesystem::path& path, const std::string& text) {
+    writeFileAtomically(path, std::as_bytes(std::span(text)));
+}
+
+} // namespace relume

@@ -1,0 +1,45 @@
+// Whole-file reads and atomic writes.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace relume {
+
+// Returns the whole file. Throws Error when it cannot be read, or is larger than `limit` bytes.
+std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit = size_t(64) << 30);
+
+// A file that appears whole or not at all: bytes go to a temporary file beside `path`, which replaces
+// `path` only in commit(). Destroyed before commit(), it leaves `path` as it was.
+class AtomicFile {
+  public:
+    // Creates the temporary file. Throws Error when the folder cannot be written.
+    explicit AtomicFile(std::filesystem::path path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    // Where a library that writes by file name must write.
+    const std::filesystem::path& temporaryPath() const { return mTemporary; }
+
+    // Appends bytes. Throws Error on failure (a full disk, say).
+    void write(std::span<const std::byte> bytes);
+
+    // Flushes to the disk, renames over the final path. Throws Error on failure.
+    void commit();
+
+  private:
+    std::filesystem::path mPath;
+    std::filesystem::path mTemporary;
+    int mDescriptor = -1;
+};
+
+// Writes `bytes` to `path`, whole or not at all.
+void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
+
+} // namespace relume

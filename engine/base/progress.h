@@ -1,0 +1,33 @@
+// Progress of long work on stderr: a bar on a terminal, a line every 10 % elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace relume {
+
+// Shows nothing for work that ends within two seconds. Not thread-safe: one thread reports.
+class Progress {
+  public:
+    // `total` items of work; `unit` names them in the plural ("vertices").
+    Progress(std::string title, uint64_t total, std::string unit, bool quiet = false);
+    // Ends the line of an unfinished bar.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    // Says that `done` items are finished.
+    void update(uint64_t done);
+
+  private:
+    void print(uint64_t done, double seconds);
+
+    std::string mTitle, mUnit;
+    uint64_t mTotal;
+    bool mQuiet, mTerminal, mLineOpen = false;
+    uint64_t mNextTenth = 1;
+    std::chrono::steady_clock::time_point mStart, mLastPrint;
+};
+
+} // namespace relume

@@ -1,0 +1,36 @@
+// Distant environments as latitude-longitude maps.
+#pragma once
+
+#include "engine/image/image.h"
+
+#include <filesystem>
+
+namespace relume {
+
+// A latlong map with pixel centres: column x is longitude π - 2π (x + ½) / width, row y latitude
+// π/2 - π (y + ½) / height, direction (sin lon cos lat, sin lat, cos lon cos lat): +Y up, the centre
+// looks along +Z, a quarter turn left of it along +X, as OpenEXR defines its latlong.
+struct Environment {
+    int width = 0, height = 0;
+    std::vector<vec3> radiance; // W·m⁻²·sr⁻¹, rows from the top
+
+    vec3 direction(float column,
+                   float row) const;   // of a point in pixel units; (0.5, 0.5) is the first centre
+    vec2 place(vec3 direction) const;  // the inverse, in pixel units
+    vec3 lookup(vec3 direction) const; // bilinear, wrapping in longitude
+};
+
+// Reads .exr (latlong, or cube by its envmap attribute) or .hdr. A file without the attribute is a
+// latlong with pixel centres; one with it has its first and last rows on the poles, and is resampled.
+// Negative values become 0 and are counted in the log. Throws Error.
+Environment readEnvironment(const std::filesystem::path& path);
+
+// The built-in sky: blue above, warm near the horizon, brown below, with a soft sun; generated in code.
+Environment makeSky(int width = 512);
+
+// The map that lights are sampled from: area-averaged down to at most `maxWidth` columns, then each row
+// averaged over 1 / cos(latitude) columns, so that a pixel near a pole is as wide as one at the equator.
+// Keeps Σ radiance · solid angle.
+Environment prepareForSampling(const Environment& environment, int maxWidth = 1024);
+
+} // namespace relume

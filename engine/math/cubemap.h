@@ -1,0 +1,43 @@
+// Directions on a cube: Vulkan's cubemap faces and axes. GLSL twin: shaders/lib/cubemap.glsl.
+//
+// Faces 0 to 5 look along +X, -X, +Y, -Y, +Z, -Z (Vulkan 1.3 specification, table "Cube map face
+// selection"). On a face, u runs right and v down, both in [-1, 1]; texel (x, y) of a face of
+// `size` texels is centred at u = (2x + 1) / size - 1, v likewise.
+#pragma once
+
+#include "engine/math/vector.h"
+
+namespace relume {
+
+constexpr int kCubeFaces = 6;
+
+// A face's three axes in the world: the direction of (u, v) is forward + u * right + v * down.
+struct CubeFaceAxes {
+    vec3 right, down, forward;
+};
+
+// Axes of `face`, 0 to 5.
+CubeFaceAxes cubeFaceAxes(int face);
+
+// Unnormalised direction of face coordinates (u, v); its length is sqrt(1 + u² + v²).
+vec3 cubeDirection(int face, float u, float v);
+
+// Unit direction through the centre of a texel.
+vec3 cubeTexelDirection(int face, int x, int y, int size);
+
+// Solid angle of a texel by the midpoint rule: 4 / (size² (1 + u² + v²)^(3/2)), in steradian. Over a
+// cube it sums to 4π within 1e-4 for size ≥ 64.
+float cubeTexelSolidAngle(int x, int y, int size);
+
+// A place on a cube of `size` texels a side.
+struct CubeTexel {
+    int face, x, y;
+};
+
+// The texel that a direction, of any length but zero, passes through.
+CubeTexel cubeTexel(vec3 direction, int size);
+
+// Index of a texel in an array of six faces, row by row: face·size² + y·size + x.
+inline int cubeTexelIndex(int face, int x, int y, int size) { return (face * size + y) * size + x; }
+
+} // namespace relume

@@ -1,0 +1,48 @@
+#include "engine/math/haar.h"
+
+#include "engine/base/check.h"
+
+#include <bit>
+#include <vector>
+
+namespace relume {
+
+void haarForward(std::span<vec3> values, int size) {
+    RELUME_CHECK(size > 0 && std::has_single_bit(unsigned(size)));
+    RELUME_CHECK_EQ(values.size(), size_t(size) * size_t(size));
+    std::vector<vec3> level(values.size());
+    for (int half = size / 2; half >= 1; half /= 2) {
+        for (int y = 0; y < half; y++)
+            for (int x = 0; x < half; x++) {
+                const vec3 a = values[(2 * y) * size + 2 * x], b = values[(2 * y) * size + 2 * x + 1];
+                const vec3 c = values[(2 * y + 1) * size + 2 * x], d = values[(2 * y + 1) * size + 2 * x + 1];
+                level[y * size + x] = 0.5f * (a + b + c + d);
+                level[y * size + x + half] = 0.5f * (a - b + c - d);
+                level[(y + half) * size + x] = 0.5f * (a + b - c - d);
+                level[(y + half) * size + x + half] = 0.5f * (a - b - c + d);
+            }
+        for (int y = 0; y < 2 * half; y++)
+            for (int x = 0; x < 2 * half; x++) values[y * size + x] = level[y * size + x];
+    }
+}
+
+void haarInverse(std::span<vec3> values, int size) {
+    RELUME_CHECK(size > 0 && std::has_single_bit(unsigned(size)));
+    RELUME_CHECK_EQ(values.size(), size_t(size) * size_t(size));
+    std::vector<vec3> level(values.size());
+    for (int half = 1; half < size; half *= 2) {
+        for (int y = 0; y < half; y++)
+            for (int x = 0; x < half; x++) {
+                const vec3 average = values[y * size + x], right = values[y * size + x + half];
+                const vec3 down = values[(y + half) * size + x], both = values[(y + half) * size + x + half];
+                level[(2 * y) * size + 2 * x] = 0.5f * (average + right + down + both);
+                level[(2 * y) * size + 2 * x + 1] = 0.5f * (average - right + down - both);
+                level[(2 * y + 1) * size + 2 * x] = 0.5f * (average + right - down - both);
+                level[(2 * y + 1) * size + 2 * x + 1] = 0.5f * (average - right - down + both);
+            }
+        for (int y = 0; y < 2 * half; y++)
+            for (int x = 0; x < 2 * half; x++) values[y * size + x] = level[y * size + x];
+    }
+}
+
+} // namespace relume

@@ -1,0 +1,22 @@
+// The orthonormal, non-standard 2D Haar basis. GLSL twins: shaders/transport.comp, shaders/light_haar.comp.
+//
+// One level turns each 2×2 block [a b; c d] into
+//   (a + b + c + d) / 2 at (x, y), (a - b + c - d) / 2 at (x + h, y),
+//   (a + b - c - d) / 2 at (x, y + h), (a - b - c + d) / 2 at (x + h, y + h),
+// with h half the side of the level's square; the next level works on the averages, until one is left
+// (Stollnitz, DeRose, Salesin: Wavelets for Computer Graphics, 1995).
+#pragma once
+
+#include "engine/math/vector.h"
+
+#include <span>
+
+namespace relume {
+
+// Transforms one square of size × size values in place; `size` is a power of two.
+void haarForward(std::span<vec3> values, int size);
+
+// The inverse of haarForward.
+void haarInverse(std::span<vec3> values, int size);
+
+} // namespace relume

@@ -1,0 +1,16 @@
+// The diffuse ground under an object: a tessellated square at the object's lowest point.
+#pragma once
+
+#include "engine/scene/mesh.h"
+
+namespace relume {
+
+struct GroundOptions {
+    int tessellation = 148; // Quads a side: 149² = 22,201 vertices, the paper's ground for the bunny.
+    float extent = 3.0f;    // Side, in units of the object's largest horizontal or vertical extent.
+};
+
+// A square centred under `object` in x and z, at its lowest y, normals up.
+Mesh makeGround(const Bounds& object, const GroundOptions& options = {});
+
+} // namespace relume

@@ -1,0 +1,57 @@
+// A bake: everything needed to relight, draw and explain itself. File format: docs/asset_format.md.
+#pragma once
+
+#include "engine/scene/factored_brdf.h"
+#include "engine/scene/mesh.h"
+#include "engine/transport/sparse_transport.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace relume {
+
+// One surface of the scene with its own material. Vertices are in bake order
+// (precompute/bake/vertex_order.h).
+struct AssetPart {
+    std::string name;
+    std::string material; // The BRDF that was factored: a JSON object {"model": …, parameters…}, as text.
+    Mesh mesh;
+    FactoredBrdf brdf;
+    SparseTransport transport; // terms == brdf.terms, vertices == mesh.vertexCount()
+};
+
+// How it was made. All of it goes into the file, none of it is needed to relight.
+struct Provenance {
+    std::string program; // "relume 0.1.0"
+    std::string device;  // Name and driver of the device that baked it
+    std::string options; // JSON object: every bake option that decides the bytes
+    std::string inputs;  // JSON array: {"name", "file", "hash"} of every input file
+};
+
+struct Asset {
+    int faceSize = 64;           // F: side of a face of the lighting cube
+    int visibilitySize = 256;    // side of a face of the visibility cube
+    int coefficients = 96;       // N: most entries of a row
+    int transportSamples = 1;    // light-map evaluations per lighting texel
+    float visibilityOffset = 0;  // distance a vertex was lifted along its normal
+    float quantisationError = 0; // relative L2 over all rows, as measured during the bake
+    float truncationError = 0;   // relative L2 over all rows lost by keeping N, as measured during the bake
+    Mesh occluder;               // Positions and triangles that cast the shadows
+    std::vector<AssetPart> parts;
+    Provenance provenance;
+};
+
+Bounds boundsOf(const Asset& asset);
+
+// Bytes of the file. The same asset gives the same bytes.
+std::vector<std::byte> encodeAsset(const Asset& asset);
+
+// The asset in `bytes`; `name` stands for them in errors. Throws Error for anything that does not check out:
+// truncated, corrupt, absurd, inconsistent, a later version.
+Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name);
+
+void writeAsset(const std::filesystem::path& path, const Asset& asset); // whole or not at all
+Asset readAsset(const std::filesystem::path& path);
+
+} // namespace relume

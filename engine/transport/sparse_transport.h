@@ -1,0 +1,32 @@
+// Transport as rows of sparse, quantised Haar coefficients: one row per vertex and term.
+#pragma once
+
+#include "engine/math/vector.h"
+
+#include <vector>
+
+namespace relume {
+
+// Row r = vertex · terms + term. Entry e of a row is coefficient `indices[e]` with value
+// unpackCoefficient(values[e]) · (scale / kRedMaximum, scale / kGreenMaximum, scale / kBlueMaximum).
+struct SparseTransport {
+    uint32_t vertices = 0;
+    uint32_t terms = 0;
+    std::vector<uint64_t> rowStarts; // rows + 1: first entry of each row
+    std::vector<float> scales;       // per row: the largest |component| before quantisation
+    std::vector<uint16_t> indices;   // per entry: face·F² + y·F + x, rising within a row
+    std::vector<uint32_t> values;    // per entry: packed 11/11/10
+
+    size_t rows() const { return size_t(vertices) * terms; }
+    size_t entries() const { return values.size(); }
+};
+
+// 11, 11 and 10 signed bits, red lowest. GLSL twin: shaders/lib/packing.glsl.
+constexpr int kRedMaximum = 1023, kGreenMaximum = 1023, kBlueMaximum = 511;
+uint32_t packCoefficient(ivec3 quantised);
+ivec3 unpackCoefficient(uint32_t packed);
+
+// Rounds to nearest, halves away from zero; `scale` maps to the maxima. A scale of 0 gives 0.
+ivec3 quantiseCoefficient(vec3 value, float scale);
+
+} // namespace relume

@@ -1,0 +1,39 @@
+// The interface of every BRDF model. One file per model beside this one.
+#pragma once
+
+#include "engine/math/vector.h"
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace relume {
+
+class Brdf {
+  public:
+    virtual ~Brdf() = default;
+
+    // f(ωi, ωo) in sr⁻¹ per colour channel, without the cosine. Unit directions in the local frame,
+    // z along the normal, both with z > 0. Never negative, always finite.
+    virtual vec3 evaluate(vec3 incoming, vec3 outgoing) const = 0;
+
+    // Whether f(ωi, ωo) = f(ωo, ωi) by construction.
+    virtual bool isReciprocal() const { return true; }
+
+    // {"model": NAME, every parameter…}: makeBrdf of it gives the same BRDF.
+    virtual nlohmann::json describe() const = 0;
+};
+
+// From a preset's name ("clay"), a model's name ("ashikhmin-shirley"), or a JSON object as text
+// ({"model": "ashikhmin-shirley", "nu": 10}). Throws UsageError naming the nearest valid name, or the
+// valid range of a parameter.
+std::unique_ptr<Brdf> makeBrdf(const std::string& material);
+
+// Names of all presets, with a line of description each.
+struct MaterialPreset {
+    std::string name, description;
+};
+std::vector<MaterialPreset> materialPresets();
+
+} // namespace relume

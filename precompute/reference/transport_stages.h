@@ -1,0 +1,43 @@
+// The CPU twin of every stage of the bake, one vertex at a time: naive on purpose, never optimised.
+#pragma once
+
+#include "engine/light/light_vector.h"
+#include "engine/math/tangent_frame.h"
+#include "engine/scene/factored_brdf.h"
+#include "engine/transport/sparse_transport.h"
+#include "precompute/reference/ray_tracer.h"
+
+#include <array>
+#include <vector>
+
+namespace relume {
+
+// 6 · size² values, 1 where the direction through the texel's centre is free and above the horizon of
+// `normal` (cubeTexelDirection · normal > 0), else 0. Rays start at `origin` (already lifted).
+std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size);
+
+// 6 · faceSize² transport values of one term: light map · visibility · cosine · solid angle, summed over a
+// lighting texel. `samples` (1, 4, 16, …: a square) evaluations per lighting texel, each times the visible
+// fraction of the visibility texels around it; samples ≤ (visibilitySize / faceSize)².
+std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int visibilitySize, int faceSize,
+                                  int samples, const FactoredBrdf& brdf, int term, const TangentFrame& frame);
+
+// Haar-transforms the six faces in place.
+void haarFaces(std::vector<vec3>& cube, int faceSize);
+
+// Indices, rising, of the `count` coefficients of largest r² + g² + b² (ties: lower index first; zeros
+// are never kept).
+std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count);
+
+// One packed row: quantised against its largest |component|, zeros dropped.
+struct PackedRow {
+    float scale = 0;
+    std::vector<uint16_t> indices;
+    std::vector<uint32_t> values;
+};
+PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected);
+
+// Integer sums Σ c·l of every row, 32-bit: CPU twin of shaders/relight.comp.
+std::vector<ivec3> relight(const SparseTransport& transport, const LightVector& light);
+
+} // namespace relume
