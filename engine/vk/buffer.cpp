@@ -1,0 +1,67 @@
+#include "engine/vk/buffer.h"
+
+#include "engine/vk/result.h"
+
+#include <utility>
+
+namespace relume::vk {
+
+static VkMemoryPropertyFlags memoryProperties(BufferUse use) {
+    switch (use) {
+    case BufferUse::Device:
+        return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    case BufferUse::Upload:
+        return VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    default:
+        return VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
+               VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    }
+}
+
+Buffer::Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_view name)
+    : mDevice(&device), mBytes(bytes) {
+    RELUME_CHECK_LT(0u, bytes);
+    VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    create.size = bytes;
+    create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                   VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                   VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    try {
+        RELUME_VK(vkCreateBuffer(device.handle(), &create, nullptr, &mBuffer));
+        VkMemoryRequirements requirements;
+        vkGetBufferMemoryRequirements(device.handle(), mBuffer, &requirements);
+        if (requirements.size > device.info().largestAllocation)
+            throw OutOfMemory("{}: {} bytes asked for, {} allows {} at once", name, requirements.size,
+                              device.name(), device.info().largestAllocation);
+        allocate.allocationSize = requirements.size;
+        allocate.memoryTypeIndex = device.memoryType(requirements.memoryTypeBits, memoryProperties(use));
+        RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));
+        RELUME_VK(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0));
+        if (use != BufferUse::Device)
+            RELUME_VK(vkMapMemory(device.handle(), mMemory, 0, VK_WHOLE_SIZE, 0, &mMapped));
+    } catch (...) {
+        destroy();
+        throw;
+    }
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
+    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(mMemory), name);
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    std::swap(mDevice, other.mDevice);
+    std::swap(mBuffer, other.mBuffer);
+    std::swap(mMemory, other.mMemory);
+    std::swap(mBytes, other.mBytes);
+    std::swap(mMapped, other.mMapped);
+    return *this;
+}
+
+void Buffer::destroy() {
+    if (!mDevice) return;
+    vkDestroyBuffer(mDevice->handle(), mBuffer, nullptr);
+    vkFreeMemory(mDevice->handle(), mMemory, nullptr);
+    mDevice = nullptr;
+}
+
+} // namespace relume::vk

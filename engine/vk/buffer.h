@@ -1,0 +1,54 @@
+// Buffers, asked for by intent.
+#pragma once
+
+#include "engine/base/check.h"
+#include "engine/vk/device.h"
+
+#include <span>
+
+namespace relume::vk {
+
+enum class BufferUse {
+    Device,   // Lives on the device: storage, index, indirect, transfers either way
+    Upload,   // Written by the host, read by the device; mapped
+    Readback, // Written by the device, read by the host; mapped
+};
+
+class Buffer {
+  public:
+    Buffer() = default;
+    // `bytes` > 0. Throws OutOfMemory.
+    Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_view name);
+    ~Buffer() { destroy(); }
+    Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    VkBuffer handle() const { return mBuffer; }
+    uint64_t bytes() const { return mBytes; }
+
+    // The mapped contents of an upload or readback buffer, as whole elements.
+    template <typename T>
+    std::span<T> map() const {
+        RELUME_CHECK(mMapped != nullptr);
+        return {static_cast<T*>(mMapped), mBytes / sizeof(T)};
+    }
+
+  private:
+    void destroy();
+
+    const Device* mDevice = nullptr;
+    VkBuffer mBuffer = VK_NULL_HANDLE;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    uint64_t mBytes = 0;
+    void* mMapped = nullptr;
+};
+
+// An upload buffer that holds a copy of `values`.
+template <typename T>
+Buffer makeUpload(const Device& device, std::span<const T> values, std::string_view name) {
+    Buffer buffer(device, std::max<uint64_t>(values.size_bytes(), 4), BufferUse::Upload, name);
+    std::copy(values.begin(), values.end(), buffer.map<T>().begin());
+    return buffer;
+}
+
+} // namespace relume::vk

@@ -1,0 +1,325 @@
+#include "engine/vk/commands.h"
+
+#include "engine/vk/result.h"
+
+#include <algorithm>
+
+namespace relume::vk {
+
+namespace {
+
+constexpr uint32_t kSetsPerPool = 256;
+constexpr uint32_t kMaxTimedPasses = 512;
+
+struct StageMasks {
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 reads, writes;
+};
+
+StageMasks masksOf(Stage stage) {
+    switch (stage) {
+    case Stage::Compute:
+        return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
+                    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+    case Stage::Transfer:
+        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    case Stage::Color:
+        return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
+                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
+                    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    case Stage::Draw:
+        return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT |
+                    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
+                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                0};
+    default:
+        return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT};
+    }
+}
+
+} // namespace
+
+Commands::Commands(const Device& device, std::string_view name) : mDevice(device) {
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.queueFamilyIndex = device.queueFamily();
+    RELUME_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &mPool));
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = mPool;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    RELUME_VK(vkAllocateCommandBuffers(device.handle(), &allocate, &mCommands));
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mFence));
+    VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    queries.queryCount = 2 * kMaxTimedPasses;
+    RELUME_VK(vkCreateQueryPool(device.handle(), &queries, nullptr, &mQueries));
+    device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(mCommands), name);
+    device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<uint64_t>(mPool), name);
+    device.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<uint64_t>(mFence), name);
+    device.setName(VK_OBJECT_TYPE_QUERY_POOL, reinterpret_cast<uint64_t>(mQueries), name);
+}
+
+Commands::~Commands() {
+    for (VkDescriptorPool pool : mDescriptorPools) vkDestroyDescriptorPool(mDevice.handle(), pool, nullptr);
+    vkDestroyQueryPool(mDevice.handle(), mQueries, nullptr);
+    vkDestroyFence(mDevice.handle(), mFence, nullptr);
+    vkDestroyCommandPool(mDevice.handle(), mPool, nullptr);
+}
+
+void Commands::begin() {
+    RELUME_VK(vkResetCommandPool(mDevice.handle(), mPool, 0));
+    for (VkDescriptorPool pool : mDescriptorPools)
+        RELUME_VK(vkResetDescriptorPool(mDevice.handle(), pool, 0));
+    mActivePool = 0;
+    mTimedPasses.clear();
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    RELUME_VK(vkBeginCommandBuffer(mCommands, &begin));
+    vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxTimedPasses);
+}
+
+void Commands::pass(const char* name, const std::function<void()>& work) {
+    const uint32_t query = 2 * uint32_t(mTimedPasses.size());
+    const bool timed = mTimedPasses.size() < kMaxTimedPasses && mDevice.limits().timestampComputeAndGraphics;
+    mDevice.beginLabel(mCommands, name);
+    if (timed) {
+        mTimedPasses.emplace_back(name);
+        vkCmdWriteTimestamp2(mCommands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, mQueries, query);
+    }
+    work();
+    if (timed) vkCmdWriteTimestamp2(mCommands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, mQueries, query + 1);
+    mDevice.endLabel(mCommands);
+}
+
+void Commands::dispatchBytes(const ComputeProgram& program, std::initializer_list<Binding> bindings,
+                             std::span<const std::byte> push, uvec3 items) {
+    bindBytes(program, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, push);
+    uint32_t groups[3];
+    for (int axis = 0; axis < 3; axis++) {
+        const uint32_t size = program.groupSize()[size_t(axis)];
+        groups[axis] = (items[axis] + size - 1) / size;
+        RELUME_CHECK_LE(groups[axis], mDevice.limits().maxComputeWorkGroupCount[axis]);
+    }
+    vkCmdDispatch(mCommands, groups[0], groups[1], groups[2]);
+}
+
+void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
+                         std::initializer_list<Binding> bindings, std::span<const std::byte> push) {
+    RELUME_CHECK_EQ(bindings.size(), program.bindings().size());
+    // An empty struct still has a byte: programs without push constants take anything.
+    if (program.pushConstantBytes() > 0) RELUME_CHECK_EQ(push.size(), size_t(program.pushConstantBytes()));
+    vkCmdBindPipeline(mCommands, point, program.pipeline());
+    if (program.pushConstantBytes() > 0)
+        vkCmdPushConstants(mCommands, program.layout(), program.stages(), 0, uint32_t(push.size()),
+                           push.data());
+    if (bindings.size() == 0) return;
+
+    const VkDescriptorSet set = allocateSet(program.setLayout());
+    std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
+    std::vector<VkDescriptorImageInfo> images(bindings.size());
+    std::vector<VkWriteDescriptorSet> writes;
+    auto expected = program.bindings().begin();
+    for (const Binding& binding : bindings) {
+        const size_t i = writes.size();
+        VkWriteDescriptorSet& write = writes.emplace_back();
+        write = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = set;
+        write.dstBinding = expected->first;
+        write.descriptorCount = 1;
+        write.descriptorType = expected->second;
+        if (binding.buffer) {
+            RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER));
+            RELUME_CHECK_LE(binding.bytes, mDevice.largestStorageBuffer());
+            buffers[i] = {binding.buffer->handle(), binding.offset, binding.bytes};
+            write.pBufferInfo = &buffers[i];
+        } else {
+            RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER));
+            images[i] = {binding.sampler->handle(), binding.image->view(),
+                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            write.pImageInfo = &images[i];
+        }
+        ++expected;
+    }
+    vkUpdateDescriptorSets(mDevice.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
+    vkCmdBindDescriptorSets(mCommands, point, program.layout(), 0, 1, &set, 0, nullptr);
+}
+
+VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
+    for (;; mActivePool++) {
+        if (mActivePool == mDescriptorPools.size()) {
+            const VkDescriptorPoolSize sizes[] = {
+                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
+                {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * kSetsPerPool}};
+            VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+            create.maxSets = kSetsPerPool;
+            create.poolSizeCount = 2;
+            create.pPoolSizes = sizes;
+            VkDescriptorPool pool;
+            RELUME_VK(vkCreateDescriptorPool(mDevice.handle(), &create, nullptr, &pool));
+            mDescriptorPools.push_back(pool);
+            mDevice.setName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, reinterpret_cast<uint64_t>(pool), "descriptors");
+        }
+        VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+        allocate.descriptorPool = mDescriptorPools[mActivePool];
+        allocate.descriptorSetCount = 1;
+        allocate.pSetLayouts = &layout;
+        VkDescriptorSet set;
+        const VkResult result = vkAllocateDescriptorSets(mDevice.handle(), &allocate, &set);
+        if (result == VK_SUCCESS) return set;
+        if (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)
+            check(result, "vkAllocateDescriptorSets");
+    }
+}
+
+void Commands::render(const RenderTarget& target, const std::function<void()>& draws) {
+    VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    color.imageView = target.color->view();
+    color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    std::copy(target.clear.begin(), target.clear.end(), color.clearValue.color.float32);
+    if (target.color->options().format == VK_FORMAT_R8_UINT)
+        for (size_t i = 0; i < 4; i++) color.clearValue.color.uint32[i] = uint32_t(target.clear[i]);
+    VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    const ImageOptions& size = target.color->options();
+    rendering.renderArea = {{0, 0}, {size.width, size.height}};
+    rendering.layerCount = target.layers;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &color;
+    if (target.depth) {
+        depth.imageView = target.depth->view();
+        depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+        depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        depth.clearValue.depthStencil.depth = 1;
+        rendering.pDepthAttachment = &depth;
+    }
+    vkCmdBeginRendering(mCommands, &rendering);
+    const VkViewport viewport{0, 0, float(size.width), float(size.height), 0, 1};
+    vkCmdSetViewport(mCommands, 0, 1, &viewport);
+    vkCmdSetScissor(mCommands, 0, 1, &rendering.renderArea);
+    draws();
+    vkCmdEndRendering(mCommands);
+}
+
+void Commands::drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t instances,
+                           uint32_t firstIndex) {
+    vkCmdBindIndexBuffer(mCommands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(mCommands, indexCount, instances, firstIndex, 0, 0);
+}
+
+void Commands::drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount) {
+    vkCmdBindIndexBuffer(mCommands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexedIndirect(mCommands, draws.handle(), 0, drawCount, sizeof(VkDrawIndexedIndirectCommand));
+}
+
+void Commands::barrier(Stage from, Stage to) {
+    const StageMasks source = masksOf(from), target = masksOf(to);
+    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    memory.srcStageMask = source.stages;
+    memory.srcAccessMask = source.writes;
+    memory.dstStageMask = target.stages;
+    memory.dstAccessMask = target.reads;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    vkCmdPipelineBarrier2(mCommands, &dependency);
+}
+
+void Commands::transition(const Image& image, VkImageLayout from, VkImageLayout to, Stage before,
+                          Stage after) {
+    const StageMasks source = masksOf(before), target = masksOf(after);
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = source.stages;
+    barrier.srcAccessMask = source.writes;
+    barrier.dstStageMask = target.stages;
+    barrier.dstAccessMask = target.reads;
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image.handle();
+    barrier.subresourceRange = {image.aspect(), 0, 1, 0, image.options().layers};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(mCommands, &dependency);
+}
+
+void Commands::fill(const Buffer& buffer, uint32_t value) {
+    vkCmdFillBuffer(mCommands, buffer.handle(), 0, VK_WHOLE_SIZE, value);
+}
+
+void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
+                    uint64_t toOffset) {
+    const VkBufferCopy region{fromOffset, toOffset, bytes};
+    vkCmdCopyBuffer(mCommands, from.handle(), to.handle(), 1, &region);
+}
+
+static VkBufferImageCopy wholeLayers(const Image& image, uint32_t layers) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {image.aspect(), 0, 0, layers};
+    region.imageExtent = {image.options().width, image.options().height, 1};
+    return region;
+}
+
+void Commands::copy(const Buffer& from, const Image& to) {
+    const VkBufferImageCopy region = wholeLayers(to, to.options().layers);
+    vkCmdCopyBufferToImage(mCommands, from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                           &region);
+}
+
+void Commands::copy(const Image& from, const Buffer& to, uint32_t layers) {
+    const VkBufferImageCopy region = wholeLayers(from, layers);
+    vkCmdCopyImageToBuffer(mCommands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1,
+                           &region);
+}
+
+void Commands::submitAndWait() {
+    RELUME_VK(vkEndCommandBuffer(mCommands));
+    VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    buffer.commandBuffer = mCommands;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &buffer;
+    RELUME_VK(vkQueueSubmit2(mDevice.queue(), 1, &submit, mFence));
+    RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mFence, VK_TRUE, UINT64_MAX));
+    RELUME_VK(vkResetFences(mDevice.handle(), 1, &mFence));
+    collectTimes();
+}
+
+void Commands::collectTimes() {
+    if (mTimedPasses.empty()) return;
+    std::vector<uint64_t> ticks(2 * mTimedPasses.size());
+    RELUME_VK(vkGetQueryPoolResults(mDevice.handle(), mQueries, 0, uint32_t(ticks.size()), ticks.size() * 8,
+                                    ticks.data(), 8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    for (size_t i = 0; i < mTimedPasses.size(); i++) {
+        const double seconds =
+            double(ticks[2 * i + 1] - ticks[2 * i]) * double(mDevice.limits().timestampPeriod) * 1e-9;
+        auto entry = std::find_if(mTimes.begin(), mTimes.end(),
+                                  [&](const auto& time) { return time.first == mTimedPasses[i]; });
+        if (entry == mTimes.end())
+            mTimes.emplace_back(mTimedPasses[i], seconds);
+        else
+            entry->second += seconds;
+    }
+}
+
+double secondsOf(const PassTimes& times, std::string_view prefix) {
+    double sum = 0;
+    for (const auto& [name, seconds] : times)
+        if (name.starts_with(prefix)) sum += seconds;
+    return sum;
+}
+
+} // namespace relume::vk

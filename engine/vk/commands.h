@@ -1,0 +1,111 @@
+// Command recording, one submission at a time: passes with labels and timestamps, dispatches by number
+// of items, draws, copies and barriers.
+#pragma once
+
+#include "engine/math/vector.h"
+#include "engine/vk/buffer.h"
+#include "engine/vk/image.h"
+#include "engine/vk/program.h"
+
+#include <functional>
+#include <initializer_list>
+#include <map>
+
+namespace relume::vk {
+
+// One resource of a dispatch or draw, in the order of the shader's binding numbers.
+struct Binding {
+    Binding(const Buffer& whole) : buffer(&whole), bytes(whole.bytes()) {}
+    Binding(const Buffer& part, uint64_t start, uint64_t size) : buffer(&part), offset(start), bytes(size) {}
+    Binding(const Image& texture, const Sampler& textureSampler)
+        : image(&texture), sampler(&textureSampler) {}
+
+    const Buffer* buffer = nullptr;
+    uint64_t offset = 0, bytes = 0;
+    const Image* image = nullptr;
+    const Sampler* sampler = nullptr;
+};
+
+// Which work waits for which: everything written by `from` is seen by `to`.
+enum class Stage { Compute, Transfer, Color, Draw, Host };
+
+struct RenderTarget {
+    const Image* color = nullptr;
+    const Image* depth = nullptr; // may be null
+    std::array<float, 4> clear{0, 0, 0, 0};
+    uint32_t layers = 1;
+};
+
+// Seconds of device time by pass name, in order of first use.
+using PassTimes = std::vector<std::pair<std::string, double>>;
+
+class Commands {
+  public:
+    explicit Commands(const Device& device, std::string_view name);
+    ~Commands();
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+
+    // Starts recording afresh.
+    void begin();
+
+    // Records `work` under a debug label and, with timing on, between two timestamps.
+    void pass(const char* name, const std::function<void()>& work);
+
+    // Runs a compute program over at least `items` invocations; the program knows its group size.
+    template <typename Push>
+    void dispatch(const ComputeProgram& program, std::initializer_list<Binding> bindings, const Push& push,
+                  uvec3 items) {
+        dispatchBytes(program, bindings, std::as_bytes(std::span(&push, 1)), items);
+    }
+
+    // Attaches and clears the target, then runs `draws`; images end in the layout they had inside.
+    void render(const RenderTarget& target, const std::function<void()>& draws);
+    // Inside render(): binds program, resources and push constants for the draws that follow.
+    template <typename Push>
+    void bind(const GraphicsProgram& program, std::initializer_list<Binding> bindings, const Push& push) {
+        bindBytes(program, VK_PIPELINE_BIND_POINT_GRAPHICS, bindings, std::as_bytes(std::span(&push, 1)));
+    }
+    void drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t instances, uint32_t firstIndex = 0);
+    void drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount);
+
+    // `from` before `to`, for all memory.
+    void barrier(Stage from, Stage to);
+    // Changes an image's layout, keeping nothing of its contents when `from` is undefined.
+    void transition(const Image& image, VkImageLayout from, VkImageLayout to, Stage before, Stage after);
+
+    void fill(const Buffer& buffer, uint32_t value);
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
+              uint64_t toOffset = 0);
+    void copy(const Buffer& from, const Image& to);                  // all layers; image in TRANSFER_DST
+    void copy(const Image& from, const Buffer& to, uint32_t layers); // first layers; image in TRANSFER_SRC
+
+    // Submits and waits; adds this submission's pass times to `times()`.
+    void submitAndWait();
+
+    const PassTimes& times() const { return mTimes; }
+    void clearTimes() { mTimes.clear(); }
+
+  private:
+    void dispatchBytes(const ComputeProgram& program, std::initializer_list<Binding> bindings,
+                       std::span<const std::byte> push, uvec3 items);
+    void bindBytes(const Program& program, VkPipelineBindPoint point, std::initializer_list<Binding> bindings,
+                   std::span<const std::byte> push);
+    VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
+    void collectTimes();
+
+    const Device& mDevice;
+    VkCommandPool mPool = VK_NULL_HANDLE;
+    VkCommandBuffer mCommands = VK_NULL_HANDLE;
+    VkFence mFence = VK_NULL_HANDLE;
+    VkQueryPool mQueries = VK_NULL_HANDLE;
+    std::vector<VkDescriptorPool> mDescriptorPools;
+    size_t mActivePool = 0;
+    std::vector<std::string> mTimedPasses; // pass i wrote queries 2i and 2i + 1
+    PassTimes mTimes;
+};
+
+// Sum of all passes' seconds whose name starts with `prefix`.
+double secondsOf(const PassTimes& times, std::string_view prefix = "");
+
+} // namespace relume::vk

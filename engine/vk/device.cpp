@@ -1,0 +1,236 @@
+#include "engine/vk/device.h"
+
+#include "engine/base/check.h"
+#include "engine/vk/device_list.h"
+#include "engine/vk/result.h"
+
+#include <algorithm>
+#include <cstring>
+#include <spdlog/spdlog.h>
+#include <sstream>
+
+namespace relume::vk {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+bool hasLayer(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
+}
+
+bool hasInstanceExtension(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+// The layer's optional checks that "core,sync,gpu,best" asks for.
+std::vector<VkValidationFeatureEnableEXT> parseValidation(const std::string& text) {
+    std::vector<VkValidationFeatureEnableEXT> enabled;
+    std::stringstream stream(text);
+    for (std::string word; std::getline(stream, word, ',');) {
+        if (word == "core") continue;
+        if (word == "sync")
+            enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT);
+        else if (word == "gpu") {
+            enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT);
+            enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT);
+        } else if (word == "best")
+            enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT);
+        else
+            throw UsageError("--validation: expected some of core, sync, gpu, best; found \"{}\"", word);
+    }
+    return enabled;
+}
+
+int preference(const DeviceInfo& info) {
+    if (info.type == "discrete GPU") return 0;
+    if (info.type == "integrated GPU") return 1;
+    return info.type == "software" ? 3 : 2;
+}
+
+bool matches(const DeviceInfo& info, const std::string& select) {
+    const bool isIndex = select.size() <= 3 && select.find_first_not_of("0123456789") == std::string::npos;
+    if (isIndex) return std::to_string(info.index) == select;
+    return info.uuid == select || info.name.find(select) != std::string::npos;
+}
+
+} // namespace
+
+VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
+                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* device) {
+    static_cast<Device*>(device)->mValidationMessages++;
+    if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT)
+        spdlog::error("validation: {}", data->pMessage);
+    else
+        spdlog::warn("validation: {}", data->pMessage);
+    return VK_FALSE;
+}
+
+Device::Device(const DeviceOptions& options) {
+    createInstance(options.validation);
+    try {
+        pickPhysicalDevice(options.select);
+        createDevice();
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+Device::~Device() { destroy(); }
+
+void Device::destroy() {
+    if (mDevice) {
+        vkDeviceWaitIdle(mDevice);
+        vkDestroyDevice(mDevice, nullptr);
+    }
+    if (mMessenger) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(mInstance, "vkDestroyDebugUtilsMessengerEXT"));
+        destroy(mInstance, mMessenger, nullptr);
+    }
+    if (mInstance) vkDestroyInstance(mInstance, nullptr);
+}
+
+void Device::createInstance(const std::string& validation) {
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.pApplicationName = "relume";
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    create.pApplicationInfo = &application;
+
+    const std::vector<VkValidationFeatureEnableEXT> enabled = parseValidation(validation);
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    features.enabledValidationFeatureCount = uint32_t(enabled.size());
+    features.pEnabledValidationFeatures = enabled.data();
+    if (!validation.empty()) {
+        if (!hasLayer(kValidationLayer))
+            throw Error("--validation: the layer {} is not installed; on Debian: apt install "
+                        "vulkan-validationlayers",
+                        kValidationLayer);
+        create.enabledLayerCount = 1;
+        create.ppEnabledLayerNames = &kValidationLayer;
+        create.pNext = &features;
+    }
+    const char* debugUtilities = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    const bool canDebug = !validation.empty() || hasInstanceExtension(debugUtilities);
+    if (canDebug) {
+        create.enabledExtensionCount = 1;
+        create.ppEnabledExtensionNames = &debugUtilities;
+    }
+    if (vkCreateInstance(&create, nullptr, &mInstance) != VK_SUCCESS)
+        throw NoDeviceError("no Vulkan driver was found; on Debian, mesa-vulkan-drivers brings one that runs "
+                            "everywhere");
+    if (canDebug) {
+        const auto load = [&](const char* name) { return vkGetInstanceProcAddr(mInstance, name); };
+        mSetName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
+        mBeginLabel =
+            reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
+        mEndLabel = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(load("vkCmdEndDebugUtilsLabelEXT"));
+    }
+    if (validation.empty()) return;
+    VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    messenger.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    messenger.pfnUserCallback = onValidationMessage;
+    messenger.pUserData = this;
+    const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(mInstance, "vkCreateDebugUtilsMessengerEXT"));
+    RELUME_VK(createMessenger(mInstance, &messenger, nullptr, &mMessenger));
+}
+
+void Device::pickPhysicalDevice(const std::string& select) {
+    const std::vector<VkPhysicalDevice> devices = physicalDevices(mInstance);
+    if (devices.empty())
+        throw NoDeviceError(
+            "no Vulkan device was found; on Debian, mesa-vulkan-drivers brings a software one");
+    int best = -1;
+    std::vector<DeviceInfo> infos;
+    for (size_t i = 0; i < devices.size(); i++) {
+        const DeviceInfo& info = infos.emplace_back(describeDevice(devices[i], uint32_t(i)));
+        if (!select.empty()) {
+            if (best < 0 && matches(info, select)) best = int(i);
+        } else if (info.unsuitable.empty() &&
+                   (best < 0 || preference(info) < preference(infos[size_t(best)])))
+            best = int(i);
+    }
+    if (best < 0 && !select.empty())
+        throw NoDeviceError(
+            "--device {}: no device has this index, UUID or name; `relume devices` lists them", select);
+    if (best < 0)
+        throw NoDeviceError("{}: cannot be used: {}; `relume devices` lists all", infos[0].name,
+                            infos[0].unsuitable);
+    mInfo = infos[size_t(best)];
+    if (!mInfo.unsuitable.empty())
+        throw NoDeviceError("--device {}: {} cannot be used: {}", select, mInfo.name, mInfo.unsuitable);
+    mPhysical = devices[size_t(best)];
+    vkGetPhysicalDeviceProperties(mPhysical, &mProperties);
+    vkGetPhysicalDeviceMemoryProperties(mPhysical, &mMemory);
+    mQueueFamily = *findQueueFamily(mPhysical);
+}
+
+void Device::createDevice() {
+    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    features13.synchronization2 = VK_TRUE;
+    features13.dynamicRendering = VK_TRUE;
+    features13.maintenance4 = VK_TRUE;
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                &features13};
+    features12.scalarBlockLayout = VK_TRUE;
+    features12.shaderOutputLayer = VK_TRUE;
+
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = mQueueFamily;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features12};
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queue;
+    RELUME_VK(vkCreateDevice(mPhysical, &create, nullptr, &mDevice));
+    vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
+}
+
+uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties) const {
+    for (uint32_t type = 0; type < mMemory.memoryTypeCount; type++)
+        if ((typeBits >> type & 1) && (mMemory.memoryTypes[type].propertyFlags & properties) == properties)
+            return type;
+    throw Error("{}: has no memory with the properties {:#x}", name(), properties);
+}
+
+void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) const {
+    if (!mSetName) return;
+    const std::string text(name);
+    VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = text.c_str();
+    mSetName(mDevice, &info);
+}
+
+void Device::beginLabel(VkCommandBuffer commands, const char* name) const {
+    if (!mBeginLabel) return;
+    VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+    label.pLabelName = name;
+    mBeginLabel(commands, &label);
+}
+
+void Device::endLabel(VkCommandBuffer commands) const {
+    if (mEndLabel) mEndLabel(commands);
+}
+
+} // namespace relume::vk

@@ -1,0 +1,92 @@
+// A Vulkan 1.3 device with one queue for everything.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+#include <vulkan/vulkan.h>
+
+namespace relume::vk {
+
+// What `relume devices` shows of a device.
+struct DeviceInfo {
+    uint32_t index;
+    std::string name;
+    std::string type; // "discrete GPU", "integrated GPU", "software", …
+    std::string driver;
+    std::string uuid; // 32 hexadecimal digits
+    std::string apiVersion;
+    std::string unsuitable; // Why it cannot be used; empty if it can
+    uint64_t largestHeap;   // bytes
+    uint64_t largestAllocation, largestStorageBuffer;
+    uint32_t largestLayerCount, sharedMemory, subgroupSize;
+};
+
+// All Vulkan devices of this machine, in the loader's order. Empty when there is no driver.
+std::vector<DeviceInfo> listDevices();
+
+struct DeviceOptions {
+    // Index, UUID or part of a name; empty: the first discrete GPU, else integrated, else any.
+    std::string select;
+    // Comma-separated checks of Khronos' validation layer: core, sync, gpu, best. Empty: none.
+    std::string validation;
+};
+
+// Owns instance, device and queue; movable in its unique_ptr only, since everything refers to it.
+class Device {
+  public:
+    // Throws NoDeviceError when nothing suits, UsageError when options cannot be understood.
+    explicit Device(const DeviceOptions& options = {});
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkDevice handle() const { return mDevice; }
+    VkPhysicalDevice physical() const { return mPhysical; }
+    VkQueue queue() const { return mQueue; }
+    uint32_t queueFamily() const { return mQueueFamily; }
+    const VkPhysicalDeviceLimits& limits() const { return mProperties.limits; }
+    const std::string& name() const { return mInfo.name; }
+    const DeviceInfo& info() const { return mInfo; }
+
+    // Bytes of the largest buffer that one binding may see, and that one allocation may hold.
+    uint64_t largestStorageBuffer() const { return mInfo.largestStorageBuffer; }
+
+    // Index of a memory type with these properties among `typeBits`; throws Error if there is none.
+    uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties) const;
+
+    // Gives an object its name in captures and validation messages; does nothing without debug utilities.
+    void setName(VkObjectType type, uint64_t handle, std::string_view name) const;
+    void beginLabel(VkCommandBuffer commands, const char* name) const;
+    void endLabel(VkCommandBuffer commands) const;
+
+    // Warnings and errors that the validation layer has reported; 0 without validation.
+    int validationMessages() const { return mValidationMessages; }
+
+  private:
+    friend VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                        VkDebugUtilsMessageTypeFlagsEXT,
+                                        const VkDebugUtilsMessengerCallbackDataEXT*, void*);
+    void createInstance(const std::string& validation);
+    void pickPhysicalDevice(const std::string& select);
+    void createDevice();
+    void destroy();
+
+    VkInstance mInstance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
+    VkPhysicalDevice mPhysical = VK_NULL_HANDLE;
+    VkDevice mDevice = VK_NULL_HANDLE;
+    VkQueue mQueue = VK_NULL_HANDLE;
+    uint32_t mQueueFamily = 0;
+    VkPhysicalDeviceProperties mProperties{};
+    VkPhysicalDeviceMemoryProperties mMemory{};
+    DeviceInfo mInfo{};
+    std::atomic<int> mValidationMessages = 0;
+    PFN_vkSetDebugUtilsObjectNameEXT mSetName = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT mBeginLabel = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT mEndLabel = nullptr;
+};
+
+} // namespace relume::vk

@@ -1,0 +1,105 @@
+// Which devices there are, and what each can do.
+#include "engine/vk/device_list.h"
+
+#include "engine/vk/result.h"
+
+#include <algorithm>
+
+namespace relume::vk {
+
+namespace {
+
+std::string typeName(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "software";
+    default:
+        return "other";
+    }
+}
+
+} // namespace
+
+std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    for (uint32_t family = 0; family < count; family++) {
+        constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+        if ((families[family].queueFlags & kNeeded) == kNeeded) return family;
+    }
+    return std::nullopt;
+}
+
+static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion) {
+    if (apiVersion < VK_API_VERSION_1_3) return "Vulkan 1.3 is needed";
+    if (!findQueueFamily(physical)) return "no queue does both graphics and compute";
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12};
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    if (!features12.scalarBlockLayout) return "scalarBlockLayout is needed";
+    if (!features12.shaderOutputLayer) return "shaderOutputLayer is needed";
+    return "";
+}
+
+DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
+    VkPhysicalDeviceVulkan11Properties properties11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+    VkPhysicalDeviceVulkan12Properties properties12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
+                                                    &properties11};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &properties12};
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+
+    const VkPhysicalDeviceProperties& core = properties.properties;
+    DeviceInfo info{};
+    info.index = index;
+    info.name = core.deviceName;
+    info.type = typeName(core.deviceType);
+    info.driver = fmt::format("{} {}", properties12.driverName, properties12.driverInfo);
+    for (uint8_t byte : properties11.deviceUUID) info.uuid += fmt::format("{:02x}", byte);
+    info.apiVersion =
+        fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(core.apiVersion), VK_API_VERSION_MINOR(core.apiVersion),
+                    VK_API_VERSION_PATCH(core.apiVersion));
+    info.unsuitable = whyUnsuitable(physical, core.apiVersion);
+    for (uint32_t heap = 0; heap < memory.memoryHeapCount; heap++)
+        info.largestHeap = std::max<uint64_t>(info.largestHeap, memory.memoryHeaps[heap].size);
+    info.largestAllocation = properties11.maxMemoryAllocationSize;
+    info.largestStorageBuffer = std::min<uint64_t>(core.limits.maxStorageBufferRange, info.largestAllocation);
+    info.largestLayerCount = std::min(core.limits.maxImageArrayLayers, core.limits.maxFramebufferLayers);
+    info.sharedMemory = core.limits.maxComputeSharedMemorySize;
+    info.subgroupSize = properties11.subgroupSize;
+    return info;
+}
+
+std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
+    uint32_t count = 0;
+    if (vkEnumeratePhysicalDevices(instance, &count, nullptr) != VK_SUCCESS) return {};
+    std::vector<VkPhysicalDevice> devices(count);
+    if (vkEnumeratePhysicalDevices(instance, &count, devices.data()) != VK_SUCCESS) return {};
+    devices.resize(count);
+    return devices;
+}
+
+std::vector<DeviceInfo> listDevices() {
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    create.pApplicationInfo = &application;
+    VkInstance instance;
+    if (vkCreateInstance(&create, nullptr, &instance) != VK_SUCCESS) return {};
+    std::vector<DeviceInfo> infos;
+    for (VkPhysicalDevice physical : physicalDevices(instance))
+        infos.push_back(describeDevice(physical, uint32_t(infos.size())));
+    vkDestroyInstance(instance, nullptr);
+    return infos;
+}
+
+} // namespace relume::vk

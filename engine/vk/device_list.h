@@ -1,0 +1,16 @@
+// Shared by device selection and `relume devices`: internal to engine/vk.
+#pragma once
+
+#include "engine/vk/device.h"
+
+#include <optional>
+
+namespace relume::vk {
+
+std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance);
+DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index);
+
+// The first queue family that does both graphics and compute.
+std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical);
+
+} // namespace relume::vk

@@ -1,0 +1,96 @@
+#include "engine/vk/image.h"
+
+#include "engine/vk/result.h"
+
+#include <utility>
+
+namespace relume::vk {
+
+Image::Image(const Device& device, const ImageOptions& options, std::string_view name)
+    : mDevice(&device), mOptions(options) {
+    VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    create.imageType = VK_IMAGE_TYPE_2D;
+    create.format = options.format;
+    create.extent = {options.width, options.height, 1};
+    create.mipLevels = 1;
+    create.arrayLayers = options.layers;
+    create.samples = VK_SAMPLE_COUNT_1_BIT;
+    create.tiling = VK_IMAGE_TILING_OPTIMAL;
+    create.usage = options.usage;
+    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    try {
+        const uint32_t side = device.limits().maxImageDimension2D;
+        if (options.width > side || options.height > side ||
+            options.layers > device.limits().maxImageArrayLayers)
+            throw Error("{}: {} x {} x {} texels asked for, {} allows {} x {} x {}", name, options.width,
+                        options.height, options.layers, device.name(), side, side,
+                        device.limits().maxImageArrayLayers);
+        RELUME_VK(vkCreateImage(device.handle(), &create, nullptr, &mImage));
+        VkMemoryRequirements requirements;
+        vkGetImageMemoryRequirements(device.handle(), mImage, &requirements);
+        allocate.allocationSize = requirements.size;
+        allocate.memoryTypeIndex =
+            device.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+        RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));
+        RELUME_VK(vkBindImageMemory(device.handle(), mImage, mMemory, 0));
+        view.image = mImage;
+        view.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+        view.format = options.format;
+        view.subresourceRange = {aspect(), 0, 1, 0, options.layers};
+        RELUME_VK(vkCreateImageView(device.handle(), &view, nullptr, &mView));
+    } catch (...) {
+        destroy();
+        throw;
+    }
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(mImage), name);
+    device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(mView), name);
+    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(mMemory), name);
+}
+
+VkImageAspectFlags Image::aspect() const {
+    return mOptions.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+Image& Image::operator=(Image&& other) noexcept {
+    std::swap(mDevice, other.mDevice);
+    std::swap(mOptions, other.mOptions);
+    std::swap(mImage, other.mImage);
+    std::swap(mMemory, other.mMemory);
+    std::swap(mView, other.mView);
+    return *this;
+}
+
+void Image::destroy() {
+    if (!mDevice) return;
+    vkDestroyImageView(mDevice->handle(), mView, nullptr);
+    vkDestroyImage(mDevice->handle(), mImage, nullptr);
+    vkFreeMemory(mDevice->handle(), mMemory, nullptr);
+    mDevice = nullptr;
+}
+
+Sampler::Sampler(const Device& device, VkSamplerAddressMode addressU, VkSamplerAddressMode addressV,
+                 std::string_view name)
+    : mDevice(&device) {
+    VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    create.magFilter = VK_FILTER_LINEAR;
+    create.minFilter = VK_FILTER_LINEAR;
+    create.addressModeU = addressU;
+    create.addressModeV = addressV;
+    create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    RELUME_VK(vkCreateSampler(device.handle(), &create, nullptr, &mSampler));
+    device.setName(VK_OBJECT_TYPE_SAMPLER, reinterpret_cast<uint64_t>(mSampler), name);
+}
+
+Sampler& Sampler::operator=(Sampler&& other) noexcept {
+    std::swap(mDevice, other.mDevice);
+    std::swap(mSampler, other.mSampler);
+    return *this;
+}
+
+void Sampler::destroy() {
+    if (mDevice) vkDestroySampler(mDevice->handle(), mSampler, nullptr);
+    mDevice = nullptr;
+}
+
+} // namespace relume::vk

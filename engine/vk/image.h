@@ -1,0 +1,58 @@
+// Device images with one view: attachments, and textures to sample.
+#pragma once
+
+#include "engine/vk/device.h"
+
+namespace relume::vk {
+
+struct ImageOptions {
+    VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    uint32_t width = 1, height = 1;
+    uint32_t layers = 1; // Always viewed as a 2D array
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+};
+
+class Image {
+  public:
+    Image() = default;
+    // Throws OutOfMemory, or Error when the device cannot make such an image.
+    Image(const Device& device, const ImageOptions& options, std::string_view name);
+    ~Image() { destroy(); }
+    Image(Image&& other) noexcept { *this = std::move(other); }
+    Image& operator=(Image&& other) noexcept;
+
+    VkImage handle() const { return mImage; }
+    VkImageView view() const { return mView; }
+    const ImageOptions& options() const { return mOptions; }
+    VkImageAspectFlags aspect() const;
+
+  private:
+    void destroy();
+
+    const Device* mDevice = nullptr;
+    ImageOptions mOptions;
+    VkImage mImage = VK_NULL_HANDLE;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    VkImageView mView = VK_NULL_HANDLE;
+};
+
+// A bilinear sampler without mip levels.
+class Sampler {
+  public:
+    Sampler() = default;
+    Sampler(const Device& device, VkSamplerAddressMode addressU, VkSamplerAddressMode addressV,
+            std::string_view name);
+    ~Sampler() { destroy(); }
+    Sampler(Sampler&& other) noexcept { *this = std::move(other); }
+    Sampler& operator=(Sampler&& other) noexcept;
+
+    VkSampler handle() const { return mSampler; }
+
+  private:
+    void destroy();
+
+    const Device* mDevice = nullptr;
+    VkSampler mSampler = VK_NULL_HANDLE;
+};
+
+} // namespace relume::vk

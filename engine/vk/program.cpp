@@ -1,0 +1,192 @@
+#include "engine/vk/program.h"
+
+#include "engine/base/check.h"
+#include "engine/vk/result.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace relume::vk {
+
+namespace {
+
+// A shader module for the time of a pipeline's creation.
+class Module {
+  public:
+    Module(const Device& device, std::span<const uint32_t> spirv) : mDevice(device) {
+        VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+        create.codeSize = spirv.size_bytes();
+        create.pCode = spirv.data();
+        RELUME_VK(vkCreateShaderModule(device.handle(), &create, nullptr, &mModule));
+    }
+    ~Module() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
+    Module(const Module&) = delete;
+    Module& operator=(const Module&) = delete;
+
+    VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits flag,
+                                          const VkSpecializationInfo& constants) const {
+        VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+        stage.stage = flag;
+        stage.module = mModule;
+        stage.pName = "main";
+        stage.pSpecializationInfo = &constants;
+        return stage;
+    }
+
+  private:
+    const Device& mDevice;
+    VkShaderModule mModule = VK_NULL_HANDLE;
+};
+
+struct Specialisation {
+    explicit Specialisation(const Constants& constants) {
+        for (uint32_t i = 0; i < constants.size(); i++) entries.push_back({i, i * 4, 4});
+        info = {uint32_t(entries.size()), entries.data(), constants.size() * 4, constants.data()};
+    }
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info;
+};
+
+} // namespace
+
+void Program::createLayout(const Device& device, std::span<const ShaderInterface> shaders,
+                           std::string_view name) {
+    mDevice = &device;
+    mName = name;
+    std::map<uint32_t, VkDescriptorSetLayoutBinding> merged;
+    for (const ShaderInterface& shader : shaders) {
+        mStages |= shader.stage;
+        mPushConstantBytes = std::max(mPushConstantBytes, shader.pushConstantBytes);
+        for (const auto& [binding, type] : shader.bindings) {
+            VkDescriptorSetLayoutBinding& entry = merged[binding];
+            entry.binding = binding;
+            entry.descriptorType = type;
+            entry.descriptorCount = 1;
+            entry.stageFlags |= shader.stage;
+            mBindings[binding] = type;
+        }
+    }
+    std::vector<VkDescriptorSetLayoutBinding> list;
+    for (const auto& [binding, entry] : merged) list.push_back(entry);
+    VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    set.bindingCount = uint32_t(list.size());
+    set.pBindings = list.data();
+    RELUME_VK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &mSetLayout));
+
+    RELUME_CHECK_LE(mPushConstantBytes, device.limits().maxPushConstantsSize);
+    const VkPushConstantRange range{mStages, 0, mPushConstantBytes};
+    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layout.setLayoutCount = 1;
+    layout.pSetLayouts = &mSetLayout;
+    layout.pushConstantRangeCount = mPushConstantBytes ? 1 : 0;
+    layout.pPushConstantRanges = &range;
+    RELUME_VK(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &mLayout));
+    device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(mSetLayout), name);
+    device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<uint64_t>(mLayout), name);
+}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(mDevice, other.mDevice);
+    std::swap(mPipeline, other.mPipeline);
+    std::swap(mLayout, other.mLayout);
+    std::swap(mSetLayout, other.mSetLayout);
+    std::swap(mBindings, other.mBindings);
+    std::swap(mPushConstantBytes, other.mPushConstantBytes);
+    std::swap(mStages, other.mStages);
+    std::swap(mGroupSize, other.mGroupSize);
+    std::swap(mName, other.mName);
+    return *this;
+}
+
+void Program::destroy() {
+    if (!mDevice) return;
+    vkDestroyPipeline(mDevice->handle(), mPipeline, nullptr);
+    vkDestroyPipelineLayout(mDevice->handle(), mLayout, nullptr);
+    vkDestroyDescriptorSetLayout(mDevice->handle(), mSetLayout, nullptr);
+    mDevice = nullptr;
+}
+
+ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> spirv,
+                               const Constants& constants, std::string_view name) {
+    const ShaderInterface interface = reflect(spirv, constants);
+    createLayout(device, {&interface, 1}, name);
+    mGroupSize = interface.groupSize;
+    RELUME_CHECK_LE(mGroupSize[0] * mGroupSize[1] * mGroupSize[2],
+                    device.limits().maxComputeWorkGroupInvocations);
+
+    const Module module(device, spirv);
+    const Specialisation specialisation(constants);
+    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialisation.info);
+    create.layout = mLayout;
+    RELUME_VK(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &mPipeline));
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
+}
+
+GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t> vertexSpirv,
+                                 std::span<const uint32_t> fragmentSpirv, const Constants& constants,
+                                 const GraphicsOptions& options, std::string_view name) {
+    const ShaderInterface interfaces[] = {reflect(vertexSpirv, constants), reflect(fragmentSpirv, constants)};
+    createLayout(device, interfaces, name);
+
+    const Module vertex(device, vertexSpirv), fragment(device, fragmentSpirv);
+    const Specialisation specialisation(constants);
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialisation.info),
+        fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT, specialisation.info)};
+    const VkPipelineVertexInputStateCreateInfo input{
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.lineWidth = 1;
+    VkPipelineMultisampleStateCreateInfo multisample{
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthTestEnable = options.depthFormat != VK_FORMAT_UNDEFINED;
+    depth.depthWriteEnable = depth.depthTestEnable && options.depthWrite;
+    depth.depthCompareOp = options.depthCompare;
+    VkPipelineColorBlendAttachmentState blend{};
+    blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                           VK_COLOR_COMPONENT_A_BIT;
+    if (options.additive) {
+        blend.blendEnable = VK_TRUE;
+        blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        blend.colorBlendOp = VK_BLEND_OP_ADD;
+        blend.alphaBlendOp = VK_BLEND_OP_MAX;
+    }
+    VkPipelineColorBlendStateCreateInfo blending{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blending.attachmentCount = 1;
+    blending.pAttachments = &blend;
+    const VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = 2;
+    dynamic.pDynamicStates = dynamicStates;
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachmentFormats = &options.colorFormat;
+    rendering.depthAttachmentFormat = options.depthFormat;
+
+    VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+    create.stageCount = 2;
+    create.pStages = stages;
+    create.pVertexInputState = &input;
+    create.pInputAssemblyState = &assembly;
+    create.pViewportState = &viewport;
+    create.pRasterizationState = &raster;
+    create.pMultisampleState = &multisample;
+    create.pDepthStencilState = &depth;
+    create.pColorBlendState = &blending;
+    create.pDynamicState = &dynamic;
+    create.layout = mLayout;
+    RELUME_VK(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &mPipeline));
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
+}
+
+} // namespace relume::vk

@@ -1,0 +1,66 @@
+// Pipelines made from SPIR-V; their layouts come from the shaders themselves.
+#pragma once
+
+#include "engine/vk/device.h"
+#include "engine/vk/shader.h"
+
+namespace relume::vk {
+
+// What compute and graphics programs share. Descriptor set 0 only.
+class Program {
+  public:
+    Program() = default;
+    ~Program() { destroy(); }
+    Program(Program&& other) noexcept { *this = std::move(other); }
+    Program& operator=(Program&& other) noexcept;
+
+    VkPipeline pipeline() const { return mPipeline; }
+    VkPipelineLayout layout() const { return mLayout; }
+    VkDescriptorSetLayout setLayout() const { return mSetLayout; }
+    const std::map<uint32_t, VkDescriptorType>& bindings() const { return mBindings; }
+    uint32_t pushConstantBytes() const { return mPushConstantBytes; }
+    VkShaderStageFlags stages() const { return mStages; }
+    const std::array<uint32_t, 3>& groupSize() const { return mGroupSize; }
+    const std::string& name() const { return mName; }
+
+  protected:
+    void createLayout(const Device& device, std::span<const ShaderInterface> shaders, std::string_view name);
+    void destroy();
+
+    const Device* mDevice = nullptr;
+    VkPipeline mPipeline = VK_NULL_HANDLE;
+    VkPipelineLayout mLayout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout mSetLayout = VK_NULL_HANDLE;
+    std::map<uint32_t, VkDescriptorType> mBindings;
+    uint32_t mPushConstantBytes = 0;
+    VkShaderStageFlags mStages = 0;
+    std::array<uint32_t, 3> mGroupSize{1, 1, 1};
+    std::string mName;
+};
+
+class ComputeProgram : public Program {
+  public:
+    ComputeProgram() = default;
+    ComputeProgram(const Device& device, std::span<const uint32_t> spirv, const Constants& constants,
+                   std::string_view name);
+};
+
+struct GraphicsOptions {
+    VkFormat colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED; // none: no depth test
+    VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
+    bool depthWrite = true;
+    bool additive = false; // blend by adding colours; alpha takes the larger
+};
+
+// A vertex and a fragment shader drawing triangle lists, no culling, viewport and scissor dynamic,
+// vertices pulled from storage buffers.
+class GraphicsProgram : public Program {
+  public:
+    GraphicsProgram() = default;
+    GraphicsProgram(const Device& device, std::span<const uint32_t> vertexSpirv,
+                    std::span<const uint32_t> fragmentSpirv, const Constants& constants,
+                    const GraphicsOptions& options, std::string_view name);
+};
+
+} // namespace relume::vk

@@ -1,0 +1,88 @@
+#include "engine/vk/shader.h"
+
+#include "engine/base/check.h"
+
+#include <spirv_cross/spirv_cross_c.h>
+
+namespace relume::vk {
+
+namespace {
+
+void checkSpvc(spvc_result result) { RELUME_CHECK_EQ(int(result), int(SPVC_SUCCESS)); }
+
+VkShaderStageFlagBits stageOf(SpvExecutionModel model) {
+    switch (model) {
+    case SpvExecutionModelVertex:
+        return VK_SHADER_STAGE_VERTEX_BIT;
+    case SpvExecutionModelFragment:
+        return VK_SHADER_STAGE_FRAGMENT_BIT;
+    default:
+        return VK_SHADER_STAGE_COMPUTE_BIT;
+    }
+}
+
+void addBindings(spvc_compiler compiler, spvc_resources resources, spvc_resource_type type,
+                 VkDescriptorType descriptor, ShaderInterface& interface) {
+    const spvc_reflected_resource* list;
+    size_t count;
+    checkSpvc(spvc_resources_get_resource_list_for_type(resources, type, &list, &count));
+    for (size_t i = 0; i < count; i++) {
+        RELUME_CHECK_EQ(spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationDescriptorSet), 0u);
+        interface.bindings[spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding)] =
+            descriptor;
+    }
+}
+
+uint32_t pushConstantBytes(spvc_compiler compiler, spvc_resources resources) {
+    const spvc_reflected_resource* list;
+    size_t count;
+    checkSpvc(spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, &list,
+                                                        &count));
+    if (count == 0) return 0;
+    size_t bytes;
+    const spvc_type type = spvc_compiler_get_type_handle(compiler, list[0].base_type_id);
+    checkSpvc(spvc_compiler_get_declared_struct_size(compiler, type, &bytes));
+    return uint32_t(bytes);
+}
+
+std::array<uint32_t, 3> groupSize(spvc_compiler compiler, const Constants& constants) {
+    std::array<uint32_t, 3> size{1, 1, 1};
+    spvc_specialization_constant specialised[3]{};
+    spvc_compiler_get_work_group_size_specialization_constants(compiler, &specialised[0], &specialised[1],
+                                                               &specialised[2]);
+    for (unsigned axis = 0; axis < 3; axis++) {
+        size[axis] =
+            spvc_compiler_get_execution_mode_argument_by_index(compiler, SpvExecutionModeLocalSize, axis);
+        if (specialised[axis].id == 0) continue;
+        RELUME_CHECK_LT(specialised[axis].constant_id, constants.size());
+        size[axis] = constants[specialised[axis].constant_id];
+    }
+    return size;
+}
+
+} // namespace
+
+ShaderInterface reflect(std::span<const uint32_t> spirv, const Constants& constants) {
+    spvc_context context;
+    checkSpvc(spvc_context_create(&context));
+    spvc_parsed_ir ir;
+    checkSpvc(spvc_context_parse_spirv(context, spirv.data(), spirv.size(), &ir));
+    spvc_compiler compiler;
+    checkSpvc(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
+                                           &compiler));
+    spvc_resources resources;
+    checkSpvc(spvc_compiler_create_shader_resources(compiler, &resources));
+
+    ShaderInterface interface {};
+    interface.stage = stageOf(spvc_compiler_get_execution_model(compiler));
+    addBindings(compiler, resources, SPVC_RESOURCE_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                interface);
+    addBindings(compiler, resources, SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,
+                VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, interface);
+    interface.pushConstantBytes = pushConstantBytes(compiler, resources);
+    if (interface.stage == VK_SHADER_STAGE_COMPUTE_BIT) interface.groupSize = groupSize(compiler, constants);
+    spvc_context_destroy(context);
+    return interface;
+}
+
+} // namespace relume::vk
