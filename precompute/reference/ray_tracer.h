@@ -1,4 +1,8 @@
 // Embree behind two questions: is a ray blocked, and what does it hit.
+//
+// Rays go from their origin (distance 0) to infinity and meet both sides of a triangle. No self-hit is
+// excluded: whoever starts on a surface lifts the origin off it. The same rays give the same answers,
+// whatever the threads.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -18,11 +22,13 @@ struct RayHit {
 
 class RayTracer {
   public:
-    // Builds the acceleration structure; keeps no reference to `meshes`.
+    // Builds the acceleration structure; keeps no reference to `meshes`, any of which may be empty. Throws
+    // Error when Embree fails.
     explicit RayTracer(std::span<const Mesh* const> meshes);
     ~RayTracer();
     RayTracer(RayTracer&&) noexcept;
 
+    // The nearest hit. `direction` sets the unit of the distance. Thread-safe.
     std::optional<RayHit> intersect(vec3 origin, vec3 direction) const;
 
     // blocked[i] = whether a ray from `origin` along directions[i] hits anything. Coherent directions

@@ -19,15 +19,21 @@ struct ReferenceOptions {
     bool bakedOccluder = false; // cast shadows with the asset's simplified occluder, not the full mesh
 };
 
+// With the full mesh as occluder, shadow rays start this far above the surface, in scene radii. With the
+// baked one they start where the bake's do, at Asset::visibilityOffset.
+constexpr float kFullMeshShadowOffset = 1e-4f;
+
 // Shades every pixel that sees the asset by summing over all texels of `light` above its horizon: radiance ·
-// BRDF · cosine · solid angle · visible fraction. Normals and positions are interpolated as in
-// the view pass; the eye sees the asset only where its pixel centre does. Several threads.
-// `progress` is called with the number of finished rows, from one thread at a time.
+// BRDF · cosine · solid angle, with BRDF and visibility taken anew for each of the texel's shadow rays.
+// Normals and positions are interpolated as in the view pass, the frame is tangentFrame of the interpolated
+// normal; the eye sees the asset only where its pixel centre does. Several threads; the same input gives the
+// same image. Facets are real: a ray above the interpolated horizon but below its triangle's plane meets the
+// mesh. `progress` is called with the number of finished rows, from one thread at a time.
 Image renderReference(const Asset& asset, const Camera& camera, const LightCube& light,
                       const ReferenceOptions& options, const std::function<void(int)>& progress = {});
 
-// The same under the full-resolution environment, turned by `rotation`: every pixel of the map (after
-// area-averaging to `maxWidth` columns) is a light of its own.
+// The same under the full-resolution environment, turned by `rotation`: every pixel of
+// prepareForSampling(environment, maxWidth) is a light of its own, with one shadow ray.
 Image renderReference(const Asset& asset, const Camera& camera, const Environment& environment,
                       float rotation, int maxWidth, const ReferenceOptions& options,
                       const std::function<void(int)>& progress = {});

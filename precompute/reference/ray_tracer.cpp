@@ -1,0 +1,111 @@
+#include "precompute/reference/ray_tracer.h"
+
+#include "engine/base/check.h"
+#include "engine/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <embree3/rtcore.h>
+
+namespace relume {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Embree reports failures once, through the device: RTCError of the first since the last call.
+void throwOnError(RTCDevice device, const char* what) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+        throw Error("Embree ran out of memory while {}; bake with a smaller occluder", what);
+    throw Error("Embree failed while {}: error {}; check the installation of Embree 3.13", what, int(error));
+}
+
+template <typename Element>
+void copyToBuffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+                  const std::vector<Element>& elements) {
+    void* target = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), elements.size());
+    if (!target) throwOnError(device, "copying a mesh");
+    std::copy(elements.begin(), elements.end(), static_cast<Element*>(target));
+}
+
+void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned id) {
+    for (const uvec3& triangle : mesh.triangles)
+        RELUME_CHECK_LT(std::max({triangle.x, triangle.y, triangle.z}), mesh.vertexCount());
+    const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> geometry(
+        rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);
+    copyToBuffer(device, geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
+    copyToBuffer(device, geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(scene, geometry.get(), id);
+}
+
+RTCRay makeRay(vec3 origin, vec3 direction) {
+    RTCRay ray{};
+    ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
+    ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+    ray.tfar = kInfinity;
+    ray.mask = ~0u;
+    return ray;
+}
+
+} // namespace
+
+struct RayTracer::Impl {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+RayTracer::RayTracer(std::span<const Mesh* const> meshes) : mImpl(std::make_unique<Impl>()) {
+    mImpl->device = rtcNewDevice(nullptr);
+    if (!mImpl->device) throwOnError(nullptr, "starting");
+    mImpl->scene = rtcNewScene(mImpl->device);
+    // Robust: no ray slips between two triangles that share an edge.
+    rtcSetSceneFlags(mImpl->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(mImpl->scene, RTC_BUILD_QUALITY_HIGH);
+    for (size_t i = 0; i < meshes.size(); i++)
+        if (!meshes[i]->triangles.empty()) attach(mImpl->device, mImpl->scene, *meshes[i], unsigned(i));
+    rtcCommitScene(mImpl->scene);
+    throwOnError(mImpl->device, "building its acceleration structure");
+}
+
+RayTracer::~RayTracer() = default;
+RayTracer::RayTracer(RayTracer&&) noexcept = default;
+
+std::optional<RayHit> RayTracer::intersect(vec3 origin, vec3 direction) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray = makeRay(origin, direction);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(mImpl->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const float u = query.hit.u, v = query.hit.v;
+    return RayHit{query.hit.geomID, query.hit.primID, vec3(1.0f - u - v, u, v), query.ray.tfar};
+}
+
+void RayTracer::occluded(vec3 origin, std::span<const vec3> directions, std::span<uint8_t> blocked) const {
+    RELUME_CHECK_EQ(directions.size(), blocked.size());
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    std::array<RTCRay, 256> rays; // A stream that stays in the first-level cache
+    for (size_t start = 0; start < directions.size(); start += rays.size()) {
+        const size_t count = std::min(rays.size(), directions.size() - start);
+        for (size_t i = 0; i < count; i++) rays[i] = makeRay(origin, directions[start + i]);
+        rtcOccluded1M(mImpl->scene, &context, rays.data(), unsigned(count), sizeof(RTCRay));
+        // Embree sets tfar to minus infinity where something is hit.
+        for (size_t i = 0; i < count; i++) blocked[start + i] = rays[i].tfar < 0;
+    }
+}
+
+} // namespace relume

@@ -1,0 +1,207 @@
+#include "precompute/reference/reference_image.h"
+
+#include "engine/base/error.h"
+#include "engine/math/cubemap.h"
+#include "engine/math/tangent_frame.h"
+#include "precompute/brdf/brdf.h"
+#include "precompute/reference/ray_tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+// A direction that light comes from, with radiance · solid angle.
+struct LightSample {
+    vec3 direction;
+    vec3 energy;
+};
+
+// f(ωi, ωo) in the local frame of the surface.
+using BrdfFunction = std::function<vec3(vec3 incoming, vec3 outgoing)>;
+
+struct SurfacePoint {
+    size_t part;
+    vec3 position;
+    TangentFrame frame;
+    vec3 outgoing; // the view direction in the frame, above the horizon
+};
+
+// What all pixels share.
+struct Renderer {
+    const Asset& asset;
+    const Camera& camera;
+    const ReferenceOptions& options;
+    std::vector<LightSample> lights;
+    std::vector<BrdfFunction> brdfs; // per part
+    RayTracer surfaces;              // one mesh per part
+    RayTracer occluder;
+    float shadowOffset;
+
+    std::optional<SurfacePoint> surfaceAt(int x, int y) const;
+    vec3 reflectedRadiance(const SurfacePoint& point) const;
+};
+
+std::optional<SurfacePoint> Renderer::surfaceAt(int x, int y) const {
+    const auto hit =
+        surfaces.intersect(camera.eye, camera.pixelDirection(x, y, options.width, options.height));
+    if (!hit) return std::nullopt;
+    const Mesh& mesh = asset.parts[hit->mesh].mesh;
+    const uvec3 corners = mesh.triangles[hit->triangle];
+    const auto interpolate = [&](const std::vector<vec3>& values) {
+        return hit->weights.x * values[corners.x] + hit->weights.y * values[corners.y] +
+               hit->weights.z * values[corners.z];
+    };
+    const vec3 position = interpolate(mesh.positions);
+    const vec3 normal = interpolate(mesh.normals);
+    // Opposite normals can cancel out on a fold.
+    const bool isCancelled = glm::dot(normal, normal) < 1e-12f;
+    const TangentFrame frame = tangentFrame(isCancelled ? mesh.normals[corners.x] : glm::normalize(normal));
+    const vec3 outgoing = liftAboveHorizon(frame.toLocal(glm::normalize(camera.eye - position)));
+    return SurfacePoint{hit->mesh, position, frame, outgoing};
+}
+
+// Sums over the lights above the horizon that nothing blocks, a batch of shadow rays at a time.
+vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
+    constexpr size_t kBatch = 1024;
+    std::array<vec3, kBatch> directions;
+    std::array<const LightSample*, kBatch> batch;
+    std::array<uint8_t, kBatch> blocked;
+    const BrdfFunction& brdf = brdfs[point.part];
+    const vec3 origin = point.position + shadowOffset * point.frame.n;
+    glm::dvec3 sum(0);
+    for (auto next = lights.begin(); next != lights.end();) {
+        size_t count = 0;
+        for (; next != lights.end() && count < kBatch; ++next) {
+            if (!(glm::dot(next->direction, point.frame.n) > 0)) continue;
+            directions[count] = next->direction;
+            batch[count++] = &*next;
+        }
+        occluder.occluded(origin, {directions.data(), count}, {blocked.data(), count});
+        for (size_t i = 0; i < count; i++) {
+            if (blocked[i]) continue;
+            const vec3 incoming = point.frame.toLocal(directions[i]);
+            sum += batch[i]->energy * brdf(incoming, point.outgoing) * incoming.z;
+        }
+    }
+    return vec3(sum);
+}
+
+Image render(const Renderer& renderer, const std::function<void(int)>& progress) {
+    const ReferenceOptions& options = renderer.options;
+    Image image(options.width, options.height);
+    std::mutex mutex;
+    int finished = 0;
+    tbb::parallel_for(0, options.height, [&](int y) {
+        for (int x = 0; x < options.width; x++)
+            // A factored BRDF can go negative.
+            if (const auto point = renderer.surfaceAt(x, y))
+                image.at(x, y) = vec4(glm::max(renderer.reflectedRadiance(*point), vec3(0)), 1);
+        if (!progress) return;
+        const std::lock_guard lock(mutex);
+        progress(++finished);
+    });
+    return image;
+}
+
+std::vector<BrdfFunction> brdfFunctions(const Asset& asset, ReferenceBrdf kind) {
+    std::vector<BrdfFunction> functions;
+    for (const AssetPart& part : asset.parts) {
+        if (kind == ReferenceBrdf::Factored)
+            functions.push_back([&part](vec3 in, vec3 out) { return evaluate(part.brdf, in, out); });
+        else
+            functions.push_back([brdf = std::shared_ptr<const Brdf>(makeBrdf(part.material))](
+                                    vec3 in, vec3 out) { return brdf->evaluate(in, out); });
+    }
+    return functions;
+}
+
+std::vector<const Mesh*> partMeshes(const Asset& asset) {
+    std::vector<const Mesh*> meshes;
+    for (const AssetPart& part : asset.parts) meshes.push_back(&part.mesh);
+    return meshes;
+}
+
+Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Camera& camera,
+                  const ReferenceOptions& options, const std::function<void(int)>& progress) {
+    constexpr int kLargestSide = 16384;
+    if (options.width < 1 || options.width > kLargestSide || options.height < 1 ||
+        options.height > kLargestSide)
+        throw UsageError("a reference image of {} x {} pixels: each side must be 1 to {}", options.width,
+                         options.height, kLargestSide);
+    const std::vector<const Mesh*> meshes = partMeshes(asset);
+    const std::vector<const Mesh*> occluders =
+        options.bakedOccluder ? std::vector<const Mesh*>{&asset.occluder} : meshes;
+    // A full mesh needs no more than to clear rounding; a simplified one must clear its own error.
+    const float offset =
+        options.bakedOccluder ? asset.visibilityOffset : kFullMeshShadowOffset * boundsOf(asset).radius();
+    const Renderer renderer{asset,
+                            camera,
+                            options,
+                            std::move(lights),
+                            brdfFunctions(asset, options.brdf),
+                            RayTracer(meshes),
+                            RayTracer(occluders),
+                            offset};
+    return render(renderer, progress);
+}
+
+// Each lit texel as side × side equal squares of its face.
+std::vector<LightSample> lightSamples(const LightCube& light, int side) {
+    std::vector<LightSample> samples;
+    const int fineSize = light.size * side;
+    for (int face = 0; face < kCubeFaces; face++)
+        for (int y = 0; y < fineSize; y++)
+            for (int x = 0; x < fineSize; x++) {
+                const int texel = cubeTexelIndex(face, x / side, y / side, light.size);
+                const vec3 radiance = light.radiance[size_t(texel)];
+                if (radiance == vec3(0)) continue;
+                samples.push_back({cubeTexelDirection(face, x, y, fineSize),
+                                   radiance * cubeTexelSolidAngle(x, y, fineSize)});
+            }
+    return samples;
+}
+
+// Each lit pixel of a latlong map, with its exact solid angle: Δlongitude · Δ sin latitude.
+std::vector<LightSample> lightSamples(const Environment& map, float rotation) {
+    const float cosine = std::cos(rotation), sine = std::sin(rotation);
+    std::vector<LightSample> samples;
+    for (int row = 0; row < map.height; row++) {
+        const double top = double(kPi) * (0.5 - double(row) / map.height);
+        const double bottom = double(kPi) * (0.5 - double(row + 1) / map.height);
+        const auto solidAngle = float(2.0 * double(kPi) / map.width * (std::sin(top) - std::sin(bottom)));
+        for (int column = 0; column < map.width; column++) {
+            const vec3 radiance = map.radiance[size_t(row) * size_t(map.width) + size_t(column)];
+            if (radiance == vec3(0)) continue;
+            const vec3 d = map.direction(float(column) + 0.5f, float(row) + 0.5f);
+            const vec3 turned(cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x);
+            samples.push_back({turned, radiance * solidAngle});
+        }
+    }
+    return samples;
+}
+
+} // namespace
+
+Image renderReference(const Asset& asset, const Camera& camera, const LightCube& light,
+                      const ReferenceOptions& options, const std::function<void(int)>& progress) {
+    constexpr int kMostRays = 16;
+    if (options.raysPerTexelSide < 1 || options.raysPerTexelSide > kMostRays)
+        throw UsageError("{} shadow rays per side of a lighting texel: must be 1 to {}",
+                         options.raysPerTexelSide, kMostRays);
+    return renderUnder(lightSamples(light, options.raysPerTexelSide), asset, camera, options, progress);
+}
+
+Image renderReference(const Asset& asset, const Camera& camera, const Environment& environment,
+                      float rotation, int maxWidth, const ReferenceOptions& options,
+                      const std::function<void(int)>& progress) {
+    const Environment prepared = prepareForSampling(environment, maxWidth);
+    return renderUnder(lightSamples(prepared, rotation), asset, camera, options, progress);
+}
+
+} // namespace relume

@@ -1,0 +1,131 @@
+#include "precompute/reference/transport_stages.h"
+
+#include "engine/base/check.h"
+#include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace relume {
+
+std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size) {
+    std::vector<int> texels;
+    std::vector<vec3> directions;
+    for (int face = 0; face < kCubeFaces; face++)
+        for (int y = 0; y < size; y++)
+            for (int x = 0; x < size; x++) {
+                const vec3 direction = cubeTexelDirection(face, x, y, size);
+                if (!(glm::dot(direction, normal) > 0)) continue;
+                texels.push_back(cubeTexelIndex(face, x, y, size));
+                directions.push_back(direction);
+            }
+    std::vector<uint8_t> blocked(directions.size());
+    tracer.occluded(origin, directions, blocked);
+    std::vector<uint8_t> visibility(size_t(kCubeFaces) * size_t(size) * size_t(size), 0);
+    for (size_t i = 0; i < texels.size(); i++) visibility[size_t(texels[i])] = blocked[i] ? 0 : 1;
+    return visibility;
+}
+
+namespace {
+
+// The share of ones in a square of `side` texels whose first is (x, y).
+float visibleFraction(const std::vector<uint8_t>& visibility, int size, int face, int x, int y, int side) {
+    int visible = 0;
+    for (int row = y; row < y + side; row++)
+        for (int column = x; column < x + side; column++)
+            visible += visibility[size_t(cubeTexelIndex(face, column, row, size))];
+    return float(visible) / float(side * side);
+}
+
+} // namespace
+
+std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int visibilitySize, int faceSize,
+                                  int samples, const FactoredBrdf& brdf, int term,
+                                  const TangentFrame& frame) {
+    const int cells = int(std::lround(std::sqrt(double(samples)))); // a side of a lighting texel
+    RELUME_CHECK_EQ(cells * cells, samples);
+    const int cellFaceSize = faceSize * cells; // cells a side of a face
+    RELUME_CHECK(cellFaceSize > 0 && visibilitySize % cellFaceSize == 0);
+    RELUME_CHECK_EQ(visibility.size(), size_t(kCubeFaces) * size_t(visibilitySize) * size_t(visibilitySize));
+    RELUME_CHECK(term >= 0 && term < brdf.terms);
+    const int cellSide = visibilitySize / cellFaceSize; // visibility texels a side of a cell
+    const vec3* lightMap = &brdf.lightMaps[size_t(term) * brdf.mapTexels()];
+
+    std::vector<vec3> transport(size_t(kCubeFaces) * size_t(faceSize) * size_t(faceSize), vec3(0));
+    for (int face = 0; face < kCubeFaces; face++)
+        for (int y = 0; y < cellFaceSize; y++)
+            for (int x = 0; x < cellFaceSize; x++) {
+                const vec3 local = frame.toLocal(cubeTexelDirection(face, x, y, cellFaceSize));
+                if (!(local.z > 0)) continue;
+                const float fraction =
+                    visibleFraction(visibility, visibilitySize, face, x * cellSide, y * cellSide, cellSide);
+                const float weight = local.z * cubeTexelSolidAngle(x, y, cellFaceSize) * fraction;
+                transport[size_t(cubeTexelIndex(face, x / cells, y / cells, faceSize))] +=
+                    lookupMap(lightMap, brdf.size, brdf.mapping, local) * weight;
+            }
+    return transport;
+}
+
+void haarFaces(std::vector<vec3>& cube, int faceSize) {
+    const size_t faceTexels = size_t(faceSize) * size_t(faceSize);
+    RELUME_CHECK_EQ(cube.size(), kCubeFaces * faceTexels);
+    for (size_t face = 0; face < kCubeFaces; face++)
+        haarForward(std::span(cube).subspan(face * faceTexels, faceTexels), faceSize);
+}
+
+std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count) {
+    RELUME_CHECK(count >= 0);
+    RELUME_CHECK_LE(coefficients.size(), size_t(std::numeric_limits<uint16_t>::max()) + 1);
+    // Evaluated in float from left to right, as the kernel does: both must break ties alike.
+    const auto key = [&](uint16_t index) {
+        const vec3& c = coefficients[index];
+        return c.x * c.x + c.y * c.y + c.z * c.z;
+    };
+    std::vector<uint16_t> selected;
+    for (size_t i = 0; i < coefficients.size(); i++)
+        if (key(uint16_t(i)) > 0) selected.push_back(uint16_t(i));
+    if (selected.size() > size_t(count)) {
+        const auto isLarger = [&](uint16_t a, uint16_t b) {
+            const float keyA = key(a), keyB = key(b);
+            return keyA > keyB || (keyA == keyB && a < b);
+        };
+        std::nth_element(selected.begin(), selected.begin() + count, selected.end(), isLarger);
+        selected.resize(size_t(count));
+        std::sort(selected.begin(), selected.end());
+    }
+    return selected;
+}
+
+PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected) {
+    PackedRow row;
+    for (uint16_t index : selected) {
+        const vec3 magnitude = glm::abs(coefficients[index]);
+        row.scale = std::max({row.scale, magnitude.x, magnitude.y, magnitude.z});
+    }
+    for (uint16_t index : selected) {
+        const ivec3 quantised = quantiseCoefficient(coefficients[index], row.scale);
+        if (quantised == ivec3(0)) continue;
+        row.indices.push_back(index);
+        row.values.push_back(packCoefficient(quantised));
+    }
+    return row;
+}
+
+std::vector<ivec3> relight(const SparseTransport& transport, const LightVector& light) {
+    std::vector<ivec3> dense(size_t(kCubeFaces) * size_t(light.faceSize) * size_t(light.faceSize), ivec3(0));
+    for (size_t i = 0; i < light.indices.size(); i++)
+        dense[light.indices[i]] = ivec3(light.values[i][0], light.values[i][1], light.values[i][2]);
+
+    std::vector<ivec3> sums(transport.rows(), ivec3(0));
+    for (size_t row = 0; row < sums.size(); row++)
+        for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++) {
+            RELUME_CHECK_LT(transport.indices[entry], dense.size());
+            sums[row] += unpackCoefficient(transport.values[entry]) * dense[transport.indices[entry]];
+        }
+    return sums;
+}
+
+} // namespace relume

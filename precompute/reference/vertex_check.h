@@ -1,0 +1,28 @@
+// Every stage of one vertex, recomputed on the CPU from an asset: what a bake is verified against.
+#pragma once
+
+#include "engine/transport/asset.h"
+#include "precompute/reference/transport_stages.h"
+
+namespace relume {
+
+struct TermReference {
+    std::vector<vec3> transport;    // 6 · F² values before the Haar transform
+    std::vector<vec3> coefficients; // after it
+    std::vector<uint16_t> selected; // of the asset's N largest
+    PackedRow row;
+};
+
+struct VertexReference {
+    std::vector<uint8_t> visibility;  // 6 · visibilitySize²
+    std::vector<TermReference> terms; // K
+};
+
+// Recomputes vertex `vertex` of part `part` with the asset's own options, factors and frames; `occluder`
+// traces the asset's occluder.
+VertexReference recomputeVertex(const Asset& asset, size_t part, size_t vertex, const RayTracer& occluder);
+
+// The row that the asset holds for a vertex and term.
+PackedRow storedRow(const SparseTransport& transport, size_t vertex, size_t term);
+
+} // namespace relume
