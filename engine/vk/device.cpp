@@ -198,7 +198,11 @@ void Device::createDevice() {
     queue.queueFamilyIndex = mQueueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
+    VkPhysicalDeviceFeatures features{};
+    features.multiDrawIndirect = VK_TRUE;
+    features.drawIndirectFirstInstance = VK_TRUE;
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features12};
+    create.pEnabledFeatures = &features;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     RELUME_VK(vkCreateDevice(mPhysical, &create, nullptr, &mDevice));

@@ -46,6 +46,8 @@ static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion)
     vkGetPhysicalDeviceFeatures2(physical, &features);
     if (!features12.scalarBlockLayout) return "scalarBlockLayout is needed";
     if (!features12.shaderOutputLayer) return "shaderOutputLayer is needed";
+    if (!features.features.multiDrawIndirect) return "multiDrawIndirect is needed";
+    if (!features.features.drawIndirectFirstInstance) return "drawIndirectFirstInstance is needed";
     return "";
 }
 

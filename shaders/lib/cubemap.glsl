@@ -2,17 +2,17 @@
 #ifndef RELUME_LIB_CUBEMAP_GLSL
 #define RELUME_LIB_CUBEMAP_GLSL
 
-// Rows: right, down and forward axis of a face, so that `axes * v` gives v's face coordinates.
+// Columns: right, down and forward axis of a face, so that `v * axes` gives v's face coordinates.
 const mat3 kFaceAxes[6] = mat3[6](
-    transpose(mat3(vec3(0, 0, -1), vec3(0, -1, 0), vec3(1, 0, 0))),
-    transpose(mat3(vec3(0, 0, 1), vec3(0, -1, 0), vec3(-1, 0, 0))),
-    transpose(mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, 1, 0))),
-    transpose(mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, -1, 0))),
-    transpose(mat3(vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1))),
-    transpose(mat3(vec3(-1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1))));
+    mat3(vec3(0, 0, -1), vec3(0, -1, 0), vec3(1, 0, 0)),
+    mat3(vec3(0, 0, 1), vec3(0, -1, 0), vec3(-1, 0, 0)),
+    mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, 1, 0)),
+    mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, -1, 0)),
+    mat3(vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1)),
+    mat3(vec3(-1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)));
 
 // Unnormalised direction of face coordinates u (right) and v (down), both in [-1, 1].
-vec3 cubeDirection(uint face, vec2 uv) { return vec3(uv, 1) * kFaceAxes[face]; }
+vec3 cubeDirection(uint face, vec2 uv) { return kFaceAxes[face] * vec3(uv, 1); }
 
 // Solid angle, in steradian, of a square of side `width` (in units of u and v) at uv: midpoint rule.
 float cubeSolidAngle(vec2 uv, float width) {

@@ -1,0 +1,43 @@
+// Visibility cubes by rasterising the occluder from every point, many points a submission.
+#pragma once
+
+#include "engine/vk/commands.h"
+#include "precompute/visibility/occluder.h"
+#include "shaders/shared/bake.h"
+
+namespace relume {
+
+// Fills a buffer with one bit per texel: 6 · size² bits a point, face after face, row by row, bit i of a
+// word being texel i of its 32. A bit is set where the direction is free and above the point's horizon.
+//
+// Self-intersection: points are lifted off the surface (visibilityOffset) and triangles nearer than
+// `nearDistance` along a face's axis are clipped. Nothing of a convex object rises above a lifted
+// tangent plane, so it stays unshadowed; contact shadows stay attached to within the offset.
+class RasterVisibility {
+  public:
+    // `size` a multiple of 32; at most `capacity` points a batch (6 layers each).
+    RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
+                     float nearDistance);
+
+    // Records the visibility of points [first, first + count) into the front of `bits`.
+    void record(vk::Commands& commands, const vk::Buffer& points, uint32_t first, uint32_t count,
+                const vk::Buffer& bits) const;
+
+    // Bytes of one point's bits.
+    static uint64_t bytesPerPoint(uint32_t size) { return 6ull * size * size / 8; }
+    // Bytes of device memory that one point of a batch takes here.
+    uint64_t deviceBytesPerPoint() const;
+
+  private:
+    void createGeometry(const vk::Device& device, const Mesh& occluder);
+
+    uint32_t mSize, mCapacity;
+    float mNearDistance;
+    uint32_t mClusterCount = 0;
+    vk::Buffer mPositions, mIndices, mClusters, mDraws, mLayers, mBlocked;
+    vk::Image mTarget;
+    vk::ComputeProgram mReset, mCull, mPack;
+    vk::GraphicsProgram mDraw;
+};
+
+} // namespace relume

@@ -1,0 +1,65 @@
+// Structs and push constants of the bake's passes.
+#ifndef RELUME_SHADERS_SHARED_BAKE_H
+#define RELUME_SHADERS_SHARED_BAKE_H
+#include "shaders/shared/types.h"
+
+RELUME_SHARED_BEGIN
+
+// A vertex as the bake sees it.
+struct BakePoint {
+    vec3 origin; // Where visibility is taken: the position, lifted along the normal
+    vec3 normal; // Unit length
+};
+RELUME_SHARED_SIZE(BakePoint, 24)
+
+// A few neighbouring triangles of the occluder: one indirect draw, instanced over the layers it touches.
+struct TriangleCluster {
+    vec3 centre; // Bounding sphere
+    float radius;
+    uint firstIndex, indexCount;
+};
+RELUME_SHARED_SIZE(TriangleCluster, 24)
+
+struct CullPush {
+    uint firstPoint; // of this batch, in the point buffer
+    uint layers;     // 6 × points of this batch
+    uint clusters;
+};
+RELUME_SHARED_SIZE(CullPush, 12)
+
+struct VisibilityPush {
+    uint firstPoint;
+    float nearDistance; // along a face's axis; what lies nearer casts no shadow
+};
+RELUME_SHARED_SIZE(VisibilityPush, 8)
+
+struct PackVisibilityPush {
+    uint firstPoint;
+    uint words; // of this batch: points × 6 × size² / 32
+};
+RELUME_SHARED_SIZE(PackVisibilityPush, 8)
+
+struct TransportPush {
+    uint firstPoint;
+    uint firstTerm; // of this dispatch; its rows are point-major: (point, term of the dispatch)
+    uint terms;
+};
+RELUME_SHARED_SIZE(TransportPush, 12)
+
+struct RowsPush {
+    uint rows;
+    uint kept; // N
+};
+RELUME_SHARED_SIZE(RowsPush, 8)
+
+// What packing measured of a row. Sums of squares over the three channels.
+struct RowStatistics {
+    float total;     // of all coefficients
+    float dropped;   // lost by keeping N
+    float quantised; // lost by quantisation
+};
+RELUME_SHARED_SIZE(RowStatistics, 12)
+
+RELUME_SHARED_END
+
+#endif

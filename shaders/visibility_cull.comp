@@ -1,0 +1,34 @@
+#version 460
+// Decides which clusters of the occluder are drawn into which cube faces: a cluster is left out when its
+// bounding sphere lies wholly below the point's horizon, behind the face, or outside the face's pyramid.
+// The order of instances is not deterministic, but the image is: every triangle writes the same value.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/cubemap.glsl"
+#include "shaders/shared/bake.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { CullPush push; };
+layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
+layout(binding = 1, scalar) readonly buffer Clusters { TriangleCluster clusters[]; };
+// VkDrawIndexedIndirectCommand: index count, instance count, first index, vertex offset, first instance.
+layout(binding = 2, scalar) buffer Draws { uint draws[][5]; };
+layout(binding = 3, scalar) writeonly buffer Layers { uint instanceLayers[]; };
+
+void main() {
+    const uint layer = gl_GlobalInvocationID.x, cluster = gl_GlobalInvocationID.y;
+    if (layer >= push.layers) return;
+    const BakePoint point = points[push.firstPoint + layer / 6];
+    const TriangleCluster sphere = clusters[cluster];
+    const vec3 centre = sphere.centre - point.origin;
+    if (dot(centre, point.normal) < -sphere.radius) return;
+
+    // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z; its side planes have normals (±1, 0, 1) / √2.
+    const vec3 local = centre * kFaceAxes[layer % 6];
+    const float reach = sphere.radius * 1.41421357;
+    if (local.z < -sphere.radius) return;
+    if (abs(local.x) - local.z > reach || abs(local.y) - local.z > reach) return;
+
+    const uint slot = atomicAdd(draws[cluster][1], 1);
+    instanceLayers[cluster * push.layers + slot] = layer;
+}
