@@ -12,20 +12,27 @@
 namespace relume {
 
 std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size) {
-    std::vector<int> texels;
-    std::vector<vec3> directions;
-    for (int face = 0; face < kCubeFaces; face++)
-        for (int y = 0; y < size; y++)
-            for (int x = 0; x < size; x++) {
-                const vec3 direction = cubeTexelDirection(face, x, y, size);
-                if (!(glm::dot(direction, normal) > 0)) continue;
-                texels.push_back(cubeTexelIndex(face, x, y, size));
-                directions.push_back(direction);
-            }
-    std::vector<uint8_t> blocked(directions.size());
-    tracer.occluded(origin, directions, blocked);
+    // Ray by ray in tiles of 16 x 16: neighbours trace faster together.
+    const int tile = std::min(size, 16);
+    RELUME_CHECK(size > 0 && size % tile == 0);
     std::vector<uint8_t> visibility(size_t(kCubeFaces) * size_t(size) * size_t(size), 0);
-    for (size_t i = 0; i < texels.size(); i++) visibility[size_t(texels[i])] = blocked[i] ? 0 : 1;
+    std::vector<vec3> directions;
+    std::vector<size_t> texels;
+    std::array<uint8_t, 256> blocked;
+    for (int face = 0; face < kCubeFaces; face++)
+        for (int top = 0; top < size; top += tile)
+            for (int left = 0; left < size; left += tile) {
+                directions.clear(), texels.clear();
+                for (int y = top; y < top + tile; y++)
+                    for (int x = left; x < left + tile; x++) {
+                        const vec3 direction = cubeTexelDirection(face, x, y, size);
+                        if (!(glm::dot(direction, normal) > 0)) continue;
+                        directions.push_back(direction);
+                        texels.push_back(size_t(cubeTexelIndex(face, x, y, size)));
+                    }
+                tracer.occluded(origin, directions, std::span(blocked).first(directions.size()));
+                for (size_t i = 0; i < texels.size(); i++) visibility[texels[i]] = blocked[i] ? 0 : 1;
+            }
     return visibility;
 }
 
