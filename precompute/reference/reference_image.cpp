@@ -22,8 +22,9 @@ struct LightSample {
     vec3 energy;
 };
 
-// f(ωi, ωo) in the local frame of the surface.
-using BrdfFunction = std::function<vec3(vec3 incoming, vec3 outgoing)>;
+// f(ωi, ωo) in the local frame of the surface: first ωo, once per pixel, then ωi.
+using ReflectedFunction = std::function<vec3(vec3 incoming)>;
+using BrdfFunction = std::function<ReflectedFunction(vec3 outgoing)>;
 
 struct SurfacePoint {
     size_t part;
@@ -72,7 +73,7 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
     std::array<vec3, kBatch> directions;
     std::array<const LightSample*, kBatch> batch;
     std::array<uint8_t, kBatch> blocked;
-    const BrdfFunction& brdf = brdfs[point.part];
+    const ReflectedFunction brdf = brdfs[point.part](point.outgoing);
     const vec3 origin = point.position + shadowOffset * point.frame.n;
     glm::dvec3 sum(0);
     for (auto next = lights.begin(); next != lights.end();) {
@@ -86,7 +87,7 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
         for (size_t i = 0; i < count; i++) {
             if (blocked[i]) continue;
             const vec3 incoming = point.frame.toLocal(directions[i]);
-            sum += batch[i]->energy * brdf(incoming, point.outgoing) * incoming.z;
+            sum += batch[i]->energy * brdf(incoming) * incoming.z;
         }
     }
     return vec3(sum);
@@ -109,16 +110,26 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
     return image;
 }
 
-std::vector<BrdfFunction> brdfFunctions(const Asset& asset, ReferenceBrdf kind) {
-    std::vector<BrdfFunction> functions;
-    for (const AssetPart& part : asset.parts) {
-        if (kind == ReferenceBrdf::Factored)
-            functions.push_back([&part](vec3 in, vec3 out) { return evaluate(part.brdf, in, out); });
-        else
-            functions.push_back([brdf = std::shared_ptr<const Brdf>(makeBrdf(part.material))](
-                                    vec3 in, vec3 out) { return brdf->evaluate(in, out); });
-    }
-    return functions;
+BrdfFunction exactBrdf(const std::string& material) {
+    return [brdf = std::shared_ptr<const Brdf>(makeBrdf(material))](vec3 outgoing) {
+        return [&brdf = *brdf, outgoing](vec3 incoming) { return brdf.evaluate(incoming, outgoing); };
+    };
+}
+
+BrdfFunction factoredBrdf(const FactoredBrdf& brdf) {
+    return [&brdf](vec3 outgoing) {
+        std::vector<vec3> views; // one per term
+        for (int term = 0; term < brdf.terms; term++)
+            views.push_back(lookupMap(&brdf.viewMaps[size_t(term) * brdf.mapTexels()], brdf.size,
+                                      brdf.mapping, outgoing));
+        return [&brdf, views](vec3 incoming) {
+            vec3 sum(0);
+            for (size_t term = 0; term < views.size(); term++)
+                sum += views[term] *
+                       lookupMap(&brdf.lightMaps[term * brdf.mapTexels()], brdf.size, brdf.mapping, incoming);
+            return sum;
+        };
+    };
 }
 
 std::vector<const Mesh*> partMeshes(const Asset& asset) {
@@ -140,14 +151,13 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
     // A full mesh needs no more than to clear rounding; a simplified one must clear its own error.
     const float offset =
         options.bakedOccluder ? asset.visibilityOffset : kFullMeshShadowOffset * boundsOf(asset).radius();
-    const Renderer renderer{asset,
-                            camera,
-                            options,
-                            std::move(lights),
-                            brdfFunctions(asset, options.brdf),
-                            RayTracer(meshes),
-                            RayTracer(occluders),
-                            offset};
+    std::vector<BrdfFunction> brdfs;
+    for (const AssetPart& part : asset.parts)
+        brdfs.push_back(options.brdf == ReferenceBrdf::Exact ? exactBrdf(part.material)
+                                                             : factoredBrdf(part.brdf));
+    const Renderer renderer{
+        asset, camera, options, std::move(lights), std::move(brdfs), RayTracer(meshes), RayTracer(occluders),
+        offset};
     return render(renderer, progress);
 }
 
