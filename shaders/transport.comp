@@ -92,15 +92,15 @@ void main() {
     for (uint width = kBlocks / 2; width >= 1; width /= 2) {
         barrier();
         const uint x = gl_LocalInvocationID.x % width, y = gl_LocalInvocationID.x / width;
-        const bool active = y < width;
+        const bool working = y < width;
         vec3 average = vec3(0);
-        if (active) {
+        if (working) {
             const uint corner = 2 * y * 2 * width + 2 * x;
             average = haarStep(averages[corner], averages[corner + 1], averages[corner + 2 * width],
                                averages[corner + 2 * width + 1], x, y, width);
         }
         barrier();
-        if (active) averages[gl_LocalInvocationID.x] = average;
+        if (working) averages[gl_LocalInvocationID.x] = average;
     }
     if (gl_LocalInvocationID.x == 0) store(0, 0, averages[0]);
 }

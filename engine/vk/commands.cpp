@@ -306,13 +306,17 @@ void Commands::collectTimes() {
     for (size_t i = 0; i < mTimedPasses.size(); i++) {
         const double seconds =
             double(ticks[2 * i + 1] - ticks[2 * i]) * double(mDevice.limits().timestampPeriod) * 1e-9;
-        auto entry = std::find_if(mTimes.begin(), mTimes.end(),
-                                  [&](const auto& time) { return time.first == mTimedPasses[i]; });
-        if (entry == mTimes.end())
-            mTimes.emplace_back(mTimedPasses[i], seconds);
-        else
-            entry->second += seconds;
+        addTime(mTimes, mTimedPasses[i], seconds);
     }
+}
+
+void addTime(PassTimes& times, const std::string& name, double seconds) {
+    const auto entry =
+        std::find_if(times.begin(), times.end(), [&](const auto& time) { return time.first == name; });
+    if (entry == times.end())
+        times.emplace_back(name, seconds);
+    else
+        entry->second += seconds;
 }
 
 double secondsOf(const PassTimes& times, std::string_view prefix) {

@@ -105,6 +105,9 @@ class Commands {
     PassTimes mTimes;
 };
 
+// Adds seconds to the entry of that name, which is made if it is new.
+void addTime(PassTimes& times, const std::string& name, double seconds);
+
 // Sum of all passes' seconds whose name starts with `prefix`.
 double secondsOf(const PassTimes& times, std::string_view prefix = "");
 

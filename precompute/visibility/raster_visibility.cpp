@@ -14,17 +14,19 @@ namespace {
 
 constexpr size_t kClusterVertices = 255, kClusterTriangles = 256;
 
-// Groups the occluder's triangles into compact clusters; `indices` receives their corners, cluster by cluster.
+// Groups the occluder's triangles into compact clusters; `indices` receives their corners, cluster by
+// cluster.
 std::vector<shared::TriangleCluster> makeClusters(const Mesh& mesh, std::vector<uint32_t>& indices) {
     const auto* corners = &mesh.triangles[0].x;
     const auto* positions = &mesh.positions[0].x;
     const size_t indexCount = 3 * mesh.triangleCount();
-    std::vector<meshopt_Meshlet> meshlets(meshopt_buildMeshletsBound(indexCount, kClusterVertices, kClusterTriangles));
+    std::vector<meshopt_Meshlet> meshlets(
+        meshopt_buildMeshletsBound(indexCount, kClusterVertices, kClusterTriangles));
     std::vector<unsigned> vertices(meshlets.size() * kClusterVertices);
     std::vector<unsigned char> triangles(meshlets.size() * kClusterTriangles * 3);
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(), corners, indexCount,
-                                          positions, mesh.vertexCount(), sizeof(vec3), kClusterVertices,
-                                          kClusterTriangles, 0.0f));
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(), corners,
+                                          indexCount, positions, mesh.vertexCount(), sizeof(vec3),
+                                          kClusterVertices, kClusterTriangles, 0.0f));
     std::vector<shared::TriangleCluster> clusters;
     for (const meshopt_Meshlet& meshlet : meshlets) {
         Bounds box;
@@ -44,13 +46,14 @@ std::vector<shared::TriangleCluster> makeClusters(const Mesh& mesh, std::vector<
 
 } // namespace
 
-RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
-                                   float nearDistance)
+RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size,
+                                   uint32_t capacity, float nearDistance)
     : mSize(size), mCapacity(capacity), mNearDistance(nearDistance) {
     RELUME_CHECK_EQ(size % 32, 0u);
     RELUME_CHECK_LE(6 * capacity, device.info().largestLayerCount);
     createGeometry(device, occluder);
-    mLayers = {device, uint64_t(mClusterCount) * 6 * capacity * 4, vk::BufferUse::Device, "visibility layers"};
+    mLayers = {device, uint64_t(mClusterCount) * 6 * capacity * 4, vk::BufferUse::Device,
+               "visibility layers"};
     mBlocked = {device, 6ull * capacity * size * size, vk::BufferUse::Device, "visibility blocked"};
     mTarget = {device,
                {VK_FORMAT_R8_UINT, size, size, 6 * capacity,
@@ -69,7 +72,8 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
     std::vector<shared::TriangleCluster> clusters;
     if (occluder.triangleCount() > 0) clusters = makeClusters(occluder, indices);
     // A cluster without triangles keeps the passes the same for an empty occluder.
-    else clusters.push_back({vec3(0), 0, 0, 0});
+    else
+        clusters.push_back({vec3(0), 0, 0, 0});
     mClusterCount = uint32_t(clusters.size());
     mPositions = makeUpload<vec3>(device, occluder.positions, "occluder positions");
     mIndices = makeUpload<uint32_t>(device, indices, "occluder indices");
@@ -82,8 +86,8 @@ uint64_t RasterVisibility::deviceBytesPerPoint() const {
     return 6ull * (2 * mSize * mSize + 4 * mClusterCount); // target, its copy, instance layers
 }
 
-void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, uint32_t first, uint32_t count,
-                              const vk::Buffer& bits) const {
+void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, uint32_t first,
+                              uint32_t count, const vk::Buffer& bits) const {
     using enum vk::Stage;
     RELUME_CHECK_LE(count, mCapacity);
     const uint32_t layers = 6 * count;
@@ -96,21 +100,22 @@ void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, 
         commands.barrier(Compute, Draw);
     });
     commands.pass("visibility draw", [&] {
-        commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, Transfer,
-                            Color);
+        commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            Transfer, Color);
         commands.render({.color = &mTarget, .layers = layers}, [&] {
             commands.bind(mDraw, {points, mPositions, mLayers}, shared::VisibilityPush{first, mNearDistance});
             commands.drawIndexedIndirect(mIndices, mDraws, mClusterCount);
         });
-        commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                            Color, Transfer);
+        commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Color, Transfer);
     });
     commands.pass("visibility pack", [&] {
         commands.barrier(Compute, Transfer);
         commands.copy(mTarget, mBlocked, layers);
         commands.barrier(Transfer, Compute);
         const auto words = uint32_t(count * bytesPerPoint(mSize) / 4);
-        commands.dispatch(mPack, {points, mBlocked, bits}, shared::PackVisibilityPush{first, words}, {words, 1, 1});
+        commands.dispatch(mPack, {points, mBlocked, bits}, shared::PackVisibilityPush{first, words},
+                          {words, 1, 1});
     });
 }
 

@@ -1,0 +1,184 @@
+#include "precompute/bake/bake.h"
+
+#include "engine/vk/result.h"
+#include "precompute/bake/batch_plan.h"
+#include "precompute/bake/transport_pass.h"
+#include "precompute/bake/vertex_order.h"
+#include "precompute/brdf/factorization.h"
+#include "precompute/visibility/occluder.h"
+#include "precompute/visibility/raster_visibility.h"
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Factors each material once, however many parts wear it.
+class MaterialFactory {
+  public:
+    explicit MaterialFactory(const BakeOptions& options) : mOptions(options) {}
+
+    struct Material {
+        std::string description;
+        FactoredBrdf factored;
+    };
+    const Material& operator()(const std::string& material) {
+        const auto known = mMaterials.find(material);
+        if (known != mMaterials.end()) return known->second;
+        const std::unique_ptr<Brdf> brdf = makeBrdf(material);
+        const BrdfTable table = tabulate(*brdf, mOptions.mapSize, mOptions.mapping);
+        Material made{brdf->describe().dump(), factorize(table, {mOptions.terms})};
+        return mMaterials.emplace(material, std::move(made)).first->second;
+    }
+
+  private:
+    const BakeOptions& mOptions;
+    std::map<std::string, Material> mMaterials;
+};
+
+std::vector<shared::BakePoint> bakePoints(const Mesh& mesh, float offset) {
+    std::vector<shared::BakePoint> points;
+    for (size_t i = 0; i < mesh.vertexCount(); i++)
+        points.push_back({mesh.positions[i] + offset * mesh.normals[i], mesh.normals[i]});
+    return points;
+}
+
+// The passes of one part with their buffers, for batches of a given size.
+struct PartPasses {
+    PartPasses(const vk::Device& device, const Asset& asset, const FactoredBrdf& brdf,
+               const BakeOptions& options, uint32_t capacity)
+        : batch(capacity), visibility(device, asset.occluder, uint32_t(options.visibilitySize), capacity,
+                                      asset.visibilityOffset * kNearDistance),
+          transport(device, brdf, options, capacity),
+          bits(device, capacity * RasterVisibility::bytesPerPoint(uint32_t(options.visibilitySize)),
+               vk::BufferUse::Device, "visibility bits") {}
+
+    // Near plane of the visibility pass, in units of the offset that lifts points off the surface.
+    static constexpr float kNearDistance = 1e-3f;
+
+    uint32_t batch;
+    RasterVisibility visibility;
+    TransportPass transport;
+    vk::Buffer bits;
+};
+
+// Makes the passes for the planned batch, or half of it as often as memory asks for.
+std::unique_ptr<PartPasses> makePasses(const vk::Device& device, const Asset& asset, const FactoredBrdf& brdf,
+                                       const BakeOptions& options, uint32_t vertices) {
+    for (uint32_t batch = std::min(planBatch(device, options, brdf.terms), vertices);; batch /= 2) {
+        try {
+            return std::make_unique<PartPasses>(device, asset, brdf, options, batch);
+        } catch (const vk::OutOfMemory& failure) {
+            if (batch <= 1) throw;
+            spdlog::warn("{}; going on with batches of {} vertices instead of {}", failure.what(), batch / 2,
+                         batch);
+        }
+    }
+}
+
+void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& options, AssetPart& part,
+              TransportLosses& losses, BakeTimes& times, const BakeProgress& progress) {
+    const auto vertices = uint32_t(part.mesh.vertexCount());
+    part.transport.vertices = vertices;
+    part.transport.terms = uint32_t(part.brdf.terms);
+    part.transport.rowStarts = {0};
+
+    const auto points =
+        vk::makeUpload<shared::BakePoint>(device, bakePoints(part.mesh, asset.visibilityOffset), "points");
+    const std::unique_ptr<PartPasses> passes = makePasses(device, asset, part.brdf, options, vertices);
+    times.batch = std::max(times.batch, passes->batch);
+    vk::Commands commands(device, "bake");
+    for (uint32_t first = 0; first < vertices; first += passes->batch) {
+        const uint32_t count = std::min(passes->batch, vertices - first);
+        commands.begin();
+        passes->visibility.record(commands, points, first, count, passes->bits);
+        passes->transport.record(commands, points, first, count, passes->bits);
+        commands.submitAndWait();
+        passes->transport.collect(count, part.transport, losses);
+        if (progress) progress(first + count);
+    }
+    for (const auto& [name, seconds] : commands.times()) vk::addTime(times.device, name, seconds);
+}
+
+nlohmann::json describe(const BakeOptions& options) {
+    return {{"terms", options.terms},
+            {"coefficients", options.coefficients},
+            {"map_size", options.mapSize},
+            {"map", diskMappingName(options.mapping)},
+            {"face_size", options.faceSize},
+            {"visibility_size", options.visibilitySize},
+            {"transport_samples", options.transportSamples},
+            {"occluder_triangles", options.occluderTriangles},
+            {"visibility", "raster"},
+            {"vertex_order", "morton"}};
+}
+
+nlohmann::json describeInputs(const Scene& scene) {
+    auto inputs = nlohmann::json::array();
+    for (const Part& part : scene.parts)
+        inputs.push_back({{"name", part.name}, {"file", part.source}, {"hash", part.sourceHash}});
+    return inputs;
+}
+
+float relative(double lost, double total) { return total > 0 ? float(std::sqrt(lost / total)) : 0; }
+
+} // namespace
+
+Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, const BakeProgress& progress,
+           BakeTimes* timesOut) {
+    options.validate();
+    RELUME_CHECK(!scene.parts.empty());
+    const Clock::time_point start = Clock::now();
+    BakeTimes times;
+    for (Part& part : scene.parts) orderVertices(part.mesh);
+
+    Asset asset;
+    asset.faceSize = options.faceSize;
+    asset.visibilitySize = options.visibilitySize;
+    asset.coefficients = options.coefficients;
+    asset.transportSamples = options.transportSamples;
+    asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
+    asset.provenance.options = describe(options).dump();
+    asset.provenance.inputs = describeInputs(scene).dump();
+
+    Clock::time_point stage = Clock::now();
+    Occluder occluder = makeOccluder(scene, options.occluderTriangles);
+    asset.visibilityOffset = visibilityOffset(occluder, boundsOf(scene));
+    asset.occluder = std::move(occluder.mesh);
+    times.occluder = secondsSince(stage);
+
+    stage = Clock::now();
+    MaterialFactory materials(options);
+    for (Part& part : scene.parts) {
+        const MaterialFactory::Material& material = materials(part.material);
+        asset.parts.push_back({part.name, material.description, std::move(part.mesh), material.factored, {}});
+    }
+    times.factorisation = secondsSince(stage);
+
+    TransportLosses losses;
+    uint64_t done = 0;
+    for (AssetPart& part : asset.parts) {
+        bakePart(device, asset, options, part, losses, times, [&](uint64_t vertices) {
+            if (progress) progress(done + vertices);
+        });
+        done += part.mesh.vertexCount();
+    }
+    asset.truncationError = relative(losses.dropped, losses.total);
+    asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
+    times.total = secondsSince(start);
+    if (timesOut) *timesOut = times;
+    return asset;
+}
+
+} // namespace relume

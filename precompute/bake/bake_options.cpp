@@ -1,0 +1,35 @@
+#include "precompute/bake/bake_options.h"
+
+#include "engine/base/error.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace relume {
+
+static void expectRange(const char* option, int value, int low, int high) {
+    if (value < low || value > high)
+        throw UsageError("{}: expected {} to {}, found {}", option, low, high, value);
+}
+
+static void expectOneOf(const char* option, int value, const char* names, std::initializer_list<int> valid) {
+    if (std::find(valid.begin(), valid.end(), value) == valid.end())
+        throw UsageError("{}: expected {}, found {}", option, names, value);
+}
+
+void BakeOptions::validate() const {
+    expectRange("--terms", terms, 1, kMaxTerms);
+    expectRange("--map-size", mapSize, 8, 128);
+    expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
+    expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});
+    expectOneOf("--transport-samples", transportSamples, "1, 4 or 16", {1, 4, 16});
+    expectRange("--coefficients", coefficients, 1, 6 * faceSize * faceSize);
+    const int ratio = visibilitySize / faceSize;
+    if (transportSamples > ratio * ratio)
+        throw UsageError(
+            "--transport-samples {}: expected at most {}, the visibility texels in a lighting texel; raise "
+            "--visibility-size or lower --face-size",
+            transportSamples, ratio * ratio);
+}
+
+} // namespace relume

@@ -1,0 +1,141 @@
+#include "precompute/bake/transport_pass.h"
+
+#include "engine/render/map_texture.h"
+#include "shaders/compact_comp.h"
+#include "shaders/quantise_comp.h"
+#include "shaders/row_starts_comp.h"
+#include "shaders/select_comp.h"
+#include "shaders/transport_comp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+constexpr uint64_t kCoefficientBytes = 16; // r, g, b, squared magnitude
+
+uint64_t rowBytes(const BakeOptions& options) {
+    return 6ull * uint64_t(options.faceSize) * uint64_t(options.faceSize) * kCoefficientBytes;
+}
+
+} // namespace
+
+uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
+    const auto entries = uint64_t(options.coefficients);
+    // Coefficients, selected, values; entries as they come back.
+    return uint64_t(terms) * (rowBytes(options) + 8 * entries + 8 * entries);
+}
+
+uint32_t TransportPass::largestBatch(const vk::Device& device, const BakeOptions& options) {
+    return uint32_t(device.largestStorageBuffer() / rowBytes(options));
+}
+
+TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
+                             uint32_t capacity)
+    : mFaceSize(uint32_t(options.faceSize)), mKept(uint32_t(options.coefficients)) {
+    using enum vk::BufferUse;
+    const uint32_t largestBatch = TransportPass::largestBatch(device, options);
+    RELUME_CHECK_LE(capacity, largestBatch);
+    const auto terms = uint32_t(brdf.terms);
+    const uint32_t termsTogether = std::min(terms, largestBatch / capacity);
+    for (uint32_t term = 0; term < terms; term += termsTogether) {
+        const uint32_t count = std::min(termsTogether, terms - term);
+        const uint64_t rows = uint64_t(capacity) * count;
+        mGroups.push_back({term,
+                           count,
+                           {device, rows * 4, Readback, "row counts"},
+                           {device, rows * 4, Readback, "row scales"},
+                           {device, rows * sizeof(shared::RowStatistics), Readback, "row statistics"},
+                           {device, rows * mKept * 8, Readback, "row entries"}});
+    }
+    const uint64_t rows = uint64_t(capacity) * termsTogether;
+    mCoefficients = {device, rows * rowBytes(options), Device, "coefficients"};
+    mSelected = {device, rows * mKept * 4, Device, "selected indices"};
+    mSelectedCounts = {device, rows * 4, Device, "selected counts"};
+    mValues = {device, rows * mKept * 4, Device, "packed values"};
+    mStarts = {device, rows * 4, Device, "row starts"};
+
+    mLightMaps = makeMapTexture(device, brdf.lightMaps, uint32_t(brdf.size), terms, "light maps");
+    mSampler = {device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                "light maps"};
+    const uint32_t lanes = mFaceSize / 4 * mFaceSize / 4, count = 6 * mFaceSize * mFaceSize;
+    const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
+    mTransport = {device,
+                  transport_comp_spirv,
+                  {mFaceSize, uint32_t(options.visibilitySize), samplesPerSide, uint32_t(brdf.size),
+                   uint32_t(brdf.mapping), lanes},
+                  "transport"};
+    mSelect = {device, select_comp_spirv, {count}, "select"};
+    mQuantise = {device, quantise_comp_spirv, {count}, "quantise"};
+    mRowStarts = {device, row_starts_comp_spirv, {}, "row starts"};
+    mCompact = {device, compact_comp_spirv, {}, "compact"};
+}
+
+void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uint32_t first, uint32_t count,
+                           const vk::Buffer& bits) const {
+    for (const TermGroup& group : mGroups) recordGroup(commands, group, points, first, count, bits);
+    commands.barrier(vk::Stage::Compute, vk::Stage::Host);
+}
+
+void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points,
+                                uint32_t first, uint32_t count, const vk::Buffer& bits) const {
+    using enum vk::Stage;
+    const uint32_t rowCount = count * group.terms;
+    const shared::RowsPush rows{rowCount, mKept};
+    const auto groupPerRow = [&](const vk::ComputeProgram& program) {
+        return uvec3(rowCount * program.groupSize()[0], 1, 1);
+    };
+    commands.barrier(Compute, Compute);
+    commands.pass("transport", [&] {
+        commands.dispatch(mTransport, {points, bits, {mLightMaps, mSampler}, mCoefficients},
+                          shared::TransportPush{first, group.firstTerm, group.terms},
+                          {mTransport.groupSize()[0], 6, rowCount});
+    });
+    commands.barrier(Compute, Compute);
+    commands.pass("select", [&] {
+        commands.dispatch(mSelect, {mCoefficients, mSelected, mSelectedCounts, group.statistics}, rows,
+                          groupPerRow(mSelect));
+    });
+    commands.barrier(Compute, Compute);
+    commands.pass("quantise", [&] {
+        commands.dispatch(mQuantise,
+                          {mCoefficients, mSelected, mSelectedCounts, mValues, group.counts, group.scales,
+                           group.statistics},
+                          rows, groupPerRow(mQuantise));
+    });
+    commands.barrier(Compute, Compute);
+    commands.pass("compact", [&] {
+        commands.dispatch(mRowStarts, {group.counts, mStarts}, rows, {mRowStarts.groupSize()[0], 1, 1});
+        commands.barrier(Compute, Compute);
+        commands.dispatch(mCompact, {mSelected, mSelectedCounts, mValues, mStarts, group.entries}, rows,
+                          groupPerRow(mCompact));
+    });
+}
+
+void TransportPass::collect(uint32_t count, SparseTransport& transport, TransportLosses& losses) const {
+    // Rows come back group by group, point-major in each; the asset wants point-major over all terms.
+    std::vector<uint64_t> next(mGroups.size(), 0);
+    for (uint32_t point = 0; point < count; point++)
+        for (size_t g = 0; g < mGroups.size(); g++) {
+            const TermGroup& group = mGroups[g];
+            const auto entries = group.entries.map<glm::u32vec2>();
+            for (uint32_t row = point * group.terms; row < (point + 1) * group.terms; row++) {
+                const uint32_t rowEntries = group.counts.map<uint32_t>()[row];
+                for (const glm::u32vec2& entry : entries.subspan(next[g], rowEntries)) {
+                    transport.indices.push_back(uint16_t(entry.x));
+                    transport.values.push_back(entry.y);
+                }
+                next[g] += rowEntries;
+                transport.rowStarts.push_back(transport.values.size());
+                transport.scales.push_back(group.scales.map<float>()[row]);
+                const shared::RowStatistics& sums = group.statistics.map<shared::RowStatistics>()[row];
+                losses.total += sums.total;
+                losses.dropped += sums.dropped;
+                losses.quantised += sums.quantised;
+            }
+        }
+}
+
+} // namespace relume
