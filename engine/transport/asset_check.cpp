@@ -1,0 +1,132 @@
+#include "engine/transport/asset_check.h"
+
+#include "engine/base/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+void expect(bool holds, const std::string& where, const char* what) {
+    if (!holds) throw Error("{}: expected {}", where, what);
+}
+
+void expectRange(int64_t value, int64_t low, int64_t high, const std::string& where, const char* what) {
+    if (value < low || value > high)
+        throw Error("{}: expected {} of {} to {}, found {}", where, what, low, high, value);
+}
+
+void expectCount(size_t count, size_t expected, const std::string& where, const char* what) {
+    if (count != expected) throw Error("{}: expected {} {}, found {}", where, expected, what, count);
+}
+
+bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool isMagnitude(float value) { return std::isfinite(value) && value >= 0; }
+bool allFinite(const std::vector<vec3>& values) { return std::ranges::all_of(values, isFinite); }
+
+bool isSquare(int value) {
+    const int root = int(std::lround(std::sqrt(double(value))));
+    return root * root == value;
+}
+
+void checkSettings(const Asset& asset, const std::string& name) {
+    expectRange(asset.faceSize, kSmallestFace, kLargestFace, name, "a face size");
+    expectRange(asset.visibilitySize, asset.faceSize, kLargestVisibility, name, "a visibility size");
+    expect(std::has_single_bit(unsigned(asset.faceSize)) &&
+               std::has_single_bit(unsigned(asset.visibilitySize)),
+           name, "face sizes that are powers of two");
+    expectRange(asset.coefficients, 1, 6 * asset.faceSize * asset.faceSize, name, "a number of coefficients");
+    const int perSide = asset.visibilitySize / asset.faceSize;
+    expectRange(asset.transportSamples, 1, perSide * perSide, name, "transport samples");
+    expect(isSquare(asset.transportSamples), name, "a square number of transport samples");
+    expect(isMagnitude(asset.visibilityOffset) && isMagnitude(asset.quantisationError) &&
+               isMagnitude(asset.truncationError),
+           name, "an offset and errors that are finite and not negative");
+}
+
+void checkTriangles(const Mesh& mesh, const std::string& where) {
+    const size_t count = mesh.vertexCount();
+    expect(count <= 0xffffffffu, where, "fewer than 2^32 vertices");
+    expect(allFinite(mesh.positions), where, "finite positions");
+    expect(std::ranges::all_of(mesh.triangles,
+                               [&](uvec3 t) { return t.x < count && t.y < count && t.z < count; }),
+           where, "triangles whose corners are vertices of the mesh");
+}
+
+void checkMesh(const Mesh& mesh, const std::string& where) {
+    expect(!mesh.positions.empty() && !mesh.triangles.empty(), where, "at least one vertex and one triangle");
+    checkTriangles(mesh, where);
+    expectCount(mesh.normals.size(), mesh.vertexCount(), where, "normals");
+    expect(std::ranges::all_of(mesh.normals, [](vec3 n) { return std::abs(glm::dot(n, n) - 1.0f) <= 2e-3f; }),
+           where, "normals of length 1 within 0.001");
+}
+
+void checkBrdf(const FactoredBrdf& brdf, const std::string& where) {
+    expectRange(brdf.terms, 1, kLargestTerms, where, "BRDF terms");
+    expectRange(brdf.size, kSmallestMap, kLargestMap, where, "a map size");
+    expect(brdf.mapping == DiskMapping::Orthographic || brdf.mapping == DiskMapping::Polar, where,
+           "the orthographic or the polar map");
+    const size_t texels = size_t(brdf.terms) * brdf.mapTexels();
+    expectCount(brdf.lightMaps.size(), texels, where, "light map texels");
+    expectCount(brdf.viewMaps.size(), texels, where, "view map texels");
+    expectCount(brdf.eigenvalues.size(), size_t(brdf.terms), where, "eigenvalues");
+    expect(allFinite(brdf.lightMaps) && allFinite(brdf.viewMaps), where, "finite light and view maps");
+    for (const auto& value : brdf.eigenvalues)
+        expect(isFinite({value[0], value[1], value[2]}), where, "finite eigenvalues");
+}
+
+bool isWithinMaxima(uint32_t packed) {
+    // Only the most negative number of a field lies beyond the negated maximum.
+    const ivec3 value = unpackCoefficient(packed);
+    return value.x >= -kRedMaximum && value.y >= -kGreenMaximum && value.z >= -kBlueMaximum;
+}
+
+void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
+                    const std::string& where) {
+    expectCount(transport.rowStarts.size(), transport.rows() + 1, where, "row starts");
+    expectCount(transport.scales.size(), transport.rows(), where, "scales");
+    expectCount(transport.indices.size(), transport.entries(), where, "indices");
+    expect(transport.rowStarts.front() == 0 && transport.rowStarts.back() == transport.entries(), where,
+           "rows that span all entries");
+    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
+           "scales that are finite and not negative");
+    for (size_t row = 0; row < transport.rows(); row++) {
+        const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
+        if (end < start || end - start > longestRow || end > transport.entries())
+            throw Error("{}: row {}: expected at most {} entries, found entries {} to {}", where, row,
+                        longestRow, start, end);
+        uint32_t next = 0;
+        for (uint64_t entry = start; entry < end; entry++) {
+            const uint32_t index = transport.indices[entry];
+            if (index < next || index >= coefficients)
+                throw Error("{}: row {}: expected rising indices below {}, found {}", where, row,
+                            coefficients, index);
+            next = index + 1;
+        }
+    }
+    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
+           "values within ±1023 in red and green and ±511 in blue");
+}
+
+} // namespace
+
+void checkAsset(const Asset& asset, const std::string& name) {
+    checkSettings(asset, name);
+    checkTriangles(asset.occluder, name + ": occluder");
+    expect(!asset.parts.empty(), name, "at least one part");
+    const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
+    for (size_t i = 0; i < asset.parts.size(); i++) {
+        const AssetPart& part = asset.parts[i];
+        const std::string where = fmt::format("{}: part {} (\"{}\")", name, i, part.name);
+        checkMesh(part.mesh, where);
+        checkBrdf(part.brdf, where);
+        expectCount(part.transport.vertices, part.mesh.vertexCount(), where, "vertices with transport");
+        expectCount(part.transport.terms, size_t(part.brdf.terms), where, "transport terms");
+        checkTransport(part.transport, coefficients, uint64_t(asset.coefficients), where);
+    }
+}
+
+} // namespace relume

@@ -1,0 +1,119 @@
+#include "engine/transport/asset_info.h"
+
+#include "engine/transport/asset_meta.h"
+#include "engine/transport/chunk_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t); // an index and a packed value
+
+// JSON where the text is JSON of no great depth, else the text itself: printing recurses.
+Json jsonOrText(const std::string& text) {
+    bool isDeep = false;
+    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
+        isDeep |= size_t(depth) > kLargestMetaDepth;
+        return !isDeep;
+    };
+    Json json = Json::parse(text, bound, false);
+    return isDeep || json.is_discarded() ? Json(text) : json;
+}
+
+double ratio(uint64_t numerator, uint64_t denominator) {
+    return denominator == 0 ? 0.0 : double(numerator) / double(denominator);
+}
+
+Json describePart(const AssetPart& part) {
+    const SparseTransport& transport = part.transport;
+    Json eigenvalues = Json::array();
+    for (const auto& channels : part.brdf.eigenvalues) eigenvalues.push_back(channels);
+    return {{"name", part.name},
+            {"material", jsonOrText(part.material)},
+            {"vertices", part.mesh.vertexCount()},
+            {"triangles", part.mesh.triangleCount()},
+            {"terms", part.brdf.terms},
+            {"mapSize", part.brdf.size},
+            {"mapping", diskMappingName(part.brdf.mapping)},
+            {"eigenvalues", eigenvalues},
+            {"entries", transport.entries()},
+            {"meanEntriesPerRow", ratio(transport.entries(), transport.rows())},
+            {"bytesPerVertex", ratio(transport.entries() * kEntryBytes, transport.vertices)}};
+}
+
+std::string describeSamples(int samples) {
+    switch (samples) {
+    case 1:
+        return "one evaluation per lighting texel, an approximation";
+    case 4:
+        return "four evaluations per lighting texel, one per quadrant, an approximation";
+    default:
+        return fmt::format("{} evaluations per lighting texel", samples);
+    }
+}
+
+Json describeApproximations(const Asset& asset) {
+    const int all = 6 * asset.faceSize * asset.faceSize;
+    Json list = Json::array();
+    list.push_back("transport: " + describeSamples(asset.transportSamples));
+    if (asset.coefficients < all)
+        list.push_back(
+            fmt::format("truncation: the {} largest of {} coefficients of a vertex and term are kept",
+                        asset.coefficients, all));
+    list.push_back("quantisation: 11, 11 and 10 bits for red, green and blue");
+    for (const AssetPart& part : asset.parts)
+        list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}", part.name, part.brdf.terms,
+                                   part.brdf.size, part.brdf.size));
+    if (asset.visibilityOffset > 0)
+        list.push_back(fmt::format("visibility: taken {} above each vertex", asset.visibilityOffset));
+    return list;
+}
+
+Json describeTotal(const Asset& asset) {
+    uint64_t vertices = 0, triangles = 0, rows = 0, entries = 0;
+    for (const AssetPart& part : asset.parts) {
+        vertices += part.mesh.vertexCount();
+        triangles += part.mesh.triangleCount();
+        rows += part.transport.rows();
+        entries += part.transport.entries();
+    }
+    return {{"vertices", vertices},
+            {"triangles", triangles},
+            {"entries", entries},
+            {"meanEntriesPerRow", ratio(entries, rows)},
+            {"bytesPerVertex", ratio(entries * kEntryBytes, vertices)},
+            {"transportBytes", entries * kEntryBytes}};
+}
+
+} // namespace
+
+std::string describeAssetJson(const Asset& asset, uint64_t fileBytes) {
+    Json parts = Json::array();
+    for (const AssetPart& part : asset.parts) parts.push_back(describePart(part));
+    const Json info = {{"formatVersion", kAssetFormatVersion},
+                       {"fileBytes", fileBytes},
+                       {"faceSize", asset.faceSize},
+                       {"visibilitySize", asset.visibilitySize},
+                       {"coefficients", asset.coefficients},
+                       {"transportSamples", asset.transportSamples},
+                       {"visibilityOffset", asset.visibilityOffset},
+                       {"truncationError", asset.truncationError},
+                       {"quantisationError", asset.quantisationError},
+                       {"approximations", describeApproximations(asset)},
+                       {"occluderTriangles", asset.occluder.triangleCount()},
+                       {"total", describeTotal(asset)},
+                       {"parts", parts},
+                       {"provenance",
+                        {{"program", asset.provenance.program},
+                         {"device", asset.provenance.device},
+                         {"options", jsonOrText(asset.provenance.options)},
+                         {"inputs", jsonOrText(asset.provenance.inputs)}}}};
+    return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace relume

@@ -1,0 +1,168 @@
+#include "engine/transport/asset_meta.h"
+
+#include "engine/base/error.h"
+#include "engine/transport/asset_check.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr uint64_t kAnyCount = 0xffffffff;          // of vertices or triangles
+constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // of transport
+
+// A JSON object with a name for errors; reads typed members.
+class Reader {
+  public:
+    Reader(const Json& object, std::string where) : mObject(object), mWhere(std::move(where)) {
+        if (!object.is_object()) throw Error("{}: expected an object, found {}", mWhere, object.type_name());
+    }
+
+    uint64_t whole(const char* key, uint64_t low, uint64_t high) const {
+        const Json& value = member(key);
+        if (!value.is_number_unsigned() || value.get<uint64_t>() < low || value.get<uint64_t>() > high)
+            throw Error("{}: \"{}\": expected a whole number of {} to {}", mWhere, key, low, high);
+        return value.get<uint64_t>();
+    }
+
+    int integer(const char* key, int low, int high) const {
+        return int(whole(key, uint64_t(low), uint64_t(high)));
+    }
+
+    float real(const char* key) const {
+        const Json& value = member(key);
+        if (!value.is_number() ||
+            !(std::abs(value.get<double>()) <= double(std::numeric_limits<float>::max())))
+            throw Error("{}: \"{}\": expected a number", mWhere, key);
+        return value.get<float>();
+    }
+
+    std::string text(const char* key) const {
+        const Json& value = member(key);
+        if (!value.is_string()) throw Error("{}: \"{}\": expected text", mWhere, key);
+        return value.get<std::string>();
+    }
+
+    Reader object(const char* key) const { return {member(key), fmt::format("{}: \"{}\"", mWhere, key)}; }
+
+    const Json& array(const char* key) const {
+        const Json& value = member(key);
+        if (!value.is_array()) throw Error("{}: \"{}\": expected an array", mWhere, key);
+        return value;
+    }
+
+    const std::string& where() const { return mWhere; }
+
+  private:
+    const Json& member(const char* key) const {
+        const auto found = mObject.find(key);
+        if (found == mObject.end()) throw Error("{}: expected a member \"{}\"", mWhere, key);
+        return *found;
+    }
+
+    const Json& mObject;
+    std::string mWhere;
+};
+
+Json partJson(const AssetPart& part) {
+    return {{"name", part.name},
+            {"material", part.material},
+            {"vertices", part.mesh.vertexCount()},
+            {"triangles", part.mesh.triangleCount()},
+            {"terms", part.brdf.terms},
+            {"mapSize", part.brdf.size},
+            {"mapping", diskMappingName(part.brdf.mapping)},
+            {"entries", part.transport.entries()}};
+}
+
+void readPart(const Reader& in, AssetMeta& meta) {
+    AssetPart part;
+    AssetPartSizes sizes;
+    part.name = in.text("name");
+    part.material = in.text("material");
+    sizes.vertices = in.whole("vertices", 1, kAnyCount);
+    sizes.triangles = in.whole("triangles", 1, kAnyCount);
+    sizes.entries = in.whole("entries", 0, kAnyEntries);
+    part.brdf.terms = in.integer("terms", 1, kLargestTerms);
+    part.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
+    const std::string mapping = in.text("mapping");
+    if (!diskMappingFromName(mapping)) throw Error("{}: \"mapping\": \"{}\" is unknown", in.where(), mapping);
+    part.brdf.mapping = *diskMappingFromName(mapping);
+    part.transport.vertices = uint32_t(sizes.vertices);
+    part.transport.terms = uint32_t(part.brdf.terms);
+    meta.asset.parts.push_back(std::move(part));
+    meta.sizes.push_back(sizes);
+}
+
+Json parseBounded(std::string_view text, const std::string& where) {
+    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
+        if (size_t(depth) > kLargestMetaDepth) throw Error("{}: nested too deep", where);
+        return true;
+    };
+    try {
+        return Json::parse(text.begin(), text.end(), bound);
+    } catch (const Json::exception& failure) {
+        throw Error("{}: is not JSON: {}", where, failure.what());
+    }
+}
+
+} // namespace
+
+std::string encodeMeta(const Asset& asset) {
+    Json parts = Json::array();
+    for (const AssetPart& part : asset.parts) parts.push_back(partJson(part));
+    const Json meta = {
+        {"faceSize", asset.faceSize},
+        {"visibilitySize", asset.visibilitySize},
+        {"coefficients", asset.coefficients},
+        {"transportSamples", asset.transportSamples},
+        {"visibilityOffset", asset.visibilityOffset},
+        {"quantisationError", asset.quantisationError},
+        {"truncationError", asset.truncationError},
+        {"occluder",
+         {{"vertices", asset.occluder.vertexCount()}, {"triangles", asset.occluder.triangleCount()}}},
+        {"parts", parts},
+        {"provenance",
+         {{"program", asset.provenance.program},
+          {"device", asset.provenance.device},
+          {"options", asset.provenance.options},
+          {"inputs", asset.provenance.inputs}}}};
+    std::string text = meta.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (text.size() > kLargestMeta)
+        throw Error(
+            "names, materials and provenance take {} bytes, more than the {} that a bake can hold; use "
+            "fewer or shorter ones",
+            text.size(), kLargestMeta);
+    return text;
+}
+
+AssetMeta decodeMeta(std::string_view text, const std::string& name) {
+    const std::string where = name + ": chunk META";
+    const Json json = parseBounded(text, where);
+    const Reader in(json, where);
+    AssetMeta meta;
+    meta.asset.faceSize = in.integer("faceSize", kSmallestFace, kLargestFace);
+    meta.asset.visibilitySize = in.integer("visibilitySize", kSmallestFace, kLargestVisibility);
+    meta.asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
+    meta.asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
+    meta.asset.visibilityOffset = in.real("visibilityOffset");
+    meta.asset.quantisationError = in.real("quantisationError");
+    meta.asset.truncationError = in.real("truncationError");
+    const Reader occluder = in.object("occluder");
+    meta.occluderVertices = occluder.whole("vertices", 0, kAnyCount);
+    meta.occluderTriangles = occluder.whole("triangles", 0, kAnyCount);
+    const Json& parts = in.array("parts");
+    for (size_t i = 0; i < parts.size(); i++)
+        readPart({parts[i], fmt::format("{}: part {}", where, i)}, meta);
+    const Reader provenance = in.object("provenance");
+    meta.asset.provenance = {provenance.text("program"), provenance.text("device"),
+                             provenance.text("options"), provenance.text("inputs")};
+    return meta;
+}
+
+} // namespace relume

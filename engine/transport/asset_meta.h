@@ -1,0 +1,34 @@
+// The META chunk of a .relume file: everything about an asset that is not an array, as JSON.
+#pragma once
+
+#include "engine/transport/asset.h"
+
+#include <string_view>
+
+namespace relume {
+
+// Limits that keep a hostile META chunk from standing for much memory.
+constexpr size_t kLargestMeta = size_t(1) << 20; // bytes
+constexpr size_t kLargestMetaDepth = 8;          // nested arrays and objects
+
+// How long a part's arrays are.
+struct AssetPartSizes {
+    uint64_t vertices = 0, triangles = 0, entries = 0;
+};
+
+// An asset whose arrays are still empty, and how long they are. Map sizes, terms and the transport's number
+// of vertices are set in the asset.
+struct AssetMeta {
+    Asset asset;
+    uint64_t occluderVertices = 0, occluderTriangles = 0;
+    std::vector<AssetPartSizes> sizes; // one per part
+};
+
+// Bytes that are not UTF-8 become U+FFFD. Throws Error when the text passes kLargestMeta.
+std::string encodeMeta(const Asset& asset);
+
+// Throws Error for anything that is not such JSON, or with numbers that do not fit their fields; whether
+// they make sense together is for checkAsset to say. `name` stands for the file in errors.
+AssetMeta decodeMeta(std::string_view text, const std::string& name);
+
+} // namespace relume

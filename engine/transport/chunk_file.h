@@ -1,0 +1,85 @@
+// The container of a .relume file: a checked header, a table, and compressed chunks of bytes.
+// docs/asset_format.md describes every byte.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace relume {
+
+constexpr uint32_t kAssetFormatVersion = 1;
+
+// Four letters. A reader that does not know a tag refuses the file if the first letter is a capital, and
+// skips the chunk otherwise.
+using ChunkTag = std::array<char, 4>;
+constexpr ChunkTag chunkTag(const char (&text)[5]) { return {text[0], text[1], text[2], text[3]}; }
+constexpr bool isRequired(ChunkTag tag) { return tag[0] >= 'A' && tag[0] <= 'Z'; }
+std::string tagText(ChunkTag tag); // for messages: anything but letters and digits becomes '?'
+
+// Part of chunks that belong to the file as a whole.
+constexpr uint32_t kWholeFile = 0xffffffff;
+
+// Limits that bound what a reader must hold, and what a small file can make it allocate.
+constexpr size_t kLargestChunk = size_t(8) << 20; // bytes before compression
+constexpr uint64_t kLargestRatio = 1024;          // raw size ≤ kLargestRatio · stored size + kRatioSlack
+constexpr uint64_t kRatioSlack = 65536;
+
+// A line of the table. A long array is cut into chunks of the same tag and part: run 0, 1, 2, ….
+struct ChunkEntry {
+    ChunkTag tag{};
+    uint32_t part = kWholeFile;
+    uint32_t run = 0;
+    uint64_t offset = 0; // from the start of the file
+    uint64_t storedSize = 0;
+    uint64_t rawSize = 0; // equal to storedSize: stored plainly; else one zstd frame
+    uint64_t checksum = 0;
+};
+
+// Collects chunks, compressing each as it comes, and gives the bytes of the file.
+class ChunkWriter {
+  public:
+    // 1 to kLargestChunk bytes.
+    void add(ChunkTag tag, uint32_t part, uint32_t run, std::span<const std::byte> raw);
+
+    std::vector<std::byte> finish();
+
+  private:
+    std::vector<ChunkEntry> mEntries;
+    std::vector<std::byte> mData;
+};
+
+// A checked view of a file's bytes, which must outlive it.
+class ChunkFile {
+  public:
+    // Verifies everything but the chunks' contents: magic, version, every checksum, sizes, limits, order of
+    // runs. `name` stands for the file in errors. Throws Error.
+    ChunkFile(std::span<const std::byte> bytes, std::string name);
+
+    // In file order.
+    const std::vector<ChunkEntry>& entries() const { return mEntries; }
+
+    // The runs of an array, in order; none for an empty one.
+    std::vector<ChunkEntry> find(ChunkTag tag, uint32_t part) const;
+
+    // A chunk's bytes, decompressed. Throws Error.
+    std::vector<std::byte> load(const ChunkEntry& entry) const;
+
+    const std::string& name() const { return mName; }
+
+  private:
+    void readTable();
+    void checkEntry(const ChunkEntry& entry, uint64_t expectedOffset) const;
+
+    std::span<const std::byte> mBytes;
+    std::string mName;
+    std::vector<ChunkEntry> mEntries;
+    std::map<std::tuple<ChunkTag, uint32_t, uint32_t>, size_t> mIndex; // (tag, part, run)
+};
+
+} // namespace relume

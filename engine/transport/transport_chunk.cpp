@@ -1,0 +1,119 @@
+#include "engine/transport/transport_chunk.h"
+
+#include "engine/base/check.h"
+#include "engine/transport/byte_stream.h"
+
+#include <bit>
+
+namespace relume {
+
+namespace {
+
+// The low `bits` bits of a number as a signed number, and its zigzag form: 0, -1, 1, -2, … become 0, 1, 2, 3,
+// ….
+int32_t signExtend(uint32_t value, int bits) { return int32_t(value << (32 - bits)) >> (32 - bits); }
+uint32_t zigzag(int32_t value) { return uint32_t(value) << 1 ^ uint32_t(value >> 31); }
+int32_t unzigzag(uint32_t value) { return int32_t(value >> 1) ^ -int32_t(value & 1); }
+
+} // namespace
+
+uint32_t decorrelate(uint32_t packed) {
+    const ivec3 value = unpackCoefficient(packed);
+    const uint32_t green = zigzag(value.y);
+    const uint32_t red = zigzag(signExtend(uint32_t(value.x - value.y), 11));
+    const uint32_t blue = zigzag(signExtend(uint32_t(value.z - (value.y >> 1)), 10));
+    return (green & 255) | (red & 255) << 8 | (blue & 255) << 16 | (green >> 8) << 24 | (red >> 8) << 27 |
+           (blue >> 8) << 30;
+}
+
+uint32_t correlate(uint32_t stored) {
+    const int32_t green = unzigzag((stored & 255) | (stored >> 24 & 7) << 8);
+    const int32_t red = unzigzag((stored >> 8 & 255) | (stored >> 27 & 7) << 8);
+    const int32_t blue = unzigzag((stored >> 16 & 255) | (stored >> 30 & 3) << 8);
+    return packCoefficient({red + green, green, blue + (green >> 1)});
+}
+
+VertexRun nextRun(const SparseTransport& transport, uint32_t first) {
+    const size_t terms = transport.terms;
+    const uint64_t start = transport.rowStarts[first * terms];
+    uint32_t end = first;
+    while (end < transport.vertices && (end + 1 - first) * terms <= kRunRows &&
+           transport.rowStarts[(end + 1) * terms] - start <= kRunEntries)
+        end++;
+    RELUME_CHECK_LT(first, end);
+    return {first, end};
+}
+
+std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run) {
+    const size_t firstRow = size_t(run.first) * transport.terms, endRow = size_t(run.end) * transport.terms;
+    const uint64_t start = transport.rowStarts[firstRow], end = transport.rowStarts[endRow];
+    std::vector<uint16_t> lengths, gaps(end - start);
+    std::vector<uint32_t> scales, values(end - start);
+    for (size_t row = firstRow; row < endRow; row++) {
+        lengths.push_back(uint16_t(transport.rowStarts[row + 1] - transport.rowStarts[row]));
+        scales.push_back(std::bit_cast<uint32_t>(transport.scales[row]));
+        uint32_t next = 0; // the smallest index that may come
+        for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++) {
+            gaps[entry - start] = uint16_t(transport.indices[entry] - next);
+            next = transport.indices[entry] + 1u;
+        }
+    }
+    for (size_t i = 0; i < values.size(); i++) values[i] = decorrelate(transport.values[start + i]);
+    ByteWriter out;
+    out.put(run.first);
+    out.put(run.end - run.first);
+    out.put(uint32_t(end - start));
+    out.putPlanes<uint16_t>(lengths);
+    out.putPlanes<uint32_t>(scales);
+    out.putPlanes<uint16_t>(gaps);
+    out.putPlanes<uint32_t>(values);
+    return out.take();
+}
+
+namespace {
+
+// Appends one row's indices from the gaps between them.
+void decodeRow(std::span<const uint16_t> gaps, uint32_t coefficients, const std::string& where,
+               std::vector<uint16_t>& indices) {
+    uint32_t next = 0;
+    for (uint16_t gap : gaps) {
+        const uint32_t index = next + gap;
+        if (index >= coefficients)
+            throw Error("{}: expected indices below {}, found {}", where, coefficients, index);
+        indices.push_back(uint16_t(index));
+        next = index + 1;
+    }
+}
+
+} // namespace
+
+void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
+               const std::string& where, SparseTransport& transport) {
+    ByteReader in(raw, where);
+    const auto first = in.get<uint32_t>(), count = in.get<uint32_t>(), entries = in.get<uint32_t>();
+    const size_t rowsRead = transport.rowStarts.size() - 1;
+    const size_t rows = size_t(count) * transport.terms;
+    if (size_t(first) * transport.terms != rowsRead || rows > transport.rows() - rowsRead)
+        throw Error("{}: its {} vertices from {} on do not follow those before it", where, count, first);
+    if (entries > entryLimit - transport.entries() ||
+        in.left() != rows * kRunRowBytes + size_t(entries) * kRunEntryBytes)
+        throw Error("{}: {} bytes do not hold {} rows and {} entries", where, raw.size(), rows, entries);
+
+    const auto lengths = in.getPlanes<uint16_t>(rows);
+    const auto scales = in.getPlanes<uint32_t>(rows);
+    const auto gaps = in.getPlanes<uint16_t>(entries);
+    const auto values = in.getPlanes<uint32_t>(entries);
+    size_t read = 0;
+    for (size_t row = 0; row < rows; row++) {
+        if (lengths[row] > entries - read)
+            throw Error("{}: rows are longer than the {} entries", where, entries);
+        decodeRow(std::span(gaps).subspan(read, lengths[row]), coefficients, where, transport.indices);
+        read += lengths[row];
+        transport.rowStarts.push_back(transport.indices.size());
+        transport.scales.push_back(std::bit_cast<float>(scales[row]));
+    }
+    if (read != entries) throw Error("{}: rows hold {} of {} entries", where, read, entries);
+    for (uint32_t value : values) transport.values.push_back(correlate(value));
+}
+
+} // namespace relume

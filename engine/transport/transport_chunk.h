@@ -1,0 +1,44 @@
+// Runs of transport rows as bytes that compress well: the TRAN chunks of docs/asset_format.md.
+#pragma once
+
+#include "engine/transport/sparse_transport.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace relume {
+
+// A run ends before the vertex that would take it past either limit; one vertex, at most 32 rows of
+// 24,576 entries, always fits.
+constexpr size_t kRunEntries = size_t(1) << 20;
+constexpr size_t kRunRows = size_t(1) << 18;
+
+// Bytes of a run before compression.
+constexpr size_t kRunHeaderBytes = 12, kRunRowBytes = 6, kRunEntryBytes = 6;
+
+// Vertices [first, end).
+struct VertexRun {
+    uint32_t first, end;
+};
+
+// The longest run from `first` on.
+VertexRun nextRun(const SparseTransport& transport, uint32_t first);
+
+// Wants valid rows: checkAsset comes first.
+std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run);
+
+// Appends a run to `transport`, whose vertices and terms are set; rowStarts holds one more than the rows read
+// so far. Entries must have indices below `coefficients`, and must not pass `entryLimit` in all. `where`
+// names the chunk in errors. Throws Error.
+void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
+               const std::string& where, SparseTransport& transport);
+
+// Bijections between a packed 11/11/10 word and the word that is stored: byte 0 holds green's low bits, byte
+// 1 those of red - green, byte 2 those of blue - green / 2, byte 3 the high bits (3, 3, 2), each number
+// zigzagged so that small ones of either sign have few bits. A grey material's bytes 1 and 2 are nearly all
+// zero.
+uint32_t decorrelate(uint32_t packed);
+uint32_t correlate(uint32_t stored);
+
+} // namespace relume

@@ -1,0 +1,128 @@
+// A small valid asset, and files of one with changed chunks but right checksums.
+#pragma once
+
+#include "engine/base/hash.h"
+#include "engine/transport/asset.h"
+#include "engine/transport/byte_stream.h"
+#include "engine/transport/chunk_file.h"
+
+#include <algorithm>
+#include <random>
+
+namespace relume::test {
+
+// `perRow` entries at most, at random places; some rows are empty.
+inline SparseTransport sampleTransport(uint32_t vertices, uint32_t terms, int faceSize, int perRow,
+                                       std::mt19937& random) {
+    SparseTransport transport;
+    transport.vertices = vertices;
+    transport.terms = terms;
+    transport.rowStarts.push_back(0);
+    std::geometric_distribution<int> gap(double(perRow) / double(6 * faceSize * faceSize));
+    std::normal_distribution<float> gauss(0, 0.2f);
+    for (size_t row = 0; row < transport.rows(); row++) {
+        const int length = row % 7 == 3 ? 0 : perRow;
+        int index = gap(random);
+        for (int i = 0; i < length && index < 6 * faceSize * faceSize; i++, index += 1 + gap(random)) {
+            const float grey = gauss(random);
+            const vec3 value =
+                glm::clamp(vec3(grey, 0.8f * grey, 0.5f * grey + 0.02f * gauss(random)), -1.0f, 1.0f);
+            transport.indices.push_back(uint16_t(index));
+            transport.values.push_back(packCoefficient(quantiseCoefficient(value, 1)));
+        }
+        transport.scales.push_back(length == 0 ? 0.0f : std::abs(gauss(random)));
+        transport.rowStarts.push_back(transport.values.size());
+    }
+    return transport;
+}
+
+inline AssetPart samplePart(uint32_t vertices, int terms, int faceSize, int perRow, std::mt19937& random) {
+    std::normal_distribution<float> gauss;
+    const auto point = [&] { return vec3(gauss(random), gauss(random), gauss(random)); };
+    AssetPart part;
+    part.name = "sample";
+    part.material = R"({"model":"lambert","albedo":[0.5,0.25,0.125]})";
+    for (uint32_t i = 0; i < vertices; i++) {
+        part.mesh.positions.push_back(point());
+        part.mesh.normals.push_back(glm::normalize(point()));
+        part.mesh.triangles.push_back({i, (i + 1) % vertices, uint32_t(random()) % vertices});
+    }
+    part.brdf.size = 4;
+    part.brdf.terms = terms;
+    part.brdf.mapping = DiskMapping::Polar;
+    for (size_t i = 0; i < size_t(terms) * part.brdf.mapTexels(); i++) {
+        part.brdf.lightMaps.push_back(point());
+        part.brdf.viewMaps.push_back(point());
+    }
+    for (int i = 0; i < terms; i++)
+        part.brdf.eigenvalues.push_back({gauss(random), -1.0f / float(i + 1), 0.0f});
+    part.transport = sampleTransport(vertices, uint32_t(terms), faceSize, perRow, random);
+    return part;
+}
+
+inline Asset sampleAsset(uint32_t seed = 1) {
+    std::mt19937 random(seed);
+    Asset asset;
+    asset.faceSize = 8;
+    asset.visibilitySize = 32;
+    asset.coefficients = 24;
+    asset.transportSamples = 4;
+    asset.visibilityOffset = 0.1f;
+    asset.truncationError = 0.21f;
+    asset.quantisationError = 1e-3f;
+    asset.parts.push_back(samplePart(19, 3, asset.faceSize, asset.coefficients, random));
+    asset.parts.push_back(samplePart(11, 1, asset.faceSize, asset.coefficients, random));
+    asset.parts[1].name = "ground \xc3\xa9\"\n";
+    asset.occluder.positions = asset.parts[0].mesh.positions;
+    asset.occluder.triangles = asset.parts[0].mesh.triangles;
+    asset.provenance = {"relume 0.1.0", "a device", R"({"terms":3})",
+                        R"([{"name":"a","file":"b","hash":"c"}])"};
+    return asset;
+}
+
+// A chunk out of a file, with its content before compression.
+struct RawChunk {
+    ChunkTag tag;
+    uint32_t part, run;
+    std::vector<std::byte> raw;
+};
+
+inline std::vector<RawChunk> chunksOf(std::span<const std::byte> bytes) {
+    const ChunkFile file(bytes, "sample");
+    std::vector<RawChunk> chunks;
+    for (const ChunkEntry& entry : file.entries())
+        chunks.push_back({entry.tag, entry.part, entry.run, file.load(entry)});
+    return chunks;
+}
+
+// A file of these chunks, with right checksums.
+inline std::vector<std::byte> fileOf(const std::vector<RawChunk>& chunks) {
+    ChunkWriter writer;
+    for (const RawChunk& chunk : chunks) writer.add(chunk.tag, chunk.part, chunk.run, chunk.raw);
+    return writer.finish();
+}
+
+// Writes a little-endian number into bytes that may be too short for it.
+inline void poke(std::span<std::byte> bytes, size_t offset, uint64_t value, size_t size) {
+    for (size_t i = 0; i < size && offset + i < bytes.size(); i++)
+        bytes[offset + i] = std::byte(value >> 8 * i);
+}
+
+// Makes every checksum right that a file's table still lets one find, whatever else is wrong with it.
+inline void reseal(std::vector<std::byte>& bytes) {
+    if (bytes.size() < 32) return;
+    const uint32_t named = ByteReader(std::span(bytes).subspan(12), "").get<uint32_t>();
+    const size_t count = std::min<size_t>(named, (bytes.size() - 32) / 48);
+    for (size_t i = 0; i < count; i++) {
+        const size_t entry = 32 + 48 * i;
+        ByteReader in{std::span(bytes).subspan(entry + 16), ""};
+        const auto offset = in.get<uint64_t>(), stored = in.get<uint64_t>();
+        if (offset > bytes.size() || stored > bytes.size() - offset) continue;
+        poke(bytes, entry + 40, hash64(std::span(bytes).subspan(offset, stored)), 8);
+    }
+    std::vector<std::byte> head(bytes.begin(), bytes.begin() + 24);
+    head.insert(head.end(), bytes.begin() + 32, bytes.begin() + ptrdiff_t(32 + 48 * count));
+    poke(bytes, 24, hash64(head), 8);
+}
+
+} // namespace relume::test

@@ -1,0 +1,419 @@
+// The .relume file: what goes in comes out, and nothing else is believed.
+#include "engine/transport/asset_info.h"
+#include "engine/transport/transport_chunk.h"
+#include "tests/support/asset_sample.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+void checkSameMesh(const Mesh& a, const Mesh& b) {
+    CHECK(a.positions == b.positions);
+    CHECK(a.normals == b.normals);
+    CHECK(a.triangles == b.triangles);
+}
+
+void checkSamePart(const AssetPart& a, const AssetPart& b) {
+    CHECK(a.name == b.name);
+    CHECK(a.material == b.material);
+    checkSameMesh(a.mesh, b.mesh);
+    CHECK(a.brdf.size == b.brdf.size);
+    CHECK(a.brdf.terms == b.brdf.terms);
+    CHECK(a.brdf.mapping == b.brdf.mapping);
+    CHECK(a.brdf.lightMaps == b.brdf.lightMaps);
+    CHECK(a.brdf.viewMaps == b.brdf.viewMaps);
+    CHECK(a.brdf.eigenvalues == b.brdf.eigenvalues);
+    CHECK(a.transport.vertices == b.transport.vertices);
+    CHECK(a.transport.terms == b.transport.terms);
+    CHECK(a.transport.rowStarts == b.transport.rowStarts);
+    CHECK(a.transport.scales == b.transport.scales);
+    CHECK(a.transport.indices == b.transport.indices);
+    CHECK(a.transport.values == b.transport.values);
+}
+
+void checkSame(const Asset& a, const Asset& b) {
+    CHECK(a.faceSize == b.faceSize);
+    CHECK(a.visibilitySize == b.visibilitySize);
+    CHECK(a.coefficients == b.coefficients);
+    CHECK(a.transportSamples == b.transportSamples);
+    CHECK(a.visibilityOffset == b.visibilityOffset);
+    CHECK(a.quantisationError == b.quantisationError);
+    CHECK(a.truncationError == b.truncationError);
+    checkSameMesh(a.occluder, b.occluder);
+    CHECK(a.provenance.program == b.provenance.program);
+    CHECK(a.provenance.device == b.provenance.device);
+    CHECK(a.provenance.options == b.provenance.options);
+    CHECK(a.provenance.inputs == b.provenance.inputs);
+    REQUIRE(a.parts.size() == b.parts.size());
+    for (size_t i = 0; i < a.parts.size(); i++) checkSamePart(a.parts[i], b.parts[i]);
+}
+
+// True if the file is read or refused with an Error; anything else fails the test or ends the program.
+bool isRefused(std::span<const std::byte> file) {
+    try {
+        decodeAsset(file, "file");
+        return false;
+    } catch (const Error&) {
+        return true;
+    }
+}
+
+RawChunk& chunk(std::vector<RawChunk>& chunks, const char (&tag)[5], uint32_t part) {
+    for (RawChunk& candidate : chunks)
+        if (candidate.tag == chunkTag(tag) && candidate.part == part) return candidate;
+    throw std::logic_error("no such chunk");
+}
+
+// The sample with one chunk's content changed, all checksums right.
+std::vector<std::byte> withChunk(const char (&tag)[5], uint32_t part,
+                                 const std::function<void(std::vector<std::byte>&)>& change) {
+    std::vector<RawChunk> chunks = chunksOf(encodeAsset(sampleAsset()));
+    change(chunk(chunks, tag, part).raw);
+    return fileOf(chunks);
+}
+
+// The sample with one piece of the text of META replaced.
+std::vector<std::byte> withMeta(const std::string& from, const std::string& to) {
+    return withChunk("META", kWholeFile, [&](std::vector<std::byte>& raw) {
+        std::string text(reinterpret_cast<const char*>(raw.data()), raw.size());
+        REQUIRE(text.find(from) != std::string::npos);
+        text.replace(text.find(from), from.size(), to);
+        const auto bytes = std::as_bytes(std::span(text));
+        raw.assign(bytes.begin(), bytes.end());
+    });
+}
+
+} // namespace
+
+TEST_CASE("asset file: what is written is read, bit by bit, and written again the same") {
+    const Asset asset = sampleAsset();
+    const std::vector<std::byte> bytes = encodeAsset(asset);
+    const Asset read = decodeAsset(bytes, "sample");
+    checkSame(asset, read);
+    CHECK(encodeAsset(asset) == bytes);
+    CHECK(encodeAsset(read) == bytes);
+}
+
+TEST_CASE("asset file: on disk, and errors name the file") {
+    const auto path =
+        std::filesystem::temp_directory_path() / fmt::format("asset_file_test_{}.relume", getpid());
+    writeAsset(path, sampleAsset());
+    checkSame(readAsset(path), sampleAsset());
+    std::filesystem::resize_file(path, 1000);
+    CHECK_THROWS_WITH_AS(readAsset(path), doctest::Contains(path.c_str()), Error);
+    std::filesystem::remove(path);
+    CHECK_THROWS_AS(readAsset(path), Error);
+}
+
+TEST_CASE("asset file: long transport is cut into bounded runs, and monotonous ones are stored plainly") {
+    std::mt19937 random(3);
+    Asset asset = sampleAsset();
+    asset.faceSize = 64;
+    asset.visibilitySize = 64;
+    asset.transportSamples = 1;
+    AssetPart& part = asset.parts[0];
+    part = samplePart(70000, 4, asset.faceSize, 5, random);
+    // One long row of everything, then nothing for a while: 2^16 empty rows weigh too little to be
+    // compressed.
+    const std::vector<std::byte> bytes = encodeAsset(asset);
+    const ChunkFile file(bytes, "file");
+    const auto runs = file.find(chunkTag("TRAN"), 0);
+    CHECK(runs.size() == 2);
+    for (const ChunkEntry& entry : file.entries()) CHECK(entry.rawSize <= kLargestChunk);
+    checkSame(decodeAsset(bytes, "file"), asset);
+
+    // Nothing but empty rows: zstd would shrink them past what a reader believes.
+    part.transport.indices.clear();
+    part.transport.values.clear();
+    std::ranges::fill(part.transport.rowStarts, 0);
+    std::ranges::fill(part.transport.scales, 0.0f);
+    const std::vector<std::byte> empty = encodeAsset(asset);
+    const ChunkEntry first = ChunkFile(empty, "file").find(chunkTag("TRAN"), 0)[0];
+    CHECK(first.storedSize == first.rawSize);
+    checkSame(decodeAsset(empty, "file"), asset);
+}
+
+TEST_CASE("asset file: a vertex of the most terms and coefficients is one run") {
+    std::mt19937 random(4);
+    Asset asset = sampleAsset();
+    asset.faceSize = 64;
+    asset.visibilitySize = 64;
+    asset.transportSamples = 1;
+    asset.coefficients = 6 * 64 * 64;
+    asset.parts[0] = samplePart(2, 32, 64, 1, random);
+    SparseTransport& transport = asset.parts[0].transport;
+    transport.indices.clear();
+    for (size_t row = 0; row < transport.rows(); row++)
+        for (int i = 0; i < asset.coefficients; i++) transport.indices.push_back(uint16_t(i));
+    for (size_t row = 0; row <= transport.rows(); row++)
+        transport.rowStarts[row] = row * uint64_t(asset.coefficients);
+    transport.values.assign(transport.indices.size(), packCoefficient({-1023, 1023, -511}));
+    const std::vector<std::byte> bytes = encodeAsset(asset);
+    CHECK(ChunkFile(bytes, "file").find(chunkTag("TRAN"), 0).size() == 2);
+    checkSame(decodeAsset(bytes, "file"), asset);
+}
+
+TEST_CASE("asset file: stored coefficients stand one to one for packed ones, grey ones have few bits") {
+    std::mt19937 random(5);
+    for (int i = 0; i < 100000; i++) {
+        const uint32_t word = uint32_t(random());
+        REQUIRE(correlate(decorrelate(word)) == word);
+        REQUIRE(decorrelate(correlate(word)) == word);
+    }
+    for (int green = -1023; green <= 1023; green++)
+        CHECK((decorrelate(packCoefficient({green, green, green >> 1})) & 0xf8ffff00u) == 0);
+}
+
+TEST_CASE("asset file: cut at any length, it is refused") {
+    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    for (size_t length = 0; length < bytes.size(); length++)
+        REQUIRE(isRefused(std::span(bytes).first(length)));
+    // The same with a header that agrees.
+    for (size_t length = 32; length < bytes.size(); length += 7) {
+        std::vector<std::byte> cut(bytes.begin(), bytes.begin() + ptrdiff_t(length));
+        poke(cut, 16, length, 8);
+        reseal(cut);
+        REQUIRE(isRefused(cut));
+    }
+    std::vector<std::byte> longer = bytes;
+    longer.push_back(std::byte(0));
+    CHECK(isRefused(longer));
+    poke(longer, 16, longer.size(), 8);
+    reseal(longer);
+    CHECK(isRefused(longer));
+}
+
+TEST_CASE("asset file: with any bit flipped, it is refused") {
+    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    std::mt19937 random(6);
+    for (int i = 0; i < 1000; i++) {
+        std::vector<std::byte> flipped = bytes;
+        // The first two hundred strike the header and the table.
+        flipped[random() % (i < 200 ? 400 : bytes.size())] ^= std::byte(1 << random() % 8);
+        REQUIRE(isRefused(flipped));
+    }
+}
+
+TEST_CASE("asset file: damage under right checksums is refused or harmless") {
+    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    const std::vector<RawChunk> chunks = chunksOf(bytes);
+    std::mt19937 random(7);
+    int refused = 0;
+    for (int i = 0; i < 1000; i++) {
+        std::vector<std::byte> stored = bytes;
+        stored[random() % (i < 200 ? 400 : bytes.size())] ^= std::byte(1 << random() % 8);
+        reseal(stored);
+        refused += isRefused(stored);
+        std::vector<RawChunk> raw = chunks;
+        std::vector<std::byte>& content = raw[random() % raw.size()].raw;
+        content[random() % content.size()] ^= std::byte(1 << random() % 8);
+        refused += isRefused(fileOf(raw));
+    }
+    CHECK(refused > 500);
+    CHECK(refused < 2000);
+}
+
+TEST_CASE("asset file: foreign and later files are refused by name") {
+    std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    CHECK_THROWS_WITH_AS(decodeAsset({}, "empty"), doctest::Contains("not a .relume file"), Error);
+    std::vector<std::byte> later = bytes;
+    poke(later, 8, kAssetFormatVersion + 1, 4);
+    CHECK_THROWS_WITH_AS(decodeAsset(later, "later"), doctest::Contains("format version 2"), Error);
+    // A transfer in text mode turns \r\n into \n.
+    bytes.erase(bytes.begin() + 6);
+    CHECK_THROWS_WITH_AS(decodeAsset(bytes, "text"), doctest::Contains("not a .relume file"), Error);
+}
+
+TEST_CASE("asset file: unknown chunks are skipped if optional, refused if required") {
+    const std::vector<std::byte> content(100, std::byte(7));
+    std::vector<RawChunk> chunks = chunksOf(encodeAsset(sampleAsset()));
+    chunks.push_back({chunkTag("xNEW"), 0, 0, content});
+    checkSame(decodeAsset(fileOf(chunks), "file"), sampleAsset());
+    chunks.back().tag = chunkTag("XNEW");
+    CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("chunk XNEW of part 0"),
+                         Error);
+    chunks.back() = {chunkTag("MPOS"), 2, 0, content};
+    CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("the file has 2 parts"),
+                         Error);
+    chunks.back() = {chunkTag("MPOS"), 1, 0, content};
+    CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("appears twice"), Error);
+    chunks.back() = {chunkTag("MPOS"), 1, 2, content};
+    CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("run 1 is missing"), Error);
+}
+
+TEST_CASE("asset file: every required chunk is missed") {
+    const std::vector<RawChunk> chunks = chunksOf(encodeAsset(sampleAsset()));
+    for (size_t i = 0; i < chunks.size(); i++) {
+        std::vector<RawChunk> fewer = chunks;
+        fewer.erase(fewer.begin() + ptrdiff_t(i));
+        CHECK(isRefused(fileOf(fewer)));
+    }
+}
+
+TEST_CASE("asset file: a table cannot promise what the file does not hold") {
+    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    const auto refusal = [&](size_t offset, uint64_t value, size_t size) {
+        std::vector<std::byte> changed = bytes;
+        poke(changed, offset, value, size);
+        reseal(changed);
+        try {
+            decodeAsset(changed, "file");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const uint64_t huge = uint64_t(1) << 62;
+    CHECK(refusal(12, 0xffffffff, 4).find("more than its") != std::string::npos);   // chunk count
+    CHECK(refusal(32 + 16, huge, 8).find("expected at byte") != std::string::npos); // offset
+    CHECK(refusal(32 + 24, huge, 8).find("do not fit") != std::string::npos);       // stored size
+    CHECK(refusal(32 + 32, huge, 8).find("cannot stand for") != std::string::npos); // raw size
+    CHECK(refusal(32 + 32, kLargestChunk + 1, 8).find("cannot stand for") != std::string::npos); // raw size
+    CHECK(refusal(32 + 32, 60000, 8).find("not a zstd frame of 60000") != std::string::npos);    // raw size
+    // A second chunk that lies on the first.
+    CHECK(refusal(32 + 48 + 16, ByteReader(std::span(bytes).subspan(32 + 16), "").get<uint64_t>(), 8)
+              .find("expected at byte") != std::string::npos);
+}
+
+TEST_CASE("asset file: absurd settings and counts are refused") {
+    const auto refuses = [](const char* from, const char* to) { CHECK(isRefused(withMeta(from, to))); };
+    CHECK(!isRefused(withMeta("\"faceSize\":8", "\"faceSize\":8")));
+    for (const char* size :
+         {"0", "-8", "7", "12", "128", "8.5", "1e300", "99999999999999999999", "\"8\"", "null", "[8]"})
+        refuses("\"faceSize\":8", fmt::format("\"faceSize\":{}", size).c_str());
+    refuses("\"faceSize\":8,", "");
+    refuses("\"visibilitySize\":32", "\"visibilitySize\":2048");
+    refuses("\"visibilitySize\":32", "\"visibilitySize\":40");
+    refuses("\"transportSamples\":4", "\"transportSamples\":3");
+    refuses("\"transportSamples\":4", "\"transportSamples\":25");
+    refuses("\"coefficients\":24", "\"coefficients\":23");
+    refuses("\"coefficients\":24", "\"coefficients\":385");
+    refuses("\"truncationError\":0", "\"truncationError\":-0");
+    refuses("\"truncationError\":0", "\"truncationError\":1e99");
+    for (const char* count : {"0", "18", "20", "4294967295", "4294967296", "18446744073709551615"})
+        refuses("\"vertices\":19,\"triangles\":19,\"terms\"",
+                fmt::format("\"vertices\":{},\"triangles\":19,\"terms\"", count).c_str());
+    for (const char* count : {"0", "2", "4", "32", "33"})
+        refuses("\"terms\":3,", fmt::format("\"terms\":{},", count).c_str());
+    for (const char* size : {"3", "5", "256", "257"})
+        refuses("\"mapSize\":4", fmt::format("\"mapSize\":{}", size).c_str());
+    refuses("\"entries\":", "\"entries\":9");
+    refuses("\"mapping\":\"polar\"", "\"mapping\":\"mercator\"");
+    refuses("\"parts\":[", "\"parts\":[{},");
+    refuses("\"program\":\"relume 0.1.0\"", "\"program\":7");
+    refuses("\"provenance\":", "\"provenance\":\xff");
+    refuses("{", "");
+}
+
+TEST_CASE("asset file: META cannot stand for much memory") {
+    const auto deep = withMeta("\"parts\":[", "\"parts\":[" + std::string(500000, '['));
+    CHECK_THROWS_WITH_AS(decodeAsset(deep, "file"), doctest::Contains("nested too deep"), Error);
+    const auto wide = withMeta("{", "{" + std::string(kLargestChunk / 2, ' '));
+    CHECK_THROWS_WITH_AS(decodeAsset(wide, "file"), doctest::Contains("META of at most"), Error);
+    Asset wordy = sampleAsset();
+    wordy.provenance.options = std::string(size_t(2) << 20, 'x');
+    CHECK_THROWS_WITH_AS(encodeAsset(wordy), doctest::Contains("provenance take"), Error);
+}
+
+TEST_CASE("asset file: transport chunks that do not add up are refused") {
+    const auto refusal = [](const std::function<void(std::vector<std::byte>&)>& change) {
+        try {
+            decodeAsset(withChunk("TRAN", 0, change), "file");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const auto pokes = [&](size_t offset, uint64_t value, size_t size) {
+        return refusal([&](std::vector<std::byte>& raw) { poke(raw, offset, value, size); });
+    };
+    const size_t rows = 19 * 3, gaps = 12 + 6 * rows;
+    CHECK(pokes(0, 1, 4).find("do not follow") != std::string::npos);
+    CHECK(pokes(4, 20, 4).find("do not follow") != std::string::npos);
+    CHECK(pokes(4, 18, 4).find("do not hold") != std::string::npos);
+    CHECK(pokes(4, 0xffffffff, 4).find("do not follow") != std::string::npos);
+    CHECK(pokes(8, 0xffffffff, 4).find("do not hold") != std::string::npos);
+    CHECK(pokes(12, 255, 1).find("expected") != std::string::npos);
+    CHECK(pokes(12 + rows, 255, 1).find("longer than") != std::string::npos);
+    CHECK(pokes(12 + rows - 1, 0, 1).find("rows hold") != std::string::npos);
+    const auto last = [](std::vector<std::byte>& raw) { raw.pop_back(); };
+    CHECK(refusal(last).find("bytes") != std::string::npos);
+    const size_t entries = sampleAsset().parts[0].transport.entries();
+    CHECK(pokes(gaps + entries, 2, 1).find("indices below 384") != std::string::npos);
+    CHECK(pokes(12 + 2 * rows + 3 * rows, 0xffff, 2).find("scales") != std::string::npos); // negative or NaN
+}
+
+TEST_CASE("asset file: contents that make no sense are refused") {
+    // The high plane of the first position's first number: 0x7f and set bits below make a NaN.
+    const auto nan = withChunk("MPOS", 0, [](std::vector<std::byte>& raw) {
+        for (size_t plane = 2; plane < 4; plane++)
+            raw[plane * raw.size() / 4] = std::byte(plane == 3 ? 0x7f : 0xff);
+    });
+    CHECK_THROWS_WITH_AS(decodeAsset(nan, "file"), doctest::Contains("finite positions"), Error);
+    const auto corner = withChunk("MTRI", 1, [](std::vector<std::byte>& raw) { raw[0] = std::byte(11); });
+    CHECK_THROWS_WITH_AS(decodeAsset(corner, "file"), doctest::Contains("corners are vertices"), Error);
+}
+
+TEST_CASE("asset file: an asset that could not be read back is not written") {
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                infinite = std::numeric_limits<float>::infinity();
+    const auto refuses = [](const std::function<void(Asset&)>& change) {
+        Asset asset = sampleAsset();
+        change(asset);
+        CHECK_THROWS_AS(encodeAsset(asset), Error);
+    };
+    refuses([](Asset& a) { a.parts.clear(); });
+    refuses([](Asset& a) { a.faceSize = 16, a.visibilitySize = 8; });
+    refuses([&](Asset& a) { a.visibilityOffset = nan; });
+    refuses([](Asset& a) { a.occluder.triangles[3].y = 19; });
+    refuses([&](Asset& a) { a.occluder.positions[3].y = infinite; });
+    refuses([](Asset& a) { a.parts[0].mesh.triangles.clear(); });
+    refuses([](Asset& a) { a.parts[0].mesh.normals.pop_back(); });
+    refuses([](Asset& a) { a.parts[0].mesh.normals[2] *= 1.01f; });
+    refuses([&](Asset& a) { a.parts[0].mesh.normals[2].x = nan; });
+    refuses([&](Asset& a) { a.parts[0].brdf.lightMaps[5].z = nan; });
+    refuses([](Asset& a) { a.parts[0].brdf.viewMaps.pop_back(); });
+    refuses([&](Asset& a) { a.parts[0].brdf.eigenvalues[0][1] = infinite; });
+    refuses([](Asset& a) { a.parts[0].brdf.mapping = DiskMapping(2); });
+    refuses([](Asset& a) { a.parts[0].transport.terms = 2; });
+    refuses([](Asset& a) { a.parts[0].transport.vertices = 18; });
+    refuses([](Asset& a) { a.parts[0].transport.rowStarts[1] = 1000000; });
+    refuses(
+        [](Asset& a) { std::swap(a.parts[0].transport.rowStarts[1], a.parts[0].transport.rowStarts[2]); });
+    refuses([](Asset& a) { a.parts[0].transport.rowStarts.pop_back(); });
+    refuses([](Asset& a) { a.parts[0].transport.scales[0] = -1; });
+    refuses([](Asset& a) { a.parts[0].transport.indices[1] = a.parts[0].transport.indices[0]; });
+    refuses([](Asset& a) { a.parts[0].transport.indices.back() = 384; });
+    refuses([](Asset& a) { a.parts[0].transport.values[0] = 0x400; });       // red -1024
+    refuses([](Asset& a) { a.parts[0].transport.values[0] = 0x80000000u; }); // blue -512
+}
+
+TEST_CASE("asset info: JSON with the numbers that matter, whatever text the asset carries") {
+    Asset asset = sampleAsset();
+    auto info = nlohmann::json::parse(describeAssetJson(asset, 12345));
+    const SparseTransport& transport = asset.parts[0].transport;
+    CHECK(info["fileBytes"] == 12345);
+    CHECK(info["coefficients"] == 24);
+    CHECK(info["occluderTriangles"] == 19);
+    CHECK(info["parts"][0]["vertices"] == 19);
+    CHECK(info["parts"][0]["terms"] == 3);
+    CHECK(info["parts"][0]["entries"] == transport.entries());
+    CHECK(info["parts"][0]["meanEntriesPerRow"] == double(transport.entries()) / 57);
+    CHECK(info["parts"][0]["bytesPerVertex"] == 6.0 * double(transport.entries()) / 19);
+    CHECK(info["parts"][0]["material"]["model"] == "lambert");
+    CHECK(info["total"]["vertices"] == 30);
+    CHECK(info["provenance"]["options"]["terms"] == 3);
+    asset.transportSamples = 1;
+    asset.parts[0].material = std::string(500000, '['); // would overflow the stack of a recursive printer
+    asset.parts[1].name = "\xff\xfe";
+    info = nlohmann::json::parse(describeAssetJson(asset, 0));
+    CHECK(info["parts"][0]["material"].is_string());
+    CHECK(info["approximations"][0] == "transport: one evaluation per lighting texel, an approximation");
+}
