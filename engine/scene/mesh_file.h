@@ -4,7 +4,9 @@
 #include "engine/scene/mesh.h"
 #include "engine/scene/scene.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 
 namespace relume {
 
@@ -12,5 +14,12 @@ namespace relume {
 // (with a count in the log), makes angle-weighted normals where the file has none, and turns Z up
 // into Y up on request. Throws Error for anything truncated, corrupt, absurd, empty or not finite.
 Mesh readMesh(const std::filesystem::path& path, UpAxis up = UpAxis::Y);
+
+// The same from a file's bytes; `path` gives the format by its extension, the folder that a glTF file's
+// buffers may lie in, and the name in errors.
+Mesh decodeMesh(std::span<const std::byte> bytes, const std::filesystem::path& path, UpAxis up);
+
+// Turns a mesh that has Z up into one that has Y up.
+void turnZUp(Mesh& mesh);
 
 } // namespace relume

@@ -1,0 +1,118 @@
+#include "engine/scene/gltf_accessor.h"
+
+#include "engine/base/error.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace relume {
+namespace {
+
+// An accessor whose elements are known to lie inside their buffer.
+struct Elements {
+    const unsigned char* data;
+    size_t count, stride;
+};
+
+Elements locate(const tinygltf::Model& model, int index, int type, const std::string& name) {
+    if (index < 0 || size_t(index) >= model.accessors.size())
+        throw Error("{}: refers to accessor {}, but there are only {}", name, index, model.accessors.size());
+    const tinygltf::Accessor& accessor = model.accessors[size_t(index)];
+    if (accessor.type != type)
+        throw Error("{}: accessor {} has the wrong type: expected {}", name, index,
+                    type == TINYGLTF_TYPE_VEC3 ? "VEC3" : "SCALAR");
+    if (accessor.sparse.isSparse)
+        throw Error("{}: accessor {} is sparse, which is not supported: export without sparse accessors",
+                    name, index);
+    if (accessor.bufferView < 0 || size_t(accessor.bufferView) >= model.bufferViews.size())
+        throw Error("{}: accessor {} refers to buffer view {}, but there are only {}", name, index,
+                    accessor.bufferView, model.bufferViews.size());
+    const tinygltf::BufferView& view = model.bufferViews[size_t(accessor.bufferView)];
+    if (view.buffer < 0 || size_t(view.buffer) >= model.buffers.size())
+        throw Error("{}: buffer view {} refers to buffer {}, but there are only {}", name,
+                    accessor.bufferView, view.buffer, model.buffers.size());
+    const std::vector<unsigned char>& buffer = model.buffers[size_t(view.buffer)].data;
+
+    const int componentSize = tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType));
+    const size_t size = size_t(std::max(componentSize, 1)) * (type == TINYGLTF_TYPE_VEC3 ? 3 : 1);
+    const size_t stride = view.byteStride > 0 ? view.byteStride : size;
+    const bool isInside = componentSize > 0 && view.byteOffset <= buffer.size() &&
+                          view.byteLength <= buffer.size() - view.byteOffset &&
+                          accessor.byteOffset <= view.byteLength && stride >= size && accessor.count > 0 &&
+                          size <= view.byteLength - accessor.byteOffset &&
+                          accessor.count - 1 <= (view.byteLength - accessor.byteOffset - size) / stride;
+    if (!isInside)
+        throw Error(
+            "{}: accessor {} ({} elements, stride {}) does not fit in its buffer view of {} bytes: the "
+            "file is truncated or corrupt",
+            name, index, accessor.count, stride, view.byteLength);
+    return {buffer.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride};
+}
+
+template <typename T>
+T load(const unsigned char* data) {
+    T value;
+    std::memcpy(&value, data, sizeof value);
+    return value;
+}
+
+template <typename T>
+float loadNormalised(const unsigned char* data, bool isNormalised) {
+    const float value = float(load<T>(data));
+    return isNormalised ? std::max(value / float(std::numeric_limits<T>::max()), -1.0f) : value;
+}
+
+float loadComponent(const unsigned char* data, const tinygltf::Accessor& accessor, const std::string& name) {
+    switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return load<float>(data);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return loadNormalised<int8_t>(data, accessor.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return loadNormalised<uint8_t>(data, accessor.normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return loadNormalised<int16_t>(data, accessor.normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return loadNormalised<uint16_t>(data, accessor.normalized);
+    default:
+        throw Error("{}: an accessor of vectors has component type {}", name, accessor.componentType);
+    }
+}
+
+} // namespace
+
+std::vector<vec3> readGltfVectors(const tinygltf::Model& model, int index, const std::string& name) {
+    const Elements elements = locate(model, index, TINYGLTF_TYPE_VEC3, name);
+    const tinygltf::Accessor& accessor = model.accessors[size_t(index)];
+    const size_t step = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType)));
+    std::vector<vec3> values(elements.count);
+    for (size_t i = 0; i < elements.count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            values[i][axis] =
+                loadComponent(elements.data + i * elements.stride + size_t(axis) * step, accessor, name);
+    return values;
+}
+
+std::vector<uint32_t> readGltfIndices(const tinygltf::Model& model, int index, const std::string& name) {
+    const Elements elements = locate(model, index, TINYGLTF_TYPE_SCALAR, name);
+    std::vector<uint32_t> values(elements.count);
+    for (size_t i = 0; i < elements.count; i++) {
+        const unsigned char* data = elements.data + i * elements.stride;
+        switch (model.accessors[size_t(index)].componentType) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            values[i] = *data;
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            values[i] = load<uint16_t>(data);
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            values[i] = load<uint32_t>(data);
+            break;
+        default:
+            throw Error("{}: accessor {} of indices is not of an unsigned type", name, index);
+        }
+    }
+    return values;
+}
+
+} // namespace relume

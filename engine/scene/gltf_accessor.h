@@ -1,0 +1,19 @@
+// Arrays out of glTF accessors, every offset checked (glTF 2.0, 3.6.2).
+#pragma once
+
+#include "engine/math/vector.h"
+
+#include <string>
+#include <tiny_gltf.h>
+#include <vector>
+
+namespace relume {
+
+// Elements of accessor number `index`, which must be VEC3; integers are normalised if it says so. Throws
+// Error, in which `name` stands for the file, for anything out of bounds.
+std::vector<vec3> readGltfVectors(const tinygltf::Model& model, int index, const std::string& name);
+
+// Elements of accessor number `index`, which must be SCALAR and unsigned.
+std::vector<uint32_t> readGltfIndices(const tinygltf::Model& model, int index, const std::string& name);
+
+} // namespace relume

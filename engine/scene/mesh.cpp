@@ -1,0 +1,64 @@
+#include "engine/scene/mesh.h"
+
+#include "engine/base/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+namespace {
+
+using dvec3 = glm::dvec3;
+
+// Angle between two edges, in radians; 0 where one of them has no length.
+double cornerAngle(dvec3 a, dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+
+} // namespace
+
+Bounds boundsOf(const Mesh& mesh) {
+    Bounds bounds;
+    for (const vec3& position : mesh.positions) bounds.add(position);
+    return bounds;
+}
+
+void makeNormals(Mesh& mesh) {
+    // In double precision: squared areas of tiny meshes vanish in single.
+    std::vector<dvec3> sums(mesh.vertexCount(), dvec3(0));
+    std::vector<dvec3> fallback(mesh.vertexCount(), dvec3(0));
+    for (const uvec3& triangle : mesh.triangles) {
+        const dvec3 corners[3] = {mesh.positions[triangle.x], mesh.positions[triangle.y],
+                                  mesh.positions[triangle.z]};
+        const dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double doubleArea = glm::length(cross);
+        if (!(doubleArea > 0)) continue;
+        const dvec3 normal = cross / doubleArea;
+        for (int i = 0; i < 3; i++) {
+            const dvec3 here = corners[i], next = corners[(i + 1) % 3], last = corners[(i + 2) % 3];
+            sums[triangle[i]] += normal * cornerAngle(next - here, last - here);
+            if (fallback[triangle[i]] == dvec3(0)) fallback[triangle[i]] = normal;
+        }
+    }
+    mesh.normals.resize(mesh.vertexCount());
+    for (size_t i = 0; i < mesh.vertexCount(); i++) {
+        // Faces that meet back to back cancel out: the first of them decides.
+        const double length = glm::length(sums[i]);
+        const dvec3 normal = length > 1e-6 ? sums[i] / length : fallback[i];
+        mesh.normals[i] = normal == dvec3(0) ? vec3(0, 1, 0) : glm::normalize(vec3(normal));
+    }
+}
+
+void append(Mesh& mesh, const Mesh& other) {
+    RELUME_CHECK_LE(mesh.vertexCount() + other.vertexCount(), size_t(std::numeric_limits<uint32_t>::max()));
+    const bool hasNormals =
+        mesh.normals.size() == mesh.vertexCount() && other.normals.size() == other.vertexCount();
+    const uvec3 first(uint32_t(mesh.vertexCount()));
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    if (hasNormals)
+        mesh.normals.insert(mesh.normals.end(), other.normals.begin(), other.normals.end());
+    else
+        mesh.normals.clear();
+    mesh.triangles.reserve(mesh.triangleCount() + other.triangleCount());
+    for (const uvec3& triangle : other.triangles) mesh.triangles.push_back(triangle + first);
+}
+
+} // namespace relume

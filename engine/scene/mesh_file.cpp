@@ -1,0 +1,43 @@
+#include "engine/scene/mesh_file.h"
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/scene/mesh_cleanup.h"
+#include "engine/scene/mesh_formats.h"
+
+#include <algorithm>
+
+namespace relume {
+namespace {
+
+std::string lowerExtension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension;
+}
+
+Mesh decodeAny(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+    const std::string extension = lowerExtension(path), name = path.string();
+    if (extension == ".obj") return decodeObj(bytes, name);
+    if (extension == ".ply") return decodePly(bytes, name);
+    if (extension == ".gltf" || extension == ".glb") return decodeGltf(bytes, path.parent_path(), name);
+    throw Error("{}: expected a mesh ending in .obj, .ply, .gltf or .glb, found \"{}\"", name, extension);
+}
+
+} // namespace
+
+void turnZUp(Mesh& mesh) {
+    for (vec3& p : mesh.positions) p = {p.x, p.z, -p.y};
+    for (vec3& n : mesh.normals) n = {n.x, n.z, -n.y};
+}
+
+Mesh decodeMesh(std::span<const std::byte> bytes, const std::filesystem::path& path, UpAxis up) {
+    Mesh mesh = cleanUp(decodeAny(bytes, path), path.string());
+    if (up == UpAxis::Z) turnZUp(mesh);
+    return mesh;
+}
+
+Mesh readMesh(const std::filesystem::path& path, UpAxis up) { return decodeMesh(readFile(path), path, up); }
+
+} // namespace relume

@@ -1,0 +1,205 @@
+// A reader of our own: to make sure that no PLY file can lead a library astray that trusts its counts, all
+// of the file would have to be walked, which is all of the reading. Format: Turk, "The PLY Polygon File
+// Format", 1994.
+#include "engine/base/error.h"
+#include "engine/scene/mesh_formats.h"
+#include "engine/scene/ply_header.h"
+#include "engine/scene/polygon.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+namespace relume {
+namespace {
+
+constexpr size_t kMostCorners = 1 << 16;
+
+// Takes value after value from the data.
+class Values {
+  public:
+    Values(std::span<const std::byte> data, PlyEncoding encoding, const std::string& name)
+        : mData(data), mEncoding(encoding), mName(name) {}
+
+    double take(const PlyScalarType& type) {
+        return mEncoding == PlyEncoding::Ascii ? takeWord() : takeBinary(type);
+    }
+
+    // Bytes that are left: at least `values` of this type must fit in.
+    bool canHold(uint64_t values, const PlyScalarType& type) const {
+        const size_t smallest = mEncoding == PlyEncoding::Ascii ? 1 : type.size;
+        return values <= mData.size() / smallest;
+    }
+
+    [[noreturn]] void failShort() const {
+        throw Error("{}: ends before its data do: the file is truncated, or its header's counts are wrong",
+                    mName);
+    }
+
+  private:
+    double takeWord() {
+        const auto isSpace = [](std::byte b) {
+            return b == std::byte(' ') || (b >= std::byte(9) && b <= std::byte(13));
+        };
+        const auto start = std::find_if_not(mData.begin(), mData.end(), isSpace);
+        const auto end = std::find_if(start, mData.end(), isSpace);
+        if (start == end) failShort();
+        std::string_view word(reinterpret_cast<const char*>(&*start), size_t(end - start));
+        mData = mData.subspan(size_t(end - mData.begin()));
+        const std::string_view digits = word.substr(word.front() == '+' ? 1 : 0);
+        double value;
+        const auto [last, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (failure != std::errc() || last != digits.data() + digits.size())
+            throw Error("{}: expected a number among the data, found \"{}\"", mName, word.substr(0, 40));
+        return value;
+    }
+
+    double takeBinary(const PlyScalarType& type) {
+        if (mData.size() < type.size) failShort();
+        std::array<std::byte, 8> bytes{};
+        std::copy_n(mData.begin(), type.size, bytes.begin());
+        mData = mData.subspan(type.size);
+        const bool isForeign =
+            (mEncoding == PlyEncoding::BigEndian) != (std::endian::native == std::endian::big);
+        if (isForeign) std::reverse(bytes.begin(), bytes.begin() + ptrdiff_t(type.size));
+        switch (type.size) {
+        case 1:
+            return type.kind == 'i' ? as<int8_t>(bytes) : as<uint8_t>(bytes);
+        case 2:
+            return type.kind == 'i' ? as<int16_t>(bytes) : as<uint16_t>(bytes);
+        case 4:
+            return type.kind == 'f'   ? as<float>(bytes)
+                   : type.kind == 'i' ? as<int32_t>(bytes)
+                                      : as<uint32_t>(bytes);
+        default:
+            return as<double>(bytes);
+        }
+    }
+
+    template <typename T>
+    static double as(const std::array<std::byte, 8>& bytes) {
+        T value;
+        std::memcpy(&value, bytes.data(), sizeof(T));
+        return double(value);
+    }
+
+    std::span<const std::byte> mData;
+    PlyEncoding mEncoding;
+    const std::string& mName;
+};
+
+class BodyReader {
+  public:
+    BodyReader(Values values, const std::string& name) : mValues(values), mName(name) {}
+
+    void read(const PlyElement& element) {
+        if (element.properties.empty() && element.count > 0)
+            throw Error("{}: element \"{}\" has no properties", mName, element.name);
+        // What every row takes at least, so that an absurd count ends here.
+        for (const PlyProperty& property : element.properties)
+            if (!mValues.canHold(element.count, property.countType ? *property.countType : *property.type))
+                mValues.failShort();
+        if (element.name == "vertex")
+            readVertices(element);
+        else if (element.name == "face")
+            readFaces(element);
+        else
+            for (uint64_t row = 0; row < element.count; row++)
+                for (const PlyProperty& property : element.properties) takeProperty(property);
+    }
+
+    Mesh take() {
+        Mesh mesh = std::move(mMesh);
+        std::vector<uvec3> cut;
+        std::vector<vec3> corners;
+        for (size_t start = 0, face = 0; face < mFaceSizes.size(); start += mFaceSizes[face++]) {
+            const std::span<const uint32_t> indices = std::span(mCorners).subspan(start, mFaceSizes[face]);
+            corners.clear();
+            cut.clear();
+            for (const uint32_t index : indices) {
+                if (index >= mesh.vertexCount())
+                    throw Error(
+                        "{}: face {} (counted from 0) refers to vertex {}, but there are only {}: the "
+                        "file is corrupt",
+                        mName, face, index, mesh.vertexCount());
+                corners.push_back(mesh.positions[index]);
+            }
+            if (indices.size() < 3) continue;
+            triangulate(corners, cut, mName);
+            for (const uvec3& t : cut) mesh.triangles.push_back({indices[t.x], indices[t.y], indices[t.z]});
+        }
+        return mesh;
+    }
+
+  private:
+    // The property's value, or, of a list, nothing: its items go to mItems.
+    double takeProperty(const PlyProperty& property) {
+        if (!property.countType) return mValues.take(*property.type);
+        const double count = mValues.take(*property.countType);
+        if (!(count >= 0 && count <= kMostCorners))
+            throw Error("{}: a list \"{}\" claims {} items, expected 0 to {}: the file is corrupt", mName,
+                        property.name, count, kMostCorners);
+        mItems.clear();
+        for (size_t i = 0; i < size_t(count); i++) mItems.push_back(mValues.take(*property.type));
+        return 0;
+    }
+
+    void readVertices(const PlyElement& element) {
+        static constexpr std::array<std::string_view, 6> kNames = {"x", "y", "z", "nx", "ny", "nz"};
+        std::array<std::optional<size_t>, 6> columns;
+        for (size_t i = 0; i < element.properties.size(); i++)
+            for (size_t j = 0; j < kNames.size(); j++)
+                if (element.properties[i].name == kNames[j] && !element.properties[i].countType)
+                    columns[j] = i;
+        if (!columns[0] || !columns[1] || !columns[2])
+            throw Error("{}: element \"vertex\" needs the properties x, y and z", mName);
+        const bool hasNormals = columns[3] && columns[4] && columns[5];
+
+        std::vector<float> row(element.properties.size());
+        for (uint64_t i = 0; i < element.count; i++) {
+            for (size_t j = 0; j < row.size(); j++) row[j] = float(takeProperty(element.properties[j]));
+            mMesh.positions.push_back({row[*columns[0]], row[*columns[1]], row[*columns[2]]});
+            if (hasNormals) mMesh.normals.push_back({row[*columns[3]], row[*columns[4]], row[*columns[5]]});
+        }
+    }
+
+    void readFaces(const PlyElement& element) {
+        for (uint64_t i = 0; i < element.count; i++)
+            for (const PlyProperty& property : element.properties) {
+                takeProperty(property);
+                if (!property.countType ||
+                    (property.name != "vertex_indices" && property.name != "vertex_index"))
+                    continue;
+                mFaceSizes.push_back(uint32_t(mItems.size()));
+                for (const double item : mItems) {
+                    if (!(item >= 0 && item < 4294967295.0))
+                        throw Error("{}: face {} (counted from 0) refers to vertex {}: the file is corrupt",
+                                    mName, i, item);
+                    mCorners.push_back(uint32_t(item));
+                }
+            }
+    }
+
+    Values mValues;
+    const std::string& mName;
+    Mesh mMesh;
+    std::vector<uint32_t> mFaceSizes, mCorners; // Faces may come before the vertices they refer to.
+    std::vector<double> mItems;
+};
+
+} // namespace
+
+Mesh decodePly(std::span<const std::byte> bytes, const std::string& name) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const PlyHeader header = readPlyHeader(text, name);
+    BodyReader body(Values(bytes.subspan(header.size), header.encoding, name), name);
+    for (const PlyElement& element : header.elements) body.read(element);
+    return body.take();
+}
+
+} // namespace relume

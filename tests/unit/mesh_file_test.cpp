@@ -1,0 +1,266 @@
+#include "engine/scene/mesh_file.h"
+
+#include "engine/base/error.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/mesh_cleanup.h"
+#include "engine/scene/polygon.h"
+#include "tests/support/mesh_samples.h"
+#include "tests/support/temporary_folder.h"
+
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+Mesh decode(const std::string& text, const std::string& name, UpAxis up = UpAxis::Y) {
+    return decodeMesh(std::as_bytes(std::span(text)), name, up);
+}
+
+// The text of the Error that decoding throws, or "" if it does not.
+std::string failureOf(const std::string& text, const std::string& name) {
+    try {
+        decode(text, name);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// The same triangles in the same order; vertices may be numbered otherwise.
+void checkSame(const Mesh& found, const Mesh& expected) {
+    REQUIRE(found.vertexCount() == expected.vertexCount());
+    REQUIRE(found.triangleCount() == expected.triangleCount());
+    float worst = 0;
+    for (size_t i = 0; i < found.triangleCount(); i++)
+        for (int corner = 0; corner < 3; corner++) {
+            const uint32_t a = found.triangles[i][corner], b = expected.triangles[i][corner];
+            worst = std::max(worst, glm::distance(found.positions[a], expected.positions[b]) +
+                                        glm::distance(found.normals[a], expected.normals[b]));
+        }
+    CHECK(worst < 1e-5f);
+}
+
+} // namespace
+
+TEST_CASE("mesh files: every format gives the same sphere") {
+    const Mesh sphere = makeSphere(2);
+    checkSame(decode(sampleObj(sphere), "sphere.obj"), sphere);
+    checkSame(decode(samplePly(sphere, PlySample::Ascii), "sphere.ply"), sphere);
+    checkSame(decode(samplePly(sphere, PlySample::LittleEndian), "sphere.PLY"), sphere);
+    checkSame(decode(samplePly(sphere, PlySample::BigEndian), "sphere.ply"), sphere);
+    checkSame(decode(sampleGlb(sphere), "sphere.glb"), sphere);
+}
+
+TEST_CASE("mesh files: Z up is turned, not mirrored") {
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    const Mesh mesh = decode(text, "a.obj", UpAxis::Z);
+    CHECK(boundsOf(mesh).high == vec3(1, 2, 0));
+    CHECK(boundsOf(mesh).low == vec3(0, 0, -1));
+    CHECK(mesh.triangles == decode(text, "a.obj").triangles);
+}
+
+TEST_CASE("mesh files: polygons, welding, degenerate and unused parts") {
+    // Two quads that repeat two corners, a face without area, a vertex without a face, an index from the end.
+    const Mesh mesh = decode("v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nv 1 -0 0\r\nv 9 9 9\r\nv 1 1 0\r\n"
+                             "v 2 0 0\r\nv 2 1 0\r\nf 1 2 3 4\r\nf 5 8 -1 7\r\nf 2 5 3\r\nf 1 2\r\n",
+                             "a.obj");
+    CHECK(mesh.vertexCount() == 6);
+    CHECK(mesh.triangleCount() == 4);
+    for (const vec3& normal : mesh.normals) CHECK(glm::distance(normal, vec3(0, 0, 1)) < 1e-6f);
+}
+
+TEST_CASE("mesh files: normals keep creases apart; incomplete or broken ones are made anew") {
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    const Mesh crease = decode(corners + "vn 0 0 5\nvn 5 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", "a.obj");
+    CHECK(crease.vertexCount() == 6);
+    CHECK(crease.normals[0] == vec3(0, 0, 1));
+    const Mesh partial = decode(corners + "vn 0 0 5\nf 1//1 2//1 3//1\nf 1 3 4\n", "a.obj");
+    CHECK(partial.vertexCount() == 4);
+    const Mesh zero = decode(corners + "vn 0 0 0\nvn 5 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", "a.obj");
+    CHECK(zero.vertexCount() == 4);
+    CHECK(zero.normals[0] == partial.normals[0]);
+}
+
+TEST_CASE("polygons: areas add up and no triangle is turned over") {
+    const std::vector<std::vector<vec3>> polygons = {
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+        {{0, 0, 0}, {2, 0, 0}, {0.2f, 0.2f, 0}, {0, 2, 0}},                                       // a dart
+        {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}},                       // an L
+        {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, // a U
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}}; // a corner on a side
+    const double areas[] = {1, 0.4, 5, 8, 4};
+    for (size_t i = 0; i < polygons.size(); i++)
+        for (int turns = 0; turns < 3; turns++) {
+            std::vector<vec3> corners = polygons[i];
+            for (vec3& c : corners)
+                for (int turn = 0; turn < turns; turn++) c = {c.z, c.x, c.y};
+            vec3 front(0, 0, 1);
+            for (int turn = 0; turn < turns; turn++) front = {front.z, front.x, front.y};
+            std::vector<uvec3> triangles;
+            triangulate(corners, triangles, "test");
+            CHECK(triangles.size() == corners.size() - 2);
+            double sum = 0;
+            for (const uvec3& t : triangles) {
+                const vec3 cross = glm::cross(corners[t.y] - corners[t.x], corners[t.z] - corners[t.x]);
+                CHECK(glm::dot(cross, front) >= 0);
+                sum += 0.5 * glm::length(cross);
+            }
+            CHECK(sum == doctest::Approx(areas[i]));
+        }
+}
+
+TEST_CASE("polygons: large convex faces pass, large concave ones are refused") {
+    std::string round, star, face = "f";
+    for (int i = 0; i < 200; i++) {
+        const float angle = 2 * kPi * float(i) / 200, reach = i % 2 ? 1.0f : 0.5f;
+        round += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
+        star += fmt::format("v {} {} 0\n", reach * std::cos(angle), reach * std::sin(angle));
+        face += fmt::format(" {}", i + 1);
+    }
+    CHECK(decode(round + face, "a.obj").triangleCount() == 198);
+    CHECK(failureOf(star + face, "a.obj").find("concave") != std::string::npos);
+    CHECK(failureOf(star + face + face.substr(1), "a.obj").find("corners") != std::string::npos);
+}
+
+TEST_CASE("OBJ: errors name the line, and nothing but the surface is read") {
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    CHECK(failureOf("", "a.obj").find("no triangles") != std::string::npos);
+    CHECK(failureOf(corners, "a.obj").find("no triangles") != std::string::npos);
+    CHECK(failureOf("v 0 0 0\nv 1 nan 0\n", "a.obj").find("line 2") != std::string::npos);
+    CHECK(failureOf("v 0 0 0\r\nv 1 0\r\n", "a.obj").find("line 2") != std::string::npos);
+    CHECK(failureOf("v 0 0 1e999\n", "a.obj").find("line 1") != std::string::npos);
+    CHECK(failureOf(corners + "f 1 2 4\n", "a.obj").find("vertex 4") != std::string::npos);
+    CHECK(failureOf(corners + "f 1 2 -9\n", "a.obj").find("vertex") != std::string::npos);
+    CHECK(failureOf(corners + "f 0 1 2\n", "a.obj") != "");
+    CHECK(failureOf(corners + "f 1 2 x\n", "a.obj") != "");
+    CHECK(failureOf(corners + "f 1//9 2//9 3//9\nvn 0 0 1\n", "a.obj").find("normal") != std::string::npos);
+    CHECK(failureOf("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "a.obj").find("degenerate") != std::string::npos);
+    CHECK(failureOf("v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").find("within") != std::string::npos);
+    // Subdivision tags claim any amount of memory, material libraries name other files.
+    const std::string hostile = "t x 2000000000/2000000000/2000000000\rvw 0 1\nmtllib /dev/zero\nusemtl a\n";
+    CHECK(decode(hostile + corners + hostile + "f 1 2 3\n" + hostile, "a.obj").triangleCount() == 1);
+}
+
+TEST_CASE("PLY: foreign elements, properties and types are skipped or converted") {
+    const Mesh mesh = decode("ply\nformat ascii 1.0\ncomment made by hand\nobj_info none\nelement camera 2\n"
+                             "property list uchar float view\nelement face 1\nproperty uchar red\n"
+                             "property list uint8 int32 vertex_indices\nelement vertex 4\nproperty double y\n"
+                             "property float32 x\nproperty uchar red\nproperty short z\nend_header\n"
+                             "2 0.5 1\n0\n255 4 0 1 2 3\n0 0 9 0\n0 1 9 0\n1 1 9 0\n1 0 9 0\n",
+                             "a.ply");
+    CHECK(mesh.vertexCount() == 4);
+    CHECK(mesh.triangleCount() == 2);
+    CHECK(mesh.normals[0] == vec3(0, 0, 1));
+}
+
+TEST_CASE("PLY: counts and indices that are not true") {
+    const std::string header =
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+        "property float z\nelement face {}\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0\n1 0 0\n0 1 0\n{}\n";
+    const auto fileOf = [&](const char* vertices, const char* faces, const char* row) {
+        return fmt::format(fmt::runtime(header), vertices, faces, row);
+    };
+    CHECK(failureOf(fileOf("3", "1", "3 0 1 2"), "a.ply") == "");
+    CHECK(failureOf(fileOf("3000000000000", "1", "3 0 1 2"), "a.ply").find("truncated") != std::string::npos);
+    CHECK(failureOf(fileOf("99999999999999999999", "1", "3 0 1 2"), "a.ply").find("header") !=
+          std::string::npos);
+    CHECK(failureOf(fileOf("-3", "1", "3 0 1 2"), "a.ply").find("header") != std::string::npos);
+    CHECK(failureOf(fileOf("3", "4000000000", "3 0 1 2"), "a.ply").find("truncated") != std::string::npos);
+    CHECK(failureOf(fileOf("3", "1", "3 0 1 3"), "a.ply").find("vertex 3") != std::string::npos);
+    CHECK(failureOf(fileOf("3", "1", "3 0 1 -1"), "a.ply").find("corrupt") != std::string::npos);
+    CHECK(failureOf(fileOf("3", "1", "2000000000 0 1 2"), "a.ply").find("claims") != std::string::npos);
+    CHECK(failureOf(fileOf("3", "1", "3 0 1"), "a.ply").find("truncated") != std::string::npos);
+    CHECK(failureOf(fileOf("3", "1", "3 0 1 x"), "a.ply").find("number") != std::string::npos);
+    CHECK(failureOf("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply").find("end_header") !=
+          std::string::npos);
+    CHECK(failureOf("plum\n", "a.ply").find("PLY") != std::string::npos);
+}
+
+TEST_CASE("glTF: node transforms apply, and mirrors keep the outside out") {
+    Mesh sphere = makeSphere(1);
+    const Mesh moved = decode(sampleGlb(sphere, R"({"children":[1],"translation":[1,2,3]},
+        {"mesh":0,"scale":[2,2,-2],"rotation":[0,0.70710678,0,0.70710678]})"),
+                              "a.glb");
+    CHECK(moved.vertexCount() == sphere.vertexCount());
+    for (const uvec3& t : moved.triangles) {
+        const vec3 centre(1, 2, 3), a = moved.positions[t.x], b = moved.positions[t.y],
+                                    c = moved.positions[t.z];
+        CHECK(glm::dot(glm::cross(b - a, c - a), a - centre) > 0);
+        CHECK(glm::distance(a, centre) == doctest::Approx(2).epsilon(1e-5));
+        CHECK(glm::distance(moved.normals[t.x], (a - centre) / 2.0f) < 1e-5f);
+    }
+    // +X turns to -Z (a quarter about Y), after the mirror left it alone.
+    CHECK(glm::distance(moved.positions[0],
+                        vec3(1, 2, 3) + 2.0f * vec3(-sphere.positions[0].z, sphere.positions[0].y,
+                                                    -sphere.positions[0].x)) < 1e-5f);
+}
+
+TEST_CASE("glTF: documents that lie") {
+    const Mesh sphere = makeSphere(1);
+    const auto failsWith = [&](const char* nodes) { return failureOf(sampleGlb(sphere, nodes), "a.glb"); };
+    CHECK(failsWith(R"({"mesh":0})") == "");
+    CHECK(failsWith(R"({"mesh":7})").find("mesh 7") != std::string::npos);
+    CHECK(failsWith(R"({"children":[0]})").find("tree") != std::string::npos);
+    CHECK(failsWith(R"({"children":[9]})").find("node 9") != std::string::npos);
+    CHECK(failsWith(R"({"mesh":0,"scale":[1,2]})").find("expected 3") != std::string::npos);
+    CHECK(failsWith(R"({"mesh":0,"scale":[0,0,0]})").find("degenerate") != std::string::npos);
+    CHECK(failsWith(R"({"mesh":0,"translation":[1e300,0,0]})").find("finite") != std::string::npos);
+    CHECK(failureOf("{", "a.gltf").find("not valid") != std::string::npos);
+    CHECK(failureOf("[]", "a.gltf") != "");
+    CHECK(failureOf(std::string(100000, '['), "a.gltf").find("deeper") != std::string::npos);
+    CHECK(failureOf(R"({"asset":{"version":"2.0"}})", "a.gltf").find("no triangles") != std::string::npos);
+    CHECK(failureOf(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})",
+                    "a.gltf")
+              .find("KHR_draco") != std::string::npos);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        return failureOf(sampleGlb(sphere, R"({"mesh":0})", from, to), "a.glb");
+    };
+    CHECK(changed("\"count\":240", "\"count\":241").find("does not fit") != std::string::npos);
+    CHECK(changed("\"count\":240", "\"count\":99999999999999").find("does not fit") != std::string::npos);
+    CHECK(changed("\"byteOffset\":0", "\"byteOffset\":18446744073709551000").find("a.glb") !=
+          std::string::npos);
+    CHECK(changed("\"bufferView\":0", "\"bufferView\":12").find("a.glb") != std::string::npos);
+    CHECK(changed("\"buffer\":0", "\"buffer\":-3").find("buffer -3") != std::string::npos);
+    CHECK(changed("VEC3", "VEC2").find("VEC3") != std::string::npos);
+    CHECK(changed("5125", "5126").find("unsigned") != std::string::npos);
+}
+
+TEST_CASE("glTF: buffers come from the file's own folder only") {
+    const TemporaryFolder folder;
+    const Mesh sphere = makeSphere(1);
+    std::filesystem::create_directory(folder.path() / "inner");
+    folder.write("inner/data.bin", sampleBuffer(sphere));
+    folder.write("outside.bin", sampleBuffer(sphere));
+    checkSame(readMesh(folder.write("inner/good.gltf", sampleGltf(sphere, "data.bin"))), sphere);
+    CHECK_THROWS_AS(readMesh(folder.write("inner/up.gltf", sampleGltf(sphere, "../outside.bin"))), Error);
+    CHECK_THROWS_AS(readMesh(folder.write("inner/absolute.gltf",
+                                          sampleGltf(sphere, (folder.path() / "outside.bin").string()))),
+                    Error);
+    CHECK_THROWS_AS(readMesh(folder.write("inner/none.gltf", sampleGltf(sphere, "missing.bin"))), Error);
+    CHECK_THROWS_AS(readMesh(folder.path() / "missing.obj"), Error);
+    CHECK_THROWS_AS(readMesh(folder.write("mesh.stl", "solid")), Error);
+}
+
+TEST_CASE("mesh files: truncated anywhere or with any bit flipped, a mesh or an Error") {
+    const Mesh sphere = makeSphere(0);
+    const std::pair<std::string, std::string> files[] = {
+        {sampleObj(sphere), "a.obj"},
+        {samplePly(sphere, PlySample::Ascii), "a.ply"},
+        {samplePly(sphere, PlySample::LittleEndian), "b.ply"},
+        {sampleGlb(sphere), "a.glb"}};
+    std::mt19937 random(7);
+    for (const auto& [bytes, name] : files) {
+        for (size_t size = 0; size < bytes.size(); size += 3) failureOf(bytes.substr(0, size), name);
+        for (int i = 0; i < 1000; i++) {
+            std::string damaged = bytes;
+            for (int flips = 1 + i % 3; flips > 0; flips--)
+                damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
+            failureOf(damaged, name);
+        }
+        CHECK(failureOf(bytes, name) == "");
+    }
+}
