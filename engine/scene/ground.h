@@ -10,6 +10,10 @@ struct GroundOptions {
     float extent = 3.0f;    // Side, in units of the object's largest horizontal or vertical extent.
 };
 
+// What addGround() and scene files accept.
+constexpr int kMostGroundQuads = 4096;
+constexpr float kSmallestGroundExtent = 0.01f, kLargestGroundExtent = 1000.0f;
+
 // A square centred under `object` in x and z, at its lowest y, normals up.
 Mesh makeGround(const Bounds& object, const GroundOptions& options = {});
 

@@ -1,0 +1,58 @@
+#include "engine/scene/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+namespace {
+
+struct View {
+    vec3 right, up, forward;
+};
+
+View viewOf(const Camera& camera) {
+    const vec3 forward = glm::normalize(camera.target - camera.eye);
+    // Straight up or down, "up" in the image is away from or towards +Z.
+    const vec3 above = std::abs(forward.y) < 0.99999f ? vec3(0, 1, 0) : vec3(0, 0, forward.y);
+    const vec3 right = glm::normalize(glm::cross(forward, above));
+    return {right, glm::cross(right, forward), forward};
+}
+
+} // namespace
+
+mat4 Camera::clipFromWorld(float aspect, const Bounds& scene) const {
+    const View view = viewOf(*this);
+    const float depth = glm::dot(scene.centre() - eye, view.forward), radius = scene.radius();
+    const float far = std::max(1.01f * (depth + radius), 1e-3f * radius);
+    const float near = std::max(0.99f * (depth - radius), 1e-3f * far);
+    const float yScale = 1 / std::tan(0.5f * verticalFov), xScale = yScale / aspect;
+    const float zScale = far / (far - near);
+    const auto row = [&](vec3 axis, float offset) { return vec4(axis, offset - glm::dot(axis, eye)); };
+    return glm::transpose(mat4(row(xScale * view.right, 0), row(-yScale * view.up, 0),
+                               row(zScale * view.forward, -zScale * near), row(view.forward, 0)));
+}
+
+vec3 Camera::pixelDirection(int x, int y, int width, int height) const {
+    const View view = viewOf(*this);
+    const float tangent = std::tan(0.5f * verticalFov), aspect = float(width) / float(height);
+    const float u = (2 * float(x) + 1) / float(width) - 1, v = (2 * float(y) + 1) / float(height) - 1;
+    return glm::normalize(view.forward + u * tangent * aspect * view.right - v * tangent * view.up);
+}
+
+Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float distance, float verticalFov,
+                   float aspect) {
+    // Short of the poles, where the azimuth would lose its meaning.
+    const float limit = glm::radians(89.5f);
+    const float rise = std::clamp(elevation, -limit, limit);
+    const vec3 towardsEye(std::sin(azimuth) * std::cos(rise), std::sin(rise),
+                          std::cos(azimuth) * std::cos(rise));
+    const float halfAngle = std::atan(std::tan(0.5f * verticalFov) * std::min(1.0f, aspect));
+    const float reach = distance * bounds.radius() / std::sin(halfAngle);
+    return {bounds.centre() + reach * towardsEye, bounds.centre(), verticalFov};
+}
+
+Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect) {
+    return orbitCamera(bounds, glm::radians(30.0f), glm::radians(20.0f), 1.02f, verticalFov, aspect);
+}
+
+} // namespace relume

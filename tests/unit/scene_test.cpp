@@ -1,0 +1,113 @@
+#include "engine/scene/scene.h"
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/base/nearest_name.h"
+#include "engine/scene/builtin_mesh.h"
+#include "tests/support/mesh_samples.h"
+#include "tests/support/temporary_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+std::string failureOf(const std::string& text) {
+    const TemporaryFolder folder;
+    try {
+        readScene(folder.write("scene.json", text));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("scene: built-in meshes, files, transforms, ground") {
+    const TemporaryFolder folder;
+    const std::string obj = sampleObj(makeSphere(1));
+    folder.write("ball.obj", obj);
+    const Scene scene = readScene(folder.write("scene.json", R"({
+        "parts": [
+            {"mesh": "ball.obj", "material": "clay", "scale": 2, "rotate": [0, 90, 0], "translate": [5, 2, 0]},
+            {"name": "floor lamp", "mesh": "torus", "up": "z", "material": {"model": "ashikhmin-shirley", "nu": 10}}
+        ],
+        "ground": {"tessellation": 8, "extent": 2, "material": "grey"}
+    })"));
+    REQUIRE(scene.parts.size() == 3);
+    CHECK(scene.parts[0].name == "ball");
+    CHECK(scene.parts[0].source == (folder.path() / "ball.obj").string());
+    CHECK(scene.parts[0].sourceHash == hashText(std::as_bytes(std::span(obj))));
+    const Mesh sphere = makeSphere(1);
+    const vec3 p = sphere.positions[0];
+    CHECK(glm::distance(scene.parts[0].mesh.positions[0], vec3(5, 2, 0) + 2.0f * vec3(p.z, p.y, -p.x)) <
+          1e-5f);
+    CHECK(glm::distance(scene.parts[0].mesh.normals[0], vec3(p.z, p.y, -p.x)) < 1e-5f);
+
+    CHECK(scene.parts[1].name == "floor lamp");
+    CHECK(scene.parts[1].source == "built-in torus");
+    CHECK(scene.parts[1].sourceHash.empty());
+    CHECK(scene.parts[1].material == R"({"model":"ashikhmin-shirley","nu":10})");
+    CHECK(boundsOf(scene.parts[1].mesh).extent().y ==
+          doctest::Approx(2).epsilon(1e-2)); // its axis was Y, is Z
+
+    CHECK(scene.parts[2].material == "grey");
+    CHECK(scene.parts[2].mesh.vertexCount() == 81);
+    CHECK(boundsOf(scene.parts[2].mesh).low.y == doctest::Approx(-1).epsilon(1e-2));
+}
+
+TEST_CASE("scene: turns about x, then y, then z") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", "v 0 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Scene scene = readScene(folder.write(
+        "scene.json",
+        R"({"parts": [{"mesh": "a.obj", "material": "clay", "rotate": [90, 90, 0]}], "ground": false})"));
+    REQUIRE(scene.parts.size() == 1);
+    // z: about x to -y, which y leaves alone. y: about x to z, about y to x.
+    CHECK(glm::distance(scene.parts[0].mesh.positions[0], vec3(0, -1, 0)) < 1e-6f);
+    CHECK(glm::distance(scene.parts[0].mesh.positions[2], vec3(1, 0, 0)) < 1e-6f);
+}
+
+TEST_CASE("scene: errors name the place, the key and the remedy") {
+    const auto part = [](const std::string& more) {
+        return R"({"parts": [{"mesh": "sphere", "material": "clay"}, {"mesh": "sphere", "material": "clay")" +
+               more + "}]}";
+    };
+    CHECK(failureOf(part("")) == "");
+    const std::string unknown = failureOf(part(R"(, "tranlate": [0, 0, 0])"));
+    CHECK(unknown.find("scene.json: parts[1]") != std::string::npos);
+    CHECK(unknown.find("did you mean \"translate\"") != std::string::npos);
+    CHECK(failureOf(part(R"(, "translate": [0, 0])")).find("three numbers") != std::string::npos);
+    CHECK(failureOf(part(R"(, "translate": [0, 0, "1"])")).find("translate") != std::string::npos);
+    CHECK(failureOf(part(R"(, "scale": 0)")).find("scale") != std::string::npos);
+    CHECK(failureOf(part(R"(, "scale": 1e300)")).find("scale") != std::string::npos);
+    CHECK(failureOf(part(R"(, "up": "x")")).find("\"y\" or \"z\"") != std::string::npos);
+    CHECK(failureOf(part(R"(, "name": 7)")).find("name") != std::string::npos);
+    CHECK(failureOf(R"({"parts": [{"mesh": "sphere"}]})").find("material") != std::string::npos);
+    CHECK(failureOf(R"({"parts": [{"material": "clay"}]})").find("mesh") != std::string::npos);
+    CHECK(failureOf(R"({"parts": [{"mesh": "none.obj", "material": "clay"}]})").find("none.obj") !=
+          std::string::npos);
+    CHECK(failureOf(R"({"parts": []})").find("parts") != std::string::npos);
+    CHECK(failureOf(R"({"part": []})").find("did you mean \"parts\"") != std::string::npos);
+    CHECK(failureOf(R"([1])").find("object") != std::string::npos);
+    CHECK(failureOf("{\"parts\": [").find("not valid JSON") != std::string::npos);
+    CHECK(failureOf("").find("not valid JSON") != std::string::npos);
+    CHECK(failureOf(std::string(100000, '[')).find("deeper") != std::string::npos);
+    const std::string start = R"({"parts": [{"mesh": "sphere", "material": "clay"}], "ground": )";
+    CHECK(failureOf(start + R"({"tessellation": 1e9}})").find("tessellation") != std::string::npos);
+    CHECK(failureOf(start + R"({"tessellation": 1.5}})").find("whole") != std::string::npos);
+    CHECK(failureOf(start + R"({"size": 2}})").find("unknown key \"size\"") != std::string::npos);
+    CHECK(failureOf(start + "3}").find("object") != std::string::npos);
+    CHECK(failureOf(start + "true}") == "");
+}
+
+TEST_CASE("nearest name: the fewest edits") {
+    static constexpr std::string_view kNames[] = {"clay", "dark-skin", "red-plastic"};
+    CHECK(nearestName("darkskin", kNames) == "dark-skin");
+    CHECK(nearestName("red plastic", kNames) == "red-plastic");
+    CHECK(nearestName("", kNames) == "clay");
+    CHECK(nearestName(std::string(1 << 20, 'k'), kNames) == "dark-skin");
+}
