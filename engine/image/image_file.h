@@ -20,7 +20,7 @@ ImageFile readImage(const std::filesystem::path& path);
 // Writes RGBA, 32-bit float, ZIP-compressed, whole or not at all.
 void writeExr(const std::filesystem::path& path, const Image& image);
 
-// Writes display values in [0, 1] as 8-bit RGBA, whole or not at all.
+// Writes display values in [0, 1], rounded to nearest, as 8-bit RGBA, whole or not at all.
 void writePng(const std::filesystem::path& path, const Image& image);
 
 } // namespace relume

@@ -21,16 +21,18 @@ struct Environment {
 };
 
 // Reads .exr (latlong, or cube by its envmap attribute) or .hdr. A file without the attribute is a
-// latlong with pixel centres; one with it has its first and last rows on the poles, and is resampled.
-// Negative values become 0 and are counted in the log. Throws Error.
+// latlong with pixel centres; one with it has its first and last rows on the poles, and is resampled; a
+// cube becomes a latlong of four times a face's width. Negative values become 0, those above 1e12 become
+// that; both are counted in the log. Throws Error, also for a latlong that is not twice as wide as high.
 Environment readEnvironment(const std::filesystem::path& path);
 
 // The built-in sky: blue above, warm near the horizon, brown below, with a soft sun; generated in code.
 Environment makeSky(int width = 512);
 
-// The map that lights are sampled from: area-averaged down to at most `maxWidth` columns, then each row
-// averaged over 1 / cos(latitude) columns, so that a pixel near a pole is as wide as one at the equator.
-// Keeps Σ radiance · solid angle.
-Environment prepareForSampling(const Environment& environment, int maxWidth = 1024);
+// The map that lights are sampled from: area-averaged down to at most `maxWidth` columns (the default gives
+// a cube of 64 a pixel for its smallest texel), then each row averaged twice over 1 / cos(latitude) columns,
+// so that a pixel near a pole is as wide as one at the equator, then the three rows around each pole
+// averaged. Keeps Σ radiance · solid angle to 1e-6.
+Environment prepareForSampling(const Environment& environment, int maxWidth = 512);
 
 } // namespace relume

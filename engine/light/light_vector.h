@@ -4,6 +4,7 @@
 #include "engine/light/light_cube.h"
 
 #include <array>
+#include <cstdint>
 
 namespace relume {
 
@@ -12,6 +13,11 @@ namespace relume {
 constexpr int kLightMaximum = 32767;
 constexpr int kDefaultLightThreshold = 1024;
 
+// Most entries (a cube of 64² texels a face), and the most that Σ|value| of a channel may be: a product
+// with coefficients of at most 2^10 in magnitude (11 bits) then sums to less than 2^31 in any order.
+constexpr uint32_t kMaximumLightEntries = 6 * 64 * 64;
+constexpr uint32_t kLightSumLimit = (1u << 21) - 1;
+
 struct LightVector {
     int faceSize = 0;                           // F
     float scale = 0;                            // coefficient = scale · quantised value
@@ -19,9 +25,20 @@ struct LightVector {
     std::vector<std::array<int16_t, 3>> values; // quantised, in [-32767, 32767]
 };
 
-// Transforms, quantises against the largest coefficient of all channels and drops what lies below
-// `threshold` (0 keeps all but zeros). If Σ|value| of a channel could carry a sum of products with
-// 11-bit coefficients past 2^31, the scale is coarsened until it cannot. CPU twin of the light passes.
+// What the largest coefficient becomes when quantising to kLightMaximum gave `magnitudeSum` = the largest
+// channel's Σ|value| over the kept entries: kLightMaximum if that is within kLightSumLimit, else less, so
+// that requantising keeps the limit whichever way the entries round. With S = magnitudeSum and
+// n = kMaximumLightEntries: floor((kLightSumLimit - n) / ceil((S + n) / kLightMaximum)); all fits 32 bits.
+int lightMaximumFor(uint32_t magnitudeSum);
+
+// CPU twin of the light passes:
+//   1. c = the Haar transform of each face; m = the largest |component| of all (0: nothing is kept).
+//   2. q = sign(c) floor(|c| / m · 32767 + ½); kept are the entries with some |component of q| of at least
+//      `threshold` (and at least 1, so 0 keeps all but zeros).
+//   3. M = lightMaximumFor(the largest channel's Σ|q| over the kept).
+//   4. values of the kept: q again, with M for 32767, and again without those that are all zero;
+//      scale = m / M.
+// The cube must be finite, of a power of two of at most 64 texels a side.
 LightVector makeLightVector(const LightCube& cube, int threshold = kDefaultLightThreshold);
 
 // The light that the vector stands for: inverse transform of scale · values. For showing and measuring.

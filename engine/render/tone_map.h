@@ -8,9 +8,14 @@
 
 namespace relume {
 
-enum class ToneCurve { None, Aces, Agx };
+enum class ToneCurve {
+    None,
+    Aces, // per channel: the rational fit of Narkowicz, "ACES Filmic Tone Mapping Curve", 2016
+    Agx,  // Sobotka's AgX, base look, by the polynomial of Wrensch, "Minimal AgX Implementation", 2023
+};
 
-// Scales by 2^exposure, applies the curve, encodes as sRGB and clamps to [0, 1].
+// Scales by 2^exposure, applies the curve, encodes as sRGB (IEC 61966-2-1) and clamps to [0, 1]. Alpha
+// stays. What is negative or not a number becomes 0.
 Image toneMap(const Image& linear, ToneCurve curve, float exposureStops);
 
 std::optional<ToneCurve> toneCurveFromName(std::string_view name); // "none", "aces", "agx"

@@ -7,12 +7,12 @@ namespace relume {
 
 struct ImageDifference {
     double relativeRmse;  // sqrt(Σ(a-b)² / Σb²) over linear RGB; b is the reference
-    double psnr;          // dB, peak = largest value of b
+    double psnr;          // dB, peak = largest value of b; infinite for equal images
     double maxDifference; // largest |a-b| over pixels and channels
-    double flip;          // mean ꟻLIP error in [0, 1] of tone-mapped images (Andersson et al. 2020)
+    double flip;          // mean ꟻLIP error in [0, 1] after toneMap (ACES, exposure 0)
 };
 
-// Throws Error when the sizes differ or the reference is black.
+// Alpha does not count. Throws Error when the sizes differ, a value is not finite or the reference is black.
 ImageDifference compareImages(const Image& image, const Image& reference);
 
 } // namespace relume

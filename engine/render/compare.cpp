@@ -1,0 +1,49 @@
+#include "engine/render/compare.h"
+
+#include "engine/base/error.h"
+#include "engine/image/flip.h"
+#include "engine/render/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace relume {
+
+namespace {
+
+void checkFinite(const Image& image, const char* which) {
+    for (size_t i = 0; i < image.pixels.size(); i++)
+        for (int c = 0; c < 3; c++)
+            if (!std::isfinite(image.pixels[i][c]))
+                throw Error("the {} is not finite at pixel ({}, {})", which, i % size_t(image.width),
+                            i / size_t(image.width));
+}
+
+} // namespace
+
+ImageDifference compareImages(const Image& image, const Image& reference) {
+    if (image.width != reference.width || image.height != reference.height)
+        throw Error("expected images of equal size, found {} x {} against {} x {}", image.width, image.height,
+                    reference.width, reference.height);
+    checkFinite(image, "image");
+    checkFinite(reference, "reference");
+    double squares = 0, referenceSquares = 0, peak = 0, largest = 0;
+    for (size_t i = 0; i < image.pixels.size(); i++)
+        for (int c = 0; c < 3; c++) {
+            const double b = reference.pixels[i][c], difference = image.pixels[i][c] - b;
+            squares += difference * difference;
+            referenceSquares += b * b;
+            peak = std::max(peak, b);
+            largest = std::max(largest, std::abs(difference));
+        }
+    if (peak <= 0) throw Error("the reference is black: differences cannot be related to it");
+    const double meanSquare = squares / (3.0 * double(image.pixels.size()));
+    return {.relativeRmse = std::sqrt(squares / referenceSquares),
+            .psnr = squares == 0 ? std::numeric_limits<double>::infinity()
+                                 : 10 * std::log10(peak * peak / meanSquare),
+            .maxDifference = largest,
+            .flip = flipError(toneMap(image, ToneCurve::Aces, 0), toneMap(reference, ToneCurve::Aces, 0))};
+}
+
+} // namespace relume

@@ -1,0 +1,58 @@
+#include "engine/render/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+// Brighter than anything a curve tells from white; its square is a finite float.
+constexpr float kBrightest = 1e15f;
+
+vec3 aces(vec3 x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); }
+
+// Display light, linear. AgX works on logarithms in primaries drawn in towards white.
+vec3 agx(vec3 x) {
+    const mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, // columns
+                     0.0784335999999992f, 0.878468636469772f, 0.0784336f, 0.0792237451477643f,
+                     0.0791661274605434f, 0.879142973793104f);
+    constexpr float kLowestStop = -12.47393f, kHighestStop = 4.026069f;
+    const vec3 stops = glm::log2(glm::max(inset * x, vec3(1e-10f)));
+    const vec3 t = glm::clamp((stops - kLowestStop) / (kHighestStop - kLowestStop), vec3(0), vec3(1));
+    const vec3 t2 = t * t, t4 = t2 * t2;
+    const vec3 contrast = 15.5f * t4 * t2 - 40.14f * t4 * t + 31.96f * t4 - 6.868f * t2 * t + 0.4298f * t2 +
+                          0.1191f * t - 0.00232f;
+    // The sigmoid's values are meant for a display of gamma 2.2.
+    return glm::pow(glm::max(glm::inverse(inset) * contrast, vec3(0)), vec3(2.2f));
+}
+
+float encodeSrgb(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
+
+float exposed(float value, float scale) {
+    const float x = value * scale;
+    return x > 0 ? std::min(x, kBrightest) : 0.0f;
+}
+
+} // namespace
+
+Image toneMap(const Image& linear, ToneCurve curve, float exposureStops) {
+    Image display = linear;
+    const float scale = std::exp2(exposureStops);
+    for (vec4& pixel : display.pixels) {
+        vec3 x(exposed(pixel.x, scale), exposed(pixel.y, scale), exposed(pixel.z, scale));
+        if (curve == ToneCurve::Aces) x = aces(x);
+        if (curve == ToneCurve::Agx) x = agx(x);
+        for (int c = 0; c < 3; c++) pixel[c] = std::clamp(encodeSrgb(x[c]), 0.0f, 1.0f);
+    }
+    return display;
+}
+
+std::optional<ToneCurve> toneCurveFromName(std::string_view name) {
+    if (name == "none") return ToneCurve::None;
+    if (name == "aces") return ToneCurve::Aces;
+    if (name == "agx") return ToneCurve::Agx;
+    return std::nullopt;
+}
+
+} // namespace relume

@@ -1,0 +1,131 @@
+#include "engine/light/light_vector.h"
+#include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+#include <span>
+
+using namespace relume;
+
+namespace {
+
+LightCube randomCube(int size, unsigned seed) {
+    std::mt19937 random(seed);
+    std::exponential_distribution<float> radiance;
+    LightCube cube{size, std::vector<vec3>(size_t(6 * size * size))};
+    for (vec3& texel : cube.radiance) texel = {radiance(random), radiance(random), radiance(random)};
+    return cube;
+}
+
+// A cube whose Haar coefficients are those given.
+LightCube cubeOfCoefficients(std::vector<vec3> coefficients, int size) {
+    const size_t texels = size_t(size * size);
+    for (size_t face = 0; face < 6; face++)
+        haarInverse(std::span(coefficients).subspan(face * texels, texels), size);
+    return {size, std::move(coefficients)};
+}
+
+uint64_t largestChannelSum(const LightVector& vector) {
+    uint64_t sums[3] = {};
+    for (const auto& value : vector.values)
+        for (size_t c = 0; c < 3; c++) sums[c] += uint64_t(std::abs(int(value[c])));
+    return std::max({sums[0], sums[1], sums[2]});
+}
+
+double relativeError(const LightCube& a, const LightCube& b) {
+    double squares = 0, reference = 0;
+    for (size_t i = 0; i < a.radiance.size(); i++) {
+        const vec3 difference = a.radiance[i] - b.radiance[i];
+        squares += glm::dot(difference, difference);
+        reference += glm::dot(b.radiance[i], b.radiance[i]);
+    }
+    return std::sqrt(squares / reference);
+}
+
+} // namespace
+
+TEST_CASE("light vector: constant light is one coefficient a face") {
+    LightCube cube{64, std::vector<vec3>(6 * 64 * 64, vec3(1, 0.5f, 0.25f))};
+    const LightVector vector = makeLightVector(cube);
+    REQUIRE(vector.indices.size() == 6);
+    for (size_t face = 0; face < 6; face++) {
+        CHECK(vector.indices[face] == face * 64 * 64);
+        CHECK(vector.values[face] == std::array<int16_t, 3>{32767, 16384, 8192});
+    }
+    CHECK(vector.scale == doctest::Approx(64.0 / 32767));
+}
+
+TEST_CASE("light vector: black light is empty") {
+    const LightVector vector = makeLightVector({16, std::vector<vec3>(6 * 16 * 16, vec3(0))});
+    CHECK(vector.indices.empty());
+    CHECK(vector.scale == 0);
+    CHECK(relativeError(reconstruct(vector), {16, std::vector<vec3>(6 * 16 * 16, vec3(1))}) == 1);
+}
+
+TEST_CASE("light vector: rounds halves away from zero and drops below the threshold in all channels") {
+    std::vector<vec3> coefficients(6 * 4 * 4, vec3(0));
+    coefficients[0] = vec3(32767, 0, 0);
+    coefficients[1] = vec3(1023.5f, 0, -2.5f); // 1024, 0, -3
+    coefficients[2] = vec3(-1023.4f, 1023.4f, 0);
+    coefficients[3] = vec3(0, 0, -4096);
+    const LightVector vector = makeLightVector(cubeOfCoefficients(coefficients, 4));
+    REQUIRE(vector.indices == std::vector<uint16_t>{0, 1, 3});
+    CHECK(vector.values[1] == std::array<int16_t, 3>{1024, 0, -3});
+    CHECK(vector.values[2] == std::array<int16_t, 3>{0, 0, -4096});
+    CHECK(makeLightVector(cubeOfCoefficients(coefficients, 4), 0).indices.size() == 4);
+}
+
+TEST_CASE("light vector: threshold 0 loses only to rounding") {
+    const LightCube cube = randomCube(32, 4);
+    const LightVector vector = makeLightVector(cube, 0);
+    CHECK(std::is_sorted(vector.indices.begin(), vector.indices.end()));
+    CHECK(relativeError(reconstruct(vector), cube) < 2e-3);
+}
+
+TEST_CASE("light vector: a higher threshold keeps less and errs more") {
+    LightCube cube = randomCube(32, 5);
+    cube.radiance[1000] = vec3(500);
+    const LightVector fine = makeLightVector(cube, 16), coarse = makeLightVector(cube, 1024);
+    CHECK(fine.indices.size() > 2 * coarse.indices.size());
+    CHECK(relativeError(reconstruct(fine), cube) < relativeError(reconstruct(coarse), cube));
+}
+
+TEST_CASE("light vector: scaled light scales the vector") {
+    LightCube cube = randomCube(16, 6);
+    const LightVector once = makeLightVector(cube);
+    for (vec3& texel : cube.radiance) texel *= 4.0f;
+    const LightVector fourfold = makeLightVector(cube);
+    CHECK(once.indices == fourfold.indices);
+    CHECK(once.values == fourfold.values);
+    CHECK(fourfold.scale == doctest::Approx(4 * once.scale));
+}
+
+TEST_CASE("light vector: the coarsened maximum keeps the limit for any sum") {
+    CHECK(lightMaximumFor(0) == kLightMaximum);
+    CHECK(lightMaximumFor(kLightSumLimit) == kLightMaximum);
+    const double n = kMaximumLightEntries;
+    for (uint64_t sum = kLightSumLimit + 1; sum <= uint64_t(n) * 32767; sum += 1 + sum / 97) {
+        const double maximum = lightMaximumFor(uint32_t(sum));
+        CHECK(maximum >= 64);
+        // Each entry may have been rounded down by a half, and may be rounded up by another.
+        CHECK((double(sum) + n / 2) * maximum / 32767 + n / 2 <= kLightSumLimit);
+    }
+}
+
+TEST_CASE("light vector: sums stay below the limit for hostile cubes") {
+    std::mt19937 random(7);
+    for (float value : {1.0f, 0.5f, 1024.5f / 32767, 85.49f / 32767, 1e-3f}) {
+        std::vector<vec3> coefficients(kMaximumLightEntries);
+        for (vec3& c : coefficients) c = vec3(random() % 2 ? value : -value);
+        coefficients[0] = vec3(1);
+        const LightCube cube = cubeOfCoefficients(coefficients, 64);
+        const LightVector vector = makeLightVector(cube, 0);
+        CHECK(vector.values.size() == kMaximumLightEntries);
+        CHECK(largestChannelSum(vector) <= kLightSumLimit);
+        CHECK(largestChannelSum(vector) > 0.5 * std::min(double(kLightSumLimit), value * 32767.0 * 24576));
+        CHECK(relativeError(reconstruct(vector), cube) < 0.01);
+    }
+}
