@@ -95,10 +95,22 @@ void Commands::pass(const char* name, const std::function<void()>& work) {
     if (timed) {
         mTimedPasses.emplace_back(name);
         vkCmdWriteTimestamp2(mCommands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, mQueries, query);
+        orderAllCommands();
     }
     work();
     if (timed) vkCmdWriteTimestamp2(mCommands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, mQueries, query + 1);
     mDevice.endLabel(mCommands);
+}
+
+// Nothing that follows starts before everything that came before is done, the timestamp included:
+// without it a pass's work may run ahead of its first timestamp (lavapipe's always does).
+void Commands::orderAllCommands() {
+    VkMemoryBarrier2 order{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    order.srcStageMask = order.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &order;
+    vkCmdPipelineBarrier2(mCommands, &dependency);
 }
 
 void Commands::dispatchBytes(const ComputeProgram& program, std::initializer_list<Binding> bindings,

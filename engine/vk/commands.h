@@ -92,6 +92,7 @@ class Commands {
     void bindBytes(const Program& program, VkPipelineBindPoint point, std::initializer_list<Binding> bindings,
                    std::span<const std::byte> push);
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
+    void orderAllCommands();
     void collectTimes();
 
     const Device& mDevice;
