@@ -1,0 +1,102 @@
+#include "engine/render/light_pass.h"
+
+#include "engine/base/error.h"
+#include "engine/vk/upload.h"
+#include "shaders/light_haar_comp.h"
+#include "shaders/light_quantise_comp.h"
+#include "shaders/light_sample_comp.h"
+#include "shaders/shared/render.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace relume {
+
+using vk::BufferUse;
+using vk::Stage;
+
+static_assert(sizeof(shared::LightScale) == sizeof(float));
+
+LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), mFaceSize(faceSize) {
+    RELUME_CHECK(faceSize >= 2 && std::has_single_bit(unsigned(faceSize)));
+    RELUME_CHECK_LE(coefficients(), kMaximumLightEntries);
+    const vk::Constants size{uint32_t(faceSize)};
+    mSampleProgram = vk::ComputeProgram(device, light_sample_comp_spirv, size, "light sample");
+    mHaarProgram = vk::ComputeProgram(device, light_haar_comp_spirv, size, "light haar");
+    mQuantiseProgram = vk::ComputeProgram(device, light_quantise_comp_spirv, {}, "light quantise");
+    mRadiance = vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light radiance");
+    mCoefficients =
+        vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light coefficients");
+    mTable =
+        vk::Buffer(device, coefficients() * sizeof(shared::PackedLight), BufferUse::Device, "light table");
+    mScale = vk::Buffer(device, sizeof(shared::LightScale), BufferUse::Device, "light scale");
+}
+
+void LightPass::setEnvironment(const Environment& prepared) {
+    RELUME_CHECK(prepared.width > 0 && prepared.height > 0);
+    RELUME_CHECK_EQ(prepared.radiance.size(), size_t(prepared.width) * size_t(prepared.height));
+    if (std::span(prepared.radiance).size_bytes() > mDevice.largestStorageBuffer())
+        throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
+                    prepared.width, prepared.height, mDevice.name());
+    mEnvironment = vk::upload<vec3>(mDevice, prepared.radiance, "environment");
+    mEnvironmentSize = {prepared.width, prepared.height};
+    mHasLight = mSamplesEnvironment = true;
+}
+
+void LightPass::setCube(const LightCube& cube) {
+    RELUME_CHECK_EQ(cube.size, mFaceSize);
+    RELUME_CHECK_EQ(cube.radiance.size(), size_t(coefficients()));
+    mRadiance = vk::upload<vec3>(mDevice, cube.radiance, "light radiance");
+    mHasLight = true;
+    mSamplesEnvironment = false;
+}
+
+void LightPass::record(vk::Commands& commands, float rotation, int threshold) const {
+    RELUME_CHECK(mHasLight);
+    RELUME_CHECK(std::isfinite(rotation));
+    const shared::LightQuantisePush quantise{coefficients(), uint32_t(std::max(threshold, 1)),
+                                             uint32_t(kLightMaximum), kLightSumLimit, kMaximumLightEntries};
+    // An earlier frame of the same submission may still be reading the table and the scale.
+    commands.barrier(Stage::Compute, Stage::Compute);
+    commands.barrier(Stage::Draw, Stage::Compute);
+    if (mSamplesEnvironment) {
+        commands.pass("light sample", [&] {
+            const int samples = samplesPerTexelSide(mEnvironmentSize.x, mFaceSize);
+            const shared::LightSamplePush push{mEnvironmentSize.x, mEnvironmentSize.y, uint32_t(samples),
+                                               std::cos(rotation), std::sin(rotation)};
+            commands.dispatch(mSampleProgram, {mEnvironment, mRadiance}, push, {coefficients(), 1, 1});
+            commands.barrier(Stage::Compute, Stage::Compute);
+        });
+    }
+    commands.pass("light haar", [&] {
+        // A work-group per face and channel.
+        commands.dispatch(mHaarProgram, {mRadiance, mCoefficients}, 0, {1, 6, 3});
+        commands.barrier(Stage::Compute, Stage::Compute);
+    });
+    commands.pass("light quantise", [&] {
+        commands.dispatch(mQuantiseProgram, {mCoefficients, mTable, mScale}, quantise, {1, 1, 1});
+        commands.barrier(Stage::Compute, Stage::Compute);
+        commands.barrier(Stage::Compute, Stage::Draw);
+    });
+}
+
+LightCube LightPass::readCube() const {
+    return {mFaceSize, vk::download<vec3>(mDevice, mRadiance, coefficients())};
+}
+
+LightVector LightPass::readVector() const {
+    LightVector vector;
+    vector.faceSize = mFaceSize;
+    vector.scale = vk::download<shared::LightScale>(mDevice, mScale, 1)[0].scale;
+    const auto table = vk::download<shared::PackedLight>(mDevice, mTable, coefficients());
+    for (uint32_t i = 0; i < table.size(); i++) {
+        const auto& [redGreen, blue] = table[i];
+        if (redGreen == 0 && blue == 0) continue;
+        vector.indices.push_back(uint16_t(i));
+        vector.values.push_back({int16_t(redGreen & 0xffff), int16_t(redGreen >> 16), int16_t(blue)});
+    }
+    return vector;
+}
+
+} // namespace relume

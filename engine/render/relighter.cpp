@@ -1,0 +1,107 @@
+#include "engine/render/relighter.h"
+
+#include "engine/base/error.h"
+#include "engine/vk/upload.h"
+#include "shaders/relight_comp.h"
+#include "shaders/shared/render.h"
+
+#include <algorithm>
+
+namespace relume {
+
+using vk::Stage;
+
+namespace {
+
+constexpr uint64_t kEntriesPerGroup = 8;
+constexpr uint64_t kWordsPerGroup = 12;
+constexpr uint64_t kGroupBytes = kWordsPerGroup * sizeof(uint32_t);
+
+struct ShardData {
+    std::vector<uint32_t> starts{0};
+    std::vector<uint32_t> words;
+};
+
+uint64_t rowGroups(const SparseTransport& transport, size_t row) {
+    const uint64_t entries = transport.rowStarts[row + 1] - transport.rowStarts[row];
+    return (entries + kEntriesPerGroup - 1) / kEntriesPerGroup;
+}
+
+void appendRow(ShardData& shard, const SparseTransport& transport, size_t row, uint32_t coefficients) {
+    const size_t firstWord = shard.words.size();
+    shard.words.resize(firstWord + rowGroups(transport, row) * kWordsPerGroup, 0);
+    const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
+    for (uint64_t entry = start; entry < end; entry++) {
+        const uint64_t place = (entry - start) % kEntriesPerGroup;
+        uint32_t* group = &shard.words[firstWord + (entry - start) / kEntriesPerGroup * kWordsPerGroup];
+        RELUME_CHECK_LT(uint32_t(transport.indices[entry]), coefficients);
+        group[place / 2] |= uint32_t(transport.indices[entry]) << (place % 2 * 16);
+        group[4 + place] = transport.values[entry];
+    }
+    shard.starts.push_back(uint32_t(shard.words.size() / kWordsPerGroup));
+}
+
+} // namespace
+
+Relighter::Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options)
+    : mDevice(device), mFaceSize(asset.faceSize), mProgram(device, relight_comp_spirv, {}, "relight") {
+    for (const AssetPart& part : asset.parts) mParts.push_back(makePart(part, options));
+}
+
+// Rows of a shard: as many as one dispatch reaches and as fit the buffer of their starts.
+uint32_t Relighter::largestRowCount(uint64_t largestShard) const {
+    const uint64_t reached =
+        uint64_t(mDevice.limits().maxComputeWorkGroupCount[0]) * uint64_t(mProgram.groupSize()[0]);
+    const uint64_t bound = std::max<uint64_t>(largestShard / sizeof(uint32_t), 2) - 1;
+    return uint32_t(std::min<uint64_t>({reached, bound, std::numeric_limits<uint32_t>::max()}));
+}
+
+Relighter::Part Relighter::makePart(const AssetPart& source, const RelighterOptions& options) const {
+    const SparseTransport& transport = source.transport;
+    const uint64_t sumBytes = std::max<uint64_t>(transport.rows() * sizeof(ivec3), sizeof(ivec3));
+    if (sumBytes > mDevice.largestStorageBuffer())
+        throw Error("{}: {} vertices with {} terms need {} bytes of sums; {} binds at most {}; split the "
+                    "mesh into several parts",
+                    source.name, transport.vertices, transport.terms, sumBytes, mDevice.name(),
+                    mDevice.largestStorageBuffer());
+    Part part;
+    part.rows = uint32_t(transport.rows());
+    part.sums = vk::Buffer(mDevice, sumBytes, vk::BufferUse::Device, source.name + " sums");
+
+    const uint64_t largestShard = std::min(options.largestShard, mDevice.largestStorageBuffer());
+    const uint64_t largestGroups = largestShard / kGroupBytes;
+    const uint32_t largestRows = largestRowCount(largestShard);
+    const uint32_t coefficients = 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize);
+    for (uint32_t row = 0; row < part.rows;) {
+        Shard& shard = part.shards.emplace_back();
+        shard.firstRow = row;
+        ShardData data;
+        // At least one row: the longest, all 24,576 coefficients, is far below what any device binds.
+        do appendRow(data, transport, row++, coefficients);
+        while (row < part.rows && data.starts.size() <= largestRows &&
+               data.starts.back() + rowGroups(transport, row) <= largestGroups);
+        shard.rows = row - shard.firstRow;
+        shard.starts = vk::upload<uint32_t>(mDevice, data.starts, source.name + " row starts");
+        shard.entries = vk::upload<uint32_t>(mDevice, data.words, source.name + " entries");
+    }
+    return part;
+}
+
+void Relighter::record(vk::Commands& commands, const LightPass& light) const {
+    RELUME_CHECK_EQ(light.faceSize(), mFaceSize);
+    // An earlier frame of the same submission may still be reading the sums.
+    commands.barrier(Stage::Draw, Stage::Compute);
+    commands.pass("relight", [&] {
+        for (const Part& part : mParts)
+            for (const Shard& shard : part.shards)
+                commands.dispatch(mProgram, {shard.starts, shard.entries, light.table(), part.sums},
+                                  shared::RelightPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
+        commands.barrier(Stage::Compute, Stage::Draw);
+    });
+}
+
+std::vector<ivec3> Relighter::readSums(size_t part) const {
+    return vk::download<ivec3>(mDevice, mParts[part].sums, mParts[part].rows);
+}
+
+} // namespace relume

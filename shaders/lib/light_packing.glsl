@@ -1,0 +1,13 @@
+// Light values as tables hold them. C++ reads them back in engine/render/light_pass.cpp.
+#ifndef RELUME_LIB_LIGHT_PACKING_GLSL
+#define RELUME_LIB_LIGHT_PACKING_GLSL
+#include "shaders/shared/render.h"
+
+PackedLight packLight(ivec3 q) { return PackedLight((uint(q.r) & 0xffffu) | uint(q.g) << 16, q.b); }
+
+ivec3 unpackLight(PackedLight light) {
+    const int redGreen = int(light.redGreen);
+    return ivec3(bitfieldExtract(redGreen, 0, 16), redGreen >> 16, light.blue);
+}
+
+#endif

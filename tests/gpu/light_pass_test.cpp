@@ -1,0 +1,152 @@
+#include "engine/math/cubemap.h"
+#include "engine/render/light_pass.h"
+#include "tests/helpers/test_device.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <map>
+#include <random>
+
+using namespace relume;
+
+namespace {
+
+// Smooth, with a small bright sun, brighter than all the rest by far.
+Environment makeTestEnvironment(int width) {
+    Environment map{width, width / 2, {}};
+    for (int y = 0; y < map.height; y++)
+        for (int x = 0; x < map.width; x++) {
+            const vec3 d = map.direction(float(x) + 0.5f, float(y) + 0.5f);
+            const float sun = glm::dot(d, glm::normalize(vec3(0.3f, 0.5f, -0.8f))) > 0.995f ? 50.0f : 0.0f;
+            map.radiance.push_back(vec3(1.0f + d.x, 1.2f + d.y, 1.5f + d.z) + sun);
+        }
+    return prepareForSampling(map);
+}
+
+LightCube makeNoise(int size, float low, float high) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> value(low, high);
+    LightCube cube{size, {}};
+    for (int i = 0; i < 6 * size * size; i++)
+        cube.radiance.emplace_back(value(random), value(random), value(random));
+    return cube;
+}
+
+void submit(const vk::Device& device, const LightPass& pass, float rotation, int threshold) {
+    vk::Commands commands(device, "light test");
+    commands.begin();
+    pass.record(commands, rotation, threshold);
+    commands.submitAndWait();
+}
+
+std::map<int, std::array<int, 3>> entriesOf(const LightVector& vector) {
+    std::map<int, std::array<int, 3>> entries;
+    for (size_t e = 0; e < vector.indices.size(); e++)
+        entries[vector.indices[e]] = {vector.values[e][0], vector.values[e][1], vector.values[e][2]};
+    return entries;
+}
+
+// Same scale, and the same values within a step. An entry may be on one side only if it is within a step of
+// where it is dropped.
+void checkSameVector(const LightVector& device, const LightVector& host, int threshold) {
+    CHECK_EQ(device.faceSize, host.faceSize);
+    CHECK_EQ(device.scale, doctest::Approx(host.scale).epsilon(1e-6));
+    auto left = entriesOf(device), right = entriesOf(host);
+    int worst = 0, lonely = 0;
+    for (const auto& [index, value] : left) {
+        if (!right.contains(index)) {
+            lonely++;
+            continue;
+        }
+        for (size_t c = 0; c < 3; c++) worst = std::max(worst, std::abs(value[c] - right[index][c]));
+    }
+    for (const auto& [index, value] : right) lonely += !left.contains(index);
+    CHECK_LE(worst, 1);
+    CHECK_LE(lonely, int(right.size()) / 1000 + (threshold > 1 ? 1 : 0));
+}
+
+} // namespace
+
+TEST_CASE("light pass: a constant environment is one coefficient a face") {
+    const TestDevice device;
+    LightPass pass(device, 64);
+    pass.setEnvironment({16, 8, std::vector<vec3>(128, vec3(3, 2, 1))});
+    submit(device, pass, 0.7f, 1024);
+    for (const vec3& radiance : pass.readCube().radiance)
+        for (int c = 0; c < 3; c++) CHECK_EQ(radiance[c], doctest::Approx(3 - c).epsilon(1e-5));
+    const LightVector vector = pass.readVector();
+    REQUIRE_EQ(vector.indices.size(), 6);
+    for (size_t face = 0; face < 6; face++) {
+        CHECK_EQ(vector.indices[face], face * 4096);
+        CHECK_LE(std::abs(vector.values[face][0] - 32767), 1);
+        CHECK_LE(std::abs(vector.values[face][1] - 21845), 1);
+    }
+    CHECK_EQ(vector.scale, doctest::Approx(3.0 * 64 / 32767).epsilon(1e-5));
+}
+
+TEST_CASE("light pass: an environment agrees with the CPU twin") {
+    const TestDevice device;
+    for (const int faceSize : {32, 64})
+        for (const int width : {64, 512}) {
+            const Environment environment = makeTestEnvironment(width);
+            LightPass pass(device, faceSize);
+            pass.setEnvironment(environment);
+            for (const float rotation : {0.0f, 2.5f}) {
+                submit(device, pass, rotation, kDefaultLightThreshold);
+                const LightCube cube = pass.readCube(),
+                                expected = sampleEnvironment(environment, faceSize, rotation);
+                float worst = 0;
+                for (size_t i = 0; i < cube.radiance.size(); i++)
+                    for (int c = 0; c < 3; c++)
+                        worst = std::max(worst, std::abs(cube.radiance[i][c] - expected.radiance[i][c]) /
+                                                    expected.radiance[i][c]);
+                CHECK_LT(worst, 1e-4f);
+                checkSameVector(pass.readVector(), makeLightVector(expected), kDefaultLightThreshold);
+            }
+        }
+}
+
+TEST_CASE("light pass: a cube is quantised as by the CPU twin") {
+    const TestDevice device;
+    LightPass pass(device, 64);
+    for (const int threshold : {0, 1, 300, 1024}) {
+        const LightCube cube = makeDistantLight({0.2f, 0.9f, 0.4f}, {3, 2, 1}, 64);
+        pass.setCube(cube);
+        submit(device, pass, 0, threshold);
+        const LightVector vector = pass.readVector(), expected = makeLightVector(cube, threshold);
+        CHECK_EQ(vector.scale, expected.scale);
+        CHECK(vector.indices == expected.indices);
+        CHECK(vector.values == expected.values);
+    }
+}
+
+TEST_CASE("light pass: the range guard coarsens as the CPU twin does") {
+    const TestDevice device;
+    for (const int faceSize : {32, 64}) {
+        LightPass pass(device, faceSize);
+        const LightCube cube = makeNoise(faceSize, -1, 1); // negative radiance: the largest sums there are
+        pass.setCube(cube);
+        submit(device, pass, 0, 0);
+        const LightVector vector = pass.readVector();
+        uint64_t sum = 0;
+        int largest = 0;
+        for (const auto& value : vector.values) {
+            sum += uint64_t(std::abs(value[0]));
+            for (int c : value) largest = std::max(largest, std::abs(c));
+        }
+        CHECK_LT(largest, kLightMaximum);
+        CHECK_LE(sum, kLightSumLimit);
+        checkSameVector(vector, makeLightVector(cube, 0), 0);
+    }
+}
+
+TEST_CASE("light pass: no light is no coefficient") {
+    const TestDevice device;
+    LightPass pass(device, 32);
+    pass.setCube({32, std::vector<vec3>(6 * 32 * 32, vec3(0))});
+    submit(device, pass, 0, 0);
+    const LightVector vector = pass.readVector();
+    CHECK_EQ(vector.scale, 0);
+    CHECK(vector.indices.empty());
+}
