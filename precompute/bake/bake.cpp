@@ -59,13 +59,10 @@ struct PartPasses {
     PartPasses(const vk::Device& device, const Asset& asset, const FactoredBrdf& brdf,
                const BakeOptions& options, uint32_t capacity)
         : batch(capacity), visibility(device, asset.occluder, uint32_t(options.visibilitySize), capacity,
-                                      asset.visibilityOffset * kNearDistance),
+                                      visibilityNearDistance(asset.visibilityOffset)),
           transport(device, brdf, options, capacity),
           bits(device, capacity * RasterVisibility::bytesPerPoint(uint32_t(options.visibilitySize)),
                vk::BufferUse::Device, "visibility bits") {}
-
-    // Near plane of the visibility pass, in units of the offset that lifts points off the surface.
-    static constexpr float kNearDistance = 1e-3f;
 
     uint32_t batch;
     RasterVisibility visibility;

@@ -7,6 +7,9 @@
 
 namespace relume {
 
+// The near plane of points lifted by `offset`: a thousandth of it.
+inline float visibilityNearDistance(float offset) { return 1e-3f * offset; }
+
 // Fills a buffer with one bit per texel: 6 · size² bits a point, face after face, row by row, bit i of a
 // word being texel i of its 32. A bit is set where the direction is free and above the point's horizon.
 //

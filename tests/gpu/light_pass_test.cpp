@@ -1,6 +1,6 @@
 #include "engine/math/cubemap.h"
 #include "engine/render/light_pass.h"
-#include "tests/helpers/test_device.h"
+#include "tests/support/test_device.h"
 
 #include <algorithm>
 #include <cstdlib>

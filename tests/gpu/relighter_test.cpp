@@ -1,6 +1,6 @@
 #include "engine/render/relighter.h"
 #include "precompute/reference/transport_stages.h"
-#include "tests/helpers/test_device.h"
+#include "tests/support/test_device.h"
 
 #include <doctest/doctest.h>
 #include <random>

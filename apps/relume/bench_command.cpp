@@ -1,0 +1,127 @@
+#include "apps/relume/commands.h"
+#include "apps/relume/options.h"
+#include "apps/relume/scene_arguments.h"
+#include "engine/render/relighter.h"
+#include "engine/render/view_pass.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+namespace relume {
+
+namespace {
+
+struct Arguments {
+    SceneArguments scene;
+    BakeArguments bake;
+    LightArguments light;
+    DeviceArguments device;
+    int repeats = 9;
+    bool json = false;
+};
+
+constexpr uint32_t kWidth = 1280, kHeight = 720;
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+// Median wall-clock milliseconds of recording, submitting and waiting for `work`, after one warm-up.
+template <typename Work>
+double medianMilliseconds(vk::Commands& commands, int repeats, const Work& work) {
+    std::vector<double> times;
+    for (int repeat = 0; repeat <= repeats; repeat++) {
+        const auto start = std::chrono::steady_clock::now();
+        commands.begin();
+        work(repeat);
+        commands.submitAndWait();
+        const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+        if (repeat > 0) times.push_back(elapsed.count());
+        else commands.clearTimes();
+    }
+    return median(times);
+}
+
+nlohmann::ordered_json perRepeat(const vk::PassTimes& times, int repeats) {
+    nlohmann::ordered_json passes;
+    for (const auto& [name, seconds] : times) passes[name] = 1e3 * seconds / repeats;
+    return passes;
+}
+
+uint64_t peakHostMemory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return uint64_t(usage.ru_maxrss) * 1024;
+}
+
+void print(const nlohmann::ordered_json& result) {
+    fmt::print("{}, {} vertices\n", result["device"].get<std::string>(), result["bake"]["vertices"].dump());
+    fmt::print("bake              {:8.3f} ms per vertex, {:.1f} s\n", result["bake"]["ms_per_vertex"].get<double>(),
+               result["bake"]["seconds"].get<double>());
+    for (const auto& [name, stage] : result["bake"]["stages"].items())
+        fmt::print("  {:22} {:8.3f} ms per vertex  {:5.1f} %\n", name, stage["ms_per_vertex"].get<double>(),
+                   100 * stage["share"].get<double>());
+    fmt::print("light change      {:8.2f} ms\n", result["light_change_ms"].get<double>());
+    for (const auto& [name, ms] : result["light_change"].items())
+        fmt::print("  {:22} {:8.2f} ms\n", name, ms.get<double>());
+    fmt::print("view change       {:8.2f} ms at {} x {}\n", result["view_change_ms"].get<double>(), kWidth, kHeight);
+    fmt::print("peak host memory  {:8.0f} MiB\n", double(result["host_memory_bytes"].get<uint64_t>()) / (1 << 20));
+}
+
+void run(Arguments& arguments) {
+    arguments.bake.resolve();
+    Scene scene = arguments.scene.load();
+    const std::unique_ptr<vk::Device> device = arguments.device.open();
+    BakeTimes times;
+    const Asset asset = bakeWithProgress(*device, std::move(scene), arguments.bake.options, arguments.json, times);
+
+    LightPass light(*device, asset.faceSize);
+    light.setEnvironment(prepareForSampling(arguments.light.environment()));
+    const Relighter relighter(*device, asset);
+    ViewPass view(*device, asset, kWidth, kHeight);
+    CameraArguments view16by9;
+    view16by9.width = kWidth;
+    view16by9.height = kHeight;
+    const Camera camera = view16by9.camera(asset);
+    vk::Commands commands(*device, "bench");
+    // Every light change turns the environment a little, so that nothing can be reused.
+    const double lightChange = medianMilliseconds(commands, arguments.repeats, [&](int repeat) {
+        light.record(commands, radians(arguments.light.rotationDegrees + float(repeat)));
+        relighter.record(commands, light);
+    });
+    const nlohmann::ordered_json lightPasses = perRepeat(commands.times(), arguments.repeats);
+    const double viewChange = medianMilliseconds(
+        commands, arguments.repeats, [&](int) { view.record(commands, relighter, light, camera); });
+
+    const nlohmann::ordered_json result = {{"device", device->info().name},
+                                           {"driver", device->info().driver},
+                                           {"bake", describeTimes(times, vertexCount(asset))},
+                                           {"light_change_ms", lightChange},
+                                           {"light_change", lightPasses},
+                                           {"light_coefficients", light.readVector().indices.size()},
+                                           {"view_change_ms", viewChange},
+                                           {"host_memory_bytes", peakHostMemory()}};
+    if (arguments.json) fmt::print("{}\n", result.dump(2));
+    else print(result);
+}
+
+} // namespace
+
+void addBenchCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("bench", "Time bake, light change and view change, stage by stage");
+    const auto arguments = std::make_shared<Arguments>();
+    arguments->scene.add(*command);
+    arguments->bake.add(*command);
+    arguments->light.add(*command);
+    arguments->device.add(*command);
+    command->add_option("--repeats", arguments->repeats, "Light and view changes to take the median of")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace relume

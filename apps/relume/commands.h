@@ -1,0 +1,17 @@
+// The subcommands: each adds itself to the program, one file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace relume {
+
+void addBakeCommand(CLI::App& program);
+void addRenderCommand(CLI::App& program);
+void addReferenceCommand(CLI::App& program);
+void addCompareCommand(CLI::App& program);
+void addVerifyCommand(CLI::App& program);
+void addInfoCommand(CLI::App& program);
+void addDevicesCommand(CLI::App& program);
+void addBenchCommand(CLI::App& program);
+
+} // namespace relume

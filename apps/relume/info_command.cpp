@@ -1,0 +1,40 @@
+#include "apps/relume/commands.h"
+#include "engine/transport/asset.h"
+#include "engine/transport/asset_info.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+// Prints nested JSON as indented "key: value" lines.
+static void printReadable(const nlohmann::json& value, int depth) {
+    for (const auto& [key, entry] : value.items()) {
+        const std::string indent(size_t(2 * depth), ' ');
+        const std::string name = value.is_array() ? "-" : key + ":";
+        if (entry.is_structured() && !entry.empty()) {
+            fmt::print("{}{}\n", indent, name);
+            printReadable(entry, depth + 1);
+        } else fmt::print("{}{} {}\n", indent, name, entry.is_string() ? entry.get<std::string>() : entry.dump());
+    }
+}
+
+void addInfoCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("info", "Say what a bake holds and how it was made");
+    struct Arguments {
+        std::string file;
+        bool json = false;
+    };
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments] {
+        const Asset asset = readAsset(arguments->file);
+        const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file));
+        if (arguments->json) fmt::print("{}", text);
+        else printReadable(nlohmann::json::parse(text), 0);
+    });
+}
+
+} // namespace relume

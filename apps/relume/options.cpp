@@ -1,0 +1,156 @@
+#include "apps/relume/options.h"
+
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace relume {
+
+float radians(float degrees) { return degrees * kPi / 180; }
+
+namespace {
+
+// Unit vector at an azimuth (0: +Z, 90: +X) and elevation, in degrees.
+vec3 directionOf(float azimuth, float elevation) {
+    const float a = radians(azimuth), e = radians(elevation);
+    return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+// The object: everything but a ground, which would push it out of the picture's middle.
+Bounds objectBounds(const Asset& asset) {
+    Bounds bounds;
+    for (const AssetPart& part : asset.parts)
+        if (part.name != "ground" || asset.parts.size() == 1) bounds.add(boundsOf(part.mesh));
+    return bounds;
+}
+
+vec3 vectorOf(const std::vector<float>& values) { return {values[0], values[1], values[2]}; }
+
+} // namespace
+
+void DeviceArguments::add(CLI::App& command) {
+    command.add_option("--device", options.select, "Vulkan device by index, UUID or name (see `relume devices`)")
+        ->type_name("DEVICE");
+    command.add_option("--validation", options.validation, "Vulkan checks: some of core,sync,gpu,best")
+        ->type_name("LIST");
+}
+
+std::unique_ptr<vk::Device> DeviceArguments::open() const { return std::make_unique<vk::Device>(options); }
+
+void CameraArguments::add(CLI::App& command) {
+    command
+        .add_option("--size", mSize, "Image size in pixels (default 960x720)")
+        ->type_name("WxH")
+        ->each([this](const std::string& text) {
+            char rest;
+            if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
+                width > 16384 || height > 16384)
+                throw UsageError("--size: expected WIDTHxHEIGHT, each 1 to 16384, found \"{}\"", text);
+        });
+    CLI::Option* eye = command.add_option("--eye", mEye, "Eye position")->type_name("X,Y,Z")->delimiter(',')->expected(3);
+    mTargetOption = command.add_option("--target", mTarget, "Point looked at (default: the object's middle)")
+                        ->type_name("X,Y,Z")
+                        ->delimiter(',')
+                        ->expected(3);
+    command
+        .add_option("--orbit", mOrbit,
+                    "Eye about the object: azimuth and elevation in degrees, distance where 1 just fits it")
+        ->type_name("AZ,EL,DIST")
+        ->delimiter(',')
+        ->expected(3)
+        ->excludes(eye);
+    command.add_option("--fov", mFovDegrees, "Vertical field of view in degrees")
+        ->type_name("DEG")
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 170.0));
+}
+
+Camera CameraArguments::camera(const Asset& asset, float turn) const {
+    const float aspect = float(width) / float(height), fov = radians(mFovDegrees);
+    const Bounds bounds = objectBounds(asset);
+    Camera camera;
+    if (!mOrbit.empty()) {
+        if (!(mOrbit[2] > 0)) throw UsageError("--orbit: expected a distance above 0, found {}", mOrbit[2]);
+        camera = orbitCamera(bounds, radians(mOrbit[0]), radians(mOrbit[1]), mOrbit[2], fov, aspect);
+    } else camera = defaultCamera(bounds, fov, aspect);
+    if (!mEye.empty()) {
+        camera.target = bounds.centre();
+        camera.eye = vectorOf(mEye);
+    }
+    if (!mTarget.empty()) camera.target = vectorOf(mTarget);
+    const vec3 arm = camera.eye - camera.target;
+    const float c = std::cos(turn), s = std::sin(turn);
+    camera.eye = camera.target + vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
+    if (!(glm::length(arm) > 0)) throw UsageError("--eye: expected a point other than the target");
+    return camera;
+}
+
+void LightArguments::add(CLI::App& command) {
+    CLI::Option* environment =
+        command.add_option("-e,--environment", mEnvironment, "Latlong or cube .exr, or .hdr (default: a built-in sky)")
+            ->type_name("FILE");
+    CLI::Option* distant =
+        command.add_option("--distant-light", mDistant, "One direction instead: azimuth (0 +Z, 90 +X), elevation, degrees")
+            ->type_name("AZ,EL")
+            ->delimiter(',')
+            ->expected(2)
+            ->excludes(environment);
+    command
+        .add_option("--sphere-light", mSphere, "A distant sphere instead: azimuth, elevation and angular radius, degrees")
+        ->type_name("AZ,EL,RADIUS")
+        ->delimiter(',')
+        ->expected(3)
+        ->excludes(environment)
+        ->excludes(distant);
+    command.add_option("--rotate", rotationDegrees, "Turn the light about +Y, from +Z towards +X")
+        ->type_name("DEG")
+        ->capture_default_str();
+    command.add_option("--intensity", mIntensity, "Scales the light; 1 lets a lamp light white to radiance 1")
+        ->type_name("X")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+}
+
+Environment LightArguments::environment() const {
+    Environment environment = mEnvironment.empty() ? makeSky() : readEnvironment(mEnvironment);
+    for (vec3& radiance : environment.radiance) radiance *= mIntensity;
+    return environment;
+}
+
+LightCube LightArguments::lamp(int faceSize, float turn) const {
+    const float turned = rotationDegrees + turn * 180 / kPi;
+    if (!mDistant.empty())
+        return makeDistantLight(directionOf(mDistant[0] + turned, mDistant[1]), vec3(mIntensity * kPi), faceSize);
+    if (!(mSphere[2] > 0 && mSphere[2] <= 90))
+        throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}", mSphere[2]);
+    // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
+    const float radius = radians(mSphere[2]), sine = std::sin(radius);
+    return makeSphereLight(directionOf(mSphere[0] + turned, mSphere[1]), radius, vec3(mIntensity / (sine * sine)),
+                           faceSize);
+}
+
+void ImageArguments::add(CLI::App& command) {
+    command.add_option("-o,--output", output, "Image to write: .exr (linear) or .png (tone-mapped)")
+        ->type_name("IMAGE")
+        ->required();
+    command.add_option("--exposure", exposure, "Exposure of a .png in stops")->type_name("STOPS")->capture_default_str();
+    command.add_option("--tone", mTone, "Tone curve of a .png: none, aces or agx")
+        ->type_name("CURVE")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"none", "aces", "agx"}));
+}
+
+void ImageArguments::check() const {
+    const std::string extension = output.extension();
+    if (extension != ".exr" && extension != ".png")
+        throw UsageError("--output: expected a name ending in .exr or .png, found \"{}\"", output.string());
+}
+
+void ImageArguments::write(const std::filesystem::path& path, const Image& image) const {
+    if (path.extension() == ".exr") writeExr(path, image);
+    else writePng(path, toneMap(image, *toneCurveFromName(mTone), exposure));
+}
+
+} // namespace relume

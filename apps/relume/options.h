@@ -1,0 +1,74 @@
+// Options that several subcommands share, and what they stand for.
+#pragma once
+
+#include "engine/light/light_cube.h"
+#include "engine/light/light_vector.h"
+#include "engine/render/tone_map.h"
+#include "engine/scene/camera.h"
+#include "engine/transport/asset.h"
+#include "engine/vk/device.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+namespace relume {
+
+// --device, --validation
+struct DeviceArguments {
+    vk::DeviceOptions options;
+
+    void add(CLI::App& command);
+    std::unique_ptr<vk::Device> open() const;
+};
+
+// --size, --eye, --target, --fov, --orbit
+struct CameraArguments {
+    int width = 960, height = 720;
+
+    void add(CLI::App& command);
+    // `turn` in radians is added to the azimuth (an eye turns about the target's vertical axis).
+    Camera camera(const Asset& asset, float turn = 0) const;
+
+  private:
+    std::vector<float> mEye, mTarget, mOrbit;
+    float mFovDegrees = 35;
+    std::string mSize;
+    CLI::Option* mTargetOption = nullptr;
+};
+
+// --environment, --rotate, --distant-light, --sphere-light, --intensity
+struct LightArguments {
+    float rotationDegrees = 0;
+
+    void add(CLI::App& command);
+    bool isEnvironment() const { return mDistant.empty() && mSphere.empty(); }
+    // The environment file, or the built-in sky; at full resolution.
+    Environment environment() const;
+    // A lamp as a cube, turned by `turn` radians about +Y; only if !isEnvironment().
+    LightCube lamp(int faceSize, float turn = 0) const;
+
+  private:
+    std::string mEnvironment;
+    std::vector<float> mDistant, mSphere;
+    float mIntensity = 1;
+};
+
+// -o, --exposure, --tone
+struct ImageArguments {
+    std::filesystem::path output;
+    float exposure = 0;
+
+    void add(CLI::App& command);
+    // Writes linear .exr or tone-mapped .png, by the extension of `path`.
+    void write(const std::filesystem::path& path, const Image& image) const;
+    // Throws UsageError for an extension that is neither; before any work is done.
+    void check() const;
+
+  private:
+    std::string mTone = "agx";
+};
+
+float radians(float degrees);
+
+} // namespace relume

@@ -1,0 +1,79 @@
+#include "apps/relume/commands.h"
+#include "apps/relume/options.h"
+#include "engine/base/error.h"
+#include "engine/base/progress.h"
+#include "precompute/reference/reference_image.h"
+
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+struct Arguments {
+    std::string file;
+    CameraArguments camera;
+    LightArguments light;
+    ImageArguments image;
+    std::string brdf = "exact", lightForm = "cube", occluder = "full";
+    int rays = 4, environmentWidth = 1024;
+};
+
+void run(const Arguments& arguments) {
+    arguments.image.check();
+    const Asset asset = readAsset(arguments.file);
+    ReferenceOptions options;
+    options.width = arguments.camera.width;
+    options.height = arguments.camera.height;
+    options.brdf = arguments.brdf == "factored" ? ReferenceBrdf::Factored : ReferenceBrdf::Exact;
+    options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
+    options.bakedOccluder = arguments.occluder == "baked";
+    const Camera camera = arguments.camera.camera(asset);
+    const float rotation = radians(arguments.light.rotationDegrees);
+
+    Progress progress("tracing", uint64_t(options.height), "rows");
+    const auto report = [&](int rows) { progress.update(uint64_t(rows)); };
+    Image image;
+    if (arguments.lightForm == "environment") {
+        if (!arguments.light.isEnvironment())
+            throw UsageError("--light environment: expected an environment, found a lamp; use --light cube");
+        image = renderReference(asset, camera, arguments.light.environment(), rotation, arguments.environmentWidth,
+                                options, report);
+    } else {
+        const LightCube cube =
+            arguments.light.isEnvironment()
+                ? sampleEnvironment(prepareForSampling(arguments.light.environment()), asset.faceSize, rotation)
+                : arguments.light.lamp(asset.faceSize);
+        image = renderReference(asset, camera, cube, options, report);
+    }
+    arguments.image.write(arguments.image.output, image);
+}
+
+} // namespace
+
+void addReferenceCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("reference", "Ray-trace the image that `render` should give, with Embree");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
+    arguments->image.add(*command);
+    arguments->light.add(*command);
+    arguments->camera.add(*command);
+    command->add_option("--brdf", arguments->brdf, "exact, or factored: the baked K terms")
+        ->check(CLI::IsMember({"exact", "factored"}))
+        ->capture_default_str();
+    command->add_option("--light", arguments->lightForm, "cube: the bake's lighting texels; environment: the full map")
+        ->check(CLI::IsMember({"cube", "environment"}))
+        ->capture_default_str();
+    command->add_option("--occluder", arguments->occluder, "What casts shadows: full mesh, or the baked occluder")
+        ->check(CLI::IsMember({"full", "baked"}))
+        ->capture_default_str();
+    command->add_option("--rays", arguments->rays, "Shadow rays per lighting texel: 1, 4, 16 or 64")
+        ->check(CLI::IsMember({1, 4, 16, 64}))
+        ->capture_default_str();
+    command->add_option("--environment-width", arguments->environmentWidth, "Most columns of the full map")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace relume

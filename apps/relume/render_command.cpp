@@ -1,0 +1,107 @@
+#include "apps/relume/commands.h"
+#include "apps/relume/options.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/progress.h"
+#include "engine/render/relighter.h"
+#include "engine/render/view_pass.h"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+namespace {
+
+struct Arguments {
+    std::string file;
+    CameraArguments camera;
+    LightArguments light;
+    ImageArguments image;
+    DeviceArguments device;
+    int threshold = kDefaultLightThreshold;
+    int frames = 1;
+    std::string turn = "camera";
+    std::filesystem::path timings;
+};
+
+// image.png as it is, or image_0001.png and so on for several frames.
+std::filesystem::path framePath(const Arguments& arguments, int frame) {
+    if (arguments.frames == 1) return arguments.image.output;
+    std::filesystem::path path = arguments.image.output;
+    const std::string name = fmt::format("{}_{:04}{}", path.stem().string(), frame + 1, path.extension().string());
+    return path.replace_filename(name);
+}
+
+nlohmann::ordered_json milliseconds(const vk::PassTimes& times) {
+    nlohmann::ordered_json passes;
+    for (const auto& [name, seconds] : times) passes[name] = 1e3 * seconds;
+    return passes;
+}
+
+void run(const Arguments& arguments) {
+    arguments.image.check();
+    const Asset asset = readAsset(arguments.file);
+    const std::unique_ptr<vk::Device> device = arguments.device.open();
+    LightPass light(*device, asset.faceSize);
+    if (arguments.light.isEnvironment()) light.setEnvironment(prepareForSampling(arguments.light.environment()));
+    const Relighter relighter(*device, asset);
+    ViewPass view(*device, asset, uint32_t(arguments.camera.width), uint32_t(arguments.camera.height));
+
+    const bool turnsLight = arguments.turn == "light";
+    auto frames = nlohmann::ordered_json::array();
+    Progress progress("rendering", uint64_t(arguments.frames), "frames");
+    vk::Commands commands(*device, "render");
+    for (int frame = 0; frame < arguments.frames; frame++) {
+        const float angle = 2 * kPi * float(frame) / float(arguments.frames);
+        const bool lightChanges = frame == 0 || turnsLight;
+        if (lightChanges && !arguments.light.isEnvironment())
+            light.setCube(arguments.light.lamp(asset.faceSize, turnsLight ? angle : 0));
+        commands.begin();
+        if (lightChanges) {
+            light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
+                         arguments.threshold);
+            relighter.record(commands, light);
+        }
+        view.record(commands, relighter, light, arguments.camera.camera(asset, turnsLight ? 0 : angle));
+        commands.submitAndWait();
+        frames.push_back(milliseconds(commands.times()));
+        commands.clearTimes();
+        arguments.image.write(framePath(arguments, frame), view.read());
+        progress.update(uint64_t(frame) + 1);
+    }
+    if (!arguments.timings.empty()) {
+        const nlohmann::ordered_json json = {{"device", device->name()},
+                                             {"light_coefficients", light.readVector().indices.size()},
+                                             {"frames_ms", frames}};
+        writeFileAtomically(arguments.timings, json.dump(2) + "\n");
+    }
+    if (device->validationMessages() > 0)
+        throw Error("the Vulkan validation layer reported {} messages", device->validationMessages());
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "Relight and draw a bake into images");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
+    arguments->image.add(*command);
+    arguments->light.add(*command);
+    command->add_option("--threshold", arguments->threshold, "Drop light coefficients below this, of 32767")
+        ->check(CLI::Range(0, kLightMaximum))
+        ->capture_default_str();
+    arguments->camera.add(*command);
+    command->add_option("--frames", arguments->frames, "Images of one full turn, numbered")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--turn", arguments->turn, "What turns over the frames: camera or light")
+        ->check(CLI::IsMember({"camera", "light"}))
+        ->capture_default_str();
+    arguments->device.add(*command);
+    command->add_option("--timings", arguments->timings, "Write device time per pass and frame as JSON")
+        ->type_name("FILE");
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace relume

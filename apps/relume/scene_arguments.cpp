@@ -1,0 +1,108 @@
+#include "apps/relume/scene_arguments.h"
+
+#include "engine/base/error.h"
+#include "engine/base/progress.h"
+
+#include <algorithm>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+void SceneArguments::add(CLI::App& command) {
+    command.add_option("INPUT", input,
+                       "Mesh (.obj, .ply, .gltf, .glb), scene (.json), or built-in knot, sphere, torus, plane")
+        ->capture_default_str();
+    command.add_option("-m,--material", material, "Preset, model, or JSON object with parameters")
+        ->type_name("MATERIAL")
+        ->capture_default_str();
+    command.add_option("--up", mUp, "The mesh's up axis: y or z")
+        ->type_name("AXIS")
+        ->check(CLI::IsMember({"y", "z"}))
+        ->capture_default_str();
+    command.add_flag("--ground", ground, "Put a diffuse ground under the object");
+    command.add_option("--ground-material", mGroundMaterial, "Material of the ground")
+        ->type_name("MATERIAL")
+        ->capture_default_str();
+    command.add_option("--ground-tessellation", mGroundOptions.tessellation, "Quads a side of the ground")
+        ->type_name("QUADS")
+        ->capture_default_str();
+    command.add_option("--ground-extent", mGroundOptions.extent, "Side of the ground, in object sizes")
+        ->type_name("X")
+        ->capture_default_str();
+}
+
+Scene SceneArguments::load() const {
+    Scene scene;
+    if (input.ends_with(".json")) scene = readScene(input);
+    else scene.parts.push_back(loadPart(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, material));
+    if (ground) addGround(scene, mGroundOptions, mGroundMaterial);
+    return scene;
+}
+
+void BakeArguments::add(CLI::App& command) {
+    command.add_option("-K,--terms", options.terms, "BRDF terms, 1 to 32")->type_name("K")->capture_default_str();
+    command.add_option("-N,--coefficients", options.coefficients, "Wavelet coefficients kept per vertex and term")
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--map-size", options.mapSize, "Side of a light or view map")->type_name("S")->capture_default_str();
+    command.add_option("--map", mMapping, "Layout of the maps: orthographic or polar")
+        ->type_name("MAP")
+        ->check(CLI::IsMember({"orthographic", "polar"}))
+        ->capture_default_str();
+    command.add_option("--face-size", options.faceSize, "Side of a face of the lighting cube: 32 or 64")
+        ->type_name("F")
+        ->capture_default_str();
+    command.add_option("--visibility-size", options.visibilitySize, "Side of a face of the visibility cube: 64, 128 or 256")
+        ->type_name("V")
+        ->capture_default_str();
+    command.add_option("--transport-samples", options.transportSamples, "BRDF evaluations per lighting texel: 1, 4 or 16")
+        ->type_name("COUNT")
+        ->capture_default_str();
+    command.add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
+        ->type_name("TRIANGLES")
+        ->capture_default_str();
+}
+
+void BakeArguments::resolve() {
+    options.mapping = *diskMappingFromName(mMapping);
+    options.occluderTriangles = 0;
+    if (mOccluder != "full") {
+        const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&
+                            mOccluder.find_first_not_of("0123456789") == std::string::npos;
+        if (number) options.occluderTriangles = std::stoul(mOccluder);
+        if (options.occluderTriangles < 4)
+            throw UsageError("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"", mOccluder);
+    }
+    options.validate();
+}
+
+Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions& options, bool quiet,
+                       BakeTimes& times) {
+    uint64_t vertices = 0;
+    for (const Part& part : scene.parts) vertices += part.mesh.vertexCount();
+    Progress progress("baking", vertices, "vertices", quiet);
+    return bake(device, std::move(scene), options, [&](uint64_t done) { progress.update(done); }, &times);
+}
+
+uint64_t vertexCount(const Asset& asset) {
+    uint64_t vertices = 0;
+    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
+    return vertices;
+}
+
+nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices) {
+    vk::PassTimes stages = times.device;
+    vk::addTime(stages, "factorisation", times.factorisation);
+    vk::addTime(stages, "occluder", times.occluder);
+    vk::addTime(stages, "host and submission", std::max(0.0, times.total - vk::secondsOf(stages)));
+    nlohmann::ordered_json list;
+    for (const auto& [name, seconds] : stages)
+        list[name] = {{"ms_per_vertex", 1e3 * seconds / double(vertices)}, {"share", seconds / times.total}};
+    return {{"ms_per_vertex", 1e3 * times.total / double(vertices)},
+            {"seconds", times.total},
+            {"vertices", vertices},
+            {"batch", times.batch},
+            {"stages", list}};
+}
+
+} // namespace relume

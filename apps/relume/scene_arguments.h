@@ -1,0 +1,50 @@
+// What to bake and how: the options of `relume bake`, shared with `relume bench`.
+#pragma once
+
+#include "engine/scene/ground.h"
+#include "engine/scene/scene.h"
+#include "precompute/bake/bake.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+// MESH|SCENE.json, --material, --up, --ground…
+struct SceneArguments {
+    std::string input = "knot";
+    std::string material = "ashikhmin-shirley";
+    bool ground = false;
+
+    void add(CLI::App& command);
+    Scene load() const;
+
+  private:
+    std::string mUp = "y";
+    std::string mGroundMaterial = "white-diffuse";
+    GroundOptions mGroundOptions;
+};
+
+// --terms, --coefficients, …: everything in BakeOptions.
+struct BakeArguments {
+    BakeOptions options;
+
+    void add(CLI::App& command);
+    // Fills what needs parsing and validates. Throws UsageError.
+    void resolve();
+
+  private:
+    std::string mMapping = "orthographic";
+    std::string mOccluder = "full";
+};
+
+// Bakes with progress on stderr, and says afterwards what was made.
+Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions& options, bool quiet,
+                       BakeTimes& times);
+
+// {"ms_per_vertex", "seconds", "vertices", "stages": {name: {"ms_per_vertex", "share"}}}
+nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices);
+
+uint64_t vertexCount(const Asset& asset);
+
+} // namespace relume

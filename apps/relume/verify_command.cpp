@@ -1,0 +1,70 @@
+#include "apps/relume/commands.h"
+#include "apps/relume/options.h"
+#include "engine/base/error.h"
+#include "precompute/reference/verification.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+namespace {
+
+struct Arguments {
+    std::string file;
+    LightArguments light;
+    DeviceArguments device;
+    int samples = 200;
+    bool json = false;
+};
+
+void run(const Arguments& arguments) {
+    const Asset asset = readAsset(arguments.file);
+    if (!arguments.light.isEnvironment()) throw UsageError("verify: expected an environment, found a lamp");
+    const std::unique_ptr<vk::Device> device = arguments.device.open();
+    const Verification found =
+        verify(*device, asset, prepareForSampling(arguments.light.environment()), arguments.samples);
+    if (arguments.json) {
+        const nlohmann::ordered_json json = {{"samples", found.samples},
+                                             {"visibility_mismatch", found.visibilityMismatch},
+                                             {"transport_error", found.transportError},
+                                             {"wavelet_error", found.waveletError},
+                                             {"quantization_error", found.quantisationError},
+                                             {"brdf_error", found.brdfError},
+                                             {"relight_bits", found.relightBits},
+                                             {"total_error", found.totalError}};
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("vertices sampled     {}\n", found.samples);
+        fmt::print("visibility mismatch  {:.6f}  of the texels above the horizon, against Embree\n",
+                   found.visibilityMismatch);
+        fmt::print("transport error      {:.2e}  before compression, device against CPU\n", found.transportError);
+        fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
+                   asset.coefficients);
+        fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantisationError);
+        fmt::print("BRDF error           {:.4f}    cos-weighted RMS of the terms\n", found.brdfError);
+        fmt::print("relight bits         {}         vertices that differ between device and CPU\n",
+                   found.relightBits);
+        fmt::print("total error          {:.4f}    stored transport against uncompressed, Embree's visibility\n",
+                   found.totalError);
+    }
+    if (found.relightBits > 0) throw Error("{} vertices relight differently on device and CPU", found.relightBits);
+}
+
+} // namespace
+
+void addVerifyCommand(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("verify", "Hold a bake against the CPU and Embree, stage by stage");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
+    command->add_option("--samples", arguments->samples, "Vertices to recompute")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    arguments->light.add(*command);
+    arguments->device.add(*command);
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace relume

@@ -1,0 +1,205 @@
+#include "precompute/reference/verification.h"
+
+#include "engine/render/relighter.h"
+#include "precompute/bake/batch_plan.h"
+#include "precompute/bake/transport_pass.h"
+#include "precompute/brdf/factorization.h"
+#include "precompute/reference/transport_stages.h"
+#include "precompute/reference/vertex_check.h"
+#include "precompute/visibility/raster_visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace relume {
+
+namespace {
+
+// Σ|a - b|² and Σ|b|² of a relative error.
+struct ErrorSum {
+    double difference = 0, reference = 0;
+    void add(vec3 value, vec3 expected) {
+        difference += glm::dot(value - expected, value - expected);
+        reference += glm::dot(expected, expected);
+    }
+    double relative() const { return reference > 0 ? std::sqrt(difference / reference) : 0; }
+};
+
+struct Sums {
+    uint64_t mismatched = 0, hemisphere = 0;
+    ErrorSum transport, wavelet, quantisation, total;
+    double brdf = 0;
+};
+
+// What the device makes of some points of a part: bits and all coefficients, back on the host.
+class DeviceStages {
+  public:
+    DeviceStages(const vk::Device& device, const Asset& asset, const AssetPart& part,
+                 const std::vector<uint32_t>& vertices)
+        : mFaceCoefficients(6ull * asset.faceSize * asset.faceSize), mTerms(uint32_t(part.brdf.terms)) {
+        BakeOptions options;
+        options.terms = part.brdf.terms;
+        options.coefficients = asset.coefficients;
+        options.faceSize = asset.faceSize;
+        options.visibilitySize = asset.visibilitySize;
+        options.transportSamples = asset.transportSamples;
+        const uint32_t together = TransportPass::largestBatch(device, options) / mTerms;
+        const uint32_t batch = std::max(1u, std::min(planBatch(device, options, mTerms), together));
+        const auto size = uint32_t(asset.visibilitySize);
+        const uint64_t bitBytes = RasterVisibility::bytesPerPoint(size);
+
+        std::vector<shared::BakePoint> points;
+        for (uint32_t vertex : vertices)
+            points.push_back({part.mesh.positions[vertex] + asset.visibilityOffset * part.mesh.normals[vertex],
+                              part.mesh.normals[vertex]});
+        const auto pointBuffer = vk::makeUpload<shared::BakePoint>(device, points, "points");
+        const RasterVisibility visibility(device, asset.occluder, size, batch, visibilityNearDistance(asset.visibilityOffset));
+        const TransportPass transport(device, part.brdf, options, batch);
+        const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
+        const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
+        const uint64_t coefficientBytes = batch * mTerms * mFaceCoefficients * sizeof(vec4);
+        const vk::Buffer coefficientsBack(device, coefficientBytes, vk::BufferUse::Readback, "coefficients back");
+        vk::Commands commands(device, "verify");
+        for (uint32_t first = 0; first < points.size(); first += batch) {
+            const uint32_t count = std::min(batch, uint32_t(points.size()) - first);
+            commands.begin();
+            visibility.record(commands, pointBuffer, first, count, bits);
+            transport.record(commands, pointBuffer, first, count, bits);
+            commands.barrier(vk::Stage::Compute, vk::Stage::Transfer);
+            commands.copy(bits, bitsBack, count * bitBytes);
+            commands.copy(transport.coefficients(), coefficientsBack, count * coefficientBytes / batch);
+            commands.barrier(vk::Stage::Transfer, vk::Stage::Host);
+            commands.submitAndWait();
+            for (uint32_t point = 0; point < count; point++) {
+                const auto words = bitsBack.map<uint32_t>().subspan(point * bitBytes / 4, bitBytes / 4);
+                std::vector<uint8_t>& cube = mVisibility.emplace_back(words.size() * 32);
+                for (size_t texel = 0; texel < cube.size(); texel++) cube[texel] = words[texel / 32] >> texel % 32 & 1;
+                const auto rows = coefficientsBack.map<vec4>().subspan(point * mTerms * mFaceCoefficients,
+                                                                       mTerms * mFaceCoefficients);
+                mCoefficients.emplace_back(rows.begin(), rows.end());
+            }
+        }
+    }
+
+    const std::vector<uint8_t>& visibility(size_t point) const { return mVisibility[point]; }
+    std::vector<vec3> coefficients(size_t point, size_t term) const {
+        const auto begin = mCoefficients[point].begin() + ptrdiff_t(term * mFaceCoefficients);
+        return {begin, begin + ptrdiff_t(mFaceCoefficients)};
+    }
+
+  private:
+    uint64_t mFaceCoefficients;
+    uint32_t mTerms;
+    std::vector<std::vector<uint8_t>> mVisibility;
+    std::vector<std::vector<vec4>> mCoefficients;
+};
+
+vec3 dequantise(uint32_t packed, float scale) {
+    return vec3(unpackCoefficient(packed)) * (scale / vec3(kRedMaximum, kGreenMaximum, kBlueMaximum));
+}
+
+// A stored row as dense coefficients.
+std::vector<vec3> expand(const PackedRow& row, size_t count) {
+    std::vector<vec3> dense(count, vec3(0));
+    for (size_t i = 0; i < row.indices.size(); i++) dense[row.indices[i]] = dequantise(row.values[i], row.scale);
+    return dense;
+}
+
+void checkVertex(const Asset& asset, size_t partIndex, uint32_t vertex, const RayTracer& tracer,
+                 const DeviceStages& device, size_t point, Sums& sums) {
+    const AssetPart& part = asset.parts[partIndex];
+    const vec3 normal = part.mesh.normals[vertex];
+    const VertexReference reference = recomputeVertex(asset, partIndex, vertex, tracer);
+    const std::vector<uint8_t>& visibility = device.visibility(point);
+    const int size = asset.visibilitySize;
+    for (int texel = 0; texel < 6 * size * size; texel++) {
+        const int face = texel / (size * size), y = texel / size % size, x = texel % size;
+        if (glm::dot(cubeTexelDirection(face, x, y, size), normal) <= 0) continue;
+        sums.hemisphere++;
+        sums.mismatched += visibility[size_t(texel)] != reference.visibility[size_t(texel)];
+    }
+    for (int term = 0; term < part.brdf.terms; term++) {
+        std::vector<vec3> expected = transportVector(visibility, size, asset.faceSize, asset.transportSamples,
+                                                     part.brdf, term, tangentFrame(normal));
+        haarFaces(expected, asset.faceSize);
+        const std::vector<vec3> found = device.coefficients(point, size_t(term));
+        for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
+
+        std::vector<bool> kept(expected.size(), false);
+        for (uint16_t index : selectLargest(found, asset.coefficients)) kept[index] = true;
+        const std::vector<vec3> stored = expand(storedRow(part.transport, vertex, size_t(term)), expected.size());
+        const std::vector<vec3>& exact = reference.terms[size_t(term)].coefficients;
+        for (size_t i = 0; i < expected.size(); i++) {
+            sums.wavelet.add(kept[i] ? found[i] : vec3(0), found[i]);
+            if (kept[i]) sums.quantisation.add(stored[i], found[i]);
+            sums.total.add(stored[i], exact[i]);
+        }
+    }
+}
+
+// Vertices of each part that were drawn, rising.
+std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samples) {
+    uint64_t vertices = 0;
+    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
+    std::mt19937_64 random(20040621);
+    std::map<size_t, std::vector<uint32_t>> drawn;
+    for (int sample = 0; sample < samples; sample++) {
+        uint64_t vertex = random() % vertices;
+        size_t part = 0;
+        while (vertex >= asset.parts[part].mesh.vertexCount()) vertex -= asset.parts[part++].mesh.vertexCount();
+        drawn[part].push_back(uint32_t(vertex));
+    }
+    for (auto& [part, list] : drawn) std::sort(list.begin(), list.end());
+    return drawn;
+}
+
+uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, const Environment& prepared) {
+    LightPass light(device, asset.faceSize);
+    light.setEnvironment(prepared);
+    const Relighter relighter(device, asset);
+    vk::Commands commands(device, "verify relighting");
+    commands.begin();
+    light.record(commands);
+    relighter.record(commands, light);
+    commands.submitAndWait();
+    const LightVector vector = light.readVector();
+    uint64_t different = 0;
+    for (size_t part = 0; part < asset.parts.size(); part++) {
+        const SparseTransport& transport = asset.parts[part].transport;
+        const std::vector<ivec3> found = relighter.readSums(part), expected = relight(transport, vector);
+        for (size_t vertex = 0; vertex < transport.vertices; vertex++) {
+            const auto begin = ptrdiff_t(vertex * transport.terms), end = begin + ptrdiff_t(transport.terms);
+            different += !std::equal(found.begin() + begin, found.begin() + end, expected.begin() + begin);
+        }
+    }
+    return different;
+}
+
+} // namespace
+
+Verification verify(const vk::Device& device, const Asset& asset, const Environment& prepared, int samples) {
+    const Mesh* occluder = &asset.occluder;
+    const RayTracer tracer({&occluder, 1});
+    Sums sums;
+    for (const auto& [partIndex, vertices] : drawSamples(asset, samples)) {
+        const AssetPart& part = asset.parts[partIndex];
+        const DeviceStages stages(device, asset, part, vertices);
+        for (size_t point = 0; point < vertices.size(); point++)
+            checkVertex(asset, partIndex, vertices[point], tracer, stages, point, sums);
+        sums.brdf += factorizationError(*makeBrdf(part.material), part.brdf) * double(vertices.size());
+    }
+    Verification result;
+    result.samples = uint64_t(samples);
+    result.visibilityMismatch = double(sums.mismatched) / double(std::max<uint64_t>(sums.hemisphere, 1));
+    result.transportError = sums.transport.relative();
+    result.waveletError = sums.wavelet.relative();
+    result.quantisationError = sums.quantisation.relative();
+    result.brdfError = sums.brdf / samples;
+    result.relightBits = countRelightDifferences(device, asset, prepared);
+    result.totalError = sums.total.relative();
+    return result;
+}
+
+} // namespace relume

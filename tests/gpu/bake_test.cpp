@@ -1,0 +1,63 @@
+// The whole bake on a small scene, verified stage by stage.
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/scene.h"
+#include "precompute/bake/bake.h"
+#include "precompute/reference/verification.h"
+#include "tests/support/test_device.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+
+namespace {
+
+Scene smallScene(const std::string& material) {
+    Scene scene;
+    scene.parts.push_back({"knot", makeKnot(400), material, "built-in knot", ""});
+    addGround(scene, {.tessellation = 6}, "white-diffuse");
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("bake: every stage agrees with its CPU twin and Embree") {
+    const TestDevice device;
+    BakeOptions options;
+    const Asset asset = bake(device, smallScene("ashikhmin-shirley"), options);
+    CHECK_EQ(asset.parts[0].brdf.terms, 4);
+    CHECK_EQ(asset.parts[1].brdf.terms, 1); // diffuse: one term is exact
+    const Verification found = verify(device, asset, prepareForSampling(makeSky()), 40);
+    CHECK_LE(found.visibilityMismatch, 0.005);
+    CHECK_LE(found.transportError, 1e-4);
+    CHECK_LE(found.quantisationError, 0.01);
+    CHECK_EQ(found.relightBits, 0u);
+    CHECK_GT(found.waveletError, 0.02);
+    CHECK_LT(found.waveletError, 0.35);
+    CHECK_LT(found.totalError, 0.4);
+    // The bake's own sums over all vertices say about the same as the sample.
+    CHECK(asset.truncationError == doctest::Approx(found.waveletError).epsilon(0.3));
+}
+
+TEST_CASE("bake: the same scene gives the same bytes") {
+    const TestDevice device;
+    BakeOptions options;
+    options.visibilitySize = 64;
+    options.coefficients = 32;
+    const std::vector<std::byte> once = encodeAsset(bake(device, smallScene("clay"), options));
+    CHECK(encodeAsset(bake(device, smallScene("clay"), options)) == once);
+}
+
+TEST_CASE("bake: a simplified occluder, a small cube and progress to the end") {
+    const TestDevice device;
+    BakeOptions options;
+    options.faceSize = 32;
+    options.visibilitySize = 64;
+    options.occluderTriangles = 200;
+    uint64_t last = 0;
+    const Asset asset = bake(device, smallScene("red-plastic"), options, [&](uint64_t done) { last = done; });
+    CHECK_LE(asset.occluder.triangleCount(), 220u);
+    CHECK_EQ(last, asset.parts[0].mesh.vertexCount() + asset.parts[1].mesh.vertexCount());
+    const Verification found = verify(device, asset, prepareForSampling(makeSky()), 20);
+    CHECK_LE(found.transportError, 1e-4);
+    CHECK_EQ(found.relightBits, 0u);
+}

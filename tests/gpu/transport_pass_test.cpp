@@ -1,0 +1,214 @@
+// Transport, Haar, selection, quantisation and compaction on the device against their CPU twins.
+#include "precompute/bake/transport_pass.h"
+#include "precompute/reference/transport_stages.h"
+#include "shaders/select_comp.h"
+#include "tests/support/test_device.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace relume;
+
+namespace {
+
+// Smooth maps with both signs, different for every term.
+FactoredBrdf makeMaps(int terms, int size, DiskMapping mapping) {
+    FactoredBrdf brdf;
+    brdf.size = size;
+    brdf.terms = terms;
+    brdf.mapping = mapping;
+    for (int term = 0; term < terms; term++)
+        for (int y = 0; y < size; y++)
+            for (int x = 0; x < size; x++) {
+                const vec2 at = (vec2(x, y) + 0.5f) / float(size);
+                const float wave = std::sin(float(term + 1) * (3 * at.x + 5 * at.y));
+                brdf.lightMaps.emplace_back(1 + wave, wave, at.x * wave);
+            }
+    brdf.viewMaps = brdf.lightMaps;
+    brdf.eigenvalues.resize(size_t(terms), {1, 1, 1});
+    return brdf;
+}
+
+// Random points, and for each a visibility cube with blobs of blocked texels, none below the horizon free.
+struct Samples {
+    std::vector<shared::BakePoint> points;
+    std::vector<std::vector<uint8_t>> visibility;
+    std::vector<uint32_t> bits;
+};
+
+Samples makeSamples(int count, int size) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> gauss;
+    const auto direction = [&] { return glm::normalize(vec3(gauss(random), gauss(random), gauss(random))); };
+    Samples samples;
+    for (int i = 0; i < count; i++) {
+        const vec3 normal = direction(), blocker = direction();
+        samples.points.push_back({vec3(0), normal});
+        std::vector<uint8_t>& cube = samples.visibility.emplace_back();
+        for (int texel = 0; texel < 6 * size * size; texel++) {
+            const vec3 towards = cubeTexelDirection(texel / (size * size), texel % size, texel / size % size, size);
+            cube.push_back(glm::dot(towards, normal) > 0 && glm::dot(towards, blocker) < 0.6f);
+        }
+        for (size_t word = 0; word < cube.size() / 32; word++) {
+            uint32_t packed = 0;
+            for (size_t bit = 0; bit < 32; bit++) packed |= uint32_t(cube[word * 32 + bit]) << bit;
+            samples.bits.push_back(packed);
+        }
+    }
+    return samples;
+}
+
+struct Case {
+    int faceSize, visibilitySize, transportSamples, coefficients, terms;
+    DiskMapping mapping = DiskMapping::Orthographic;
+};
+
+void checkCase(const vk::Device& device, const Case& c) {
+    CAPTURE(c.faceSize);
+    CAPTURE(c.visibilitySize);
+    CAPTURE(c.transportSamples);
+    CAPTURE(c.coefficients);
+    BakeOptions options;
+    options.faceSize = c.faceSize;
+    options.visibilitySize = c.visibilitySize;
+    options.transportSamples = c.transportSamples;
+    options.coefficients = c.coefficients;
+    const FactoredBrdf brdf = makeMaps(c.terms, 16, c.mapping);
+    const Samples samples = makeSamples(3, c.visibilitySize);
+    const auto points = vk::makeUpload<shared::BakePoint>(device, samples.points, "points");
+    const auto bits = vk::makeUpload<uint32_t>(device, samples.bits, "bits");
+    const TransportPass pass(device, brdf, options, 4);
+    vk::Commands commands(device, "transport test");
+    commands.begin();
+    pass.record(commands, points, 0, 3, bits);
+    commands.submitAndWait();
+    SparseTransport found;
+    found.rowStarts = {0};
+    TransportLosses losses;
+    pass.collect(3, found, losses);
+
+    const size_t count = 6 * size_t(c.faceSize) * size_t(c.faceSize);
+    double dropped = 0, total = 0;
+    for (size_t row = 0; row < 3 * size_t(c.terms); row++) {
+        const size_t point = row / size_t(c.terms), term = row % size_t(c.terms);
+        std::vector<vec3> expected =
+            transportVector(samples.visibility[point], c.visibilitySize, c.faceSize, c.transportSamples, brdf,
+                            int(term), tangentFrame(samples.points[point].normal));
+        haarFaces(expected, c.faceSize);
+        const std::vector<uint16_t> selected = selectLargest(expected, c.coefficients);
+        const PackedRow packed = packRow(expected, selected);
+        CHECK(found.scales[row] == doctest::Approx(packed.scale).epsilon(1e-4));
+
+        // The device's row, dense, against the exact coefficients: what it keeps is right to half a step and
+        // rounding, and it keeps nothing much smaller than the smallest that the twin keeps.
+        std::vector<vec3> dense(count, vec3(0));
+        for (uint64_t e = found.rowStarts[row]; e < found.rowStarts[row + 1]; e++) {
+            if (e > found.rowStarts[row]) REQUIRE_LT(found.indices[e - 1], found.indices[e]);
+            dense[found.indices[e]] = vec3(unpackCoefficient(found.values[e])) *
+                                      (found.scales[row] / vec3(kRedMaximum, kGreenMaximum, kBlueMaximum));
+        }
+        const float step = packed.scale / float(kBlueMaximum);
+        float worst = 0;
+        size_t differentlyKept = 0;
+        std::vector<bool> kept(count, false);
+        for (uint16_t index : packed.indices) kept[index] = true;
+        for (size_t i = 0; i < count; i++) {
+            differentlyKept += kept[i] != (dense[i] != vec3(0));
+            if (kept[i] && dense[i] != vec3(0)) worst = std::max(worst, glm::length(dense[i] - expected[i]));
+            total += glm::dot(expected[i], expected[i]);
+        }
+        for (size_t i = 0, next = 0; i < count; i++) {
+            if (next < selected.size() && selected[next] == i) next++;
+            else dropped += glm::dot(expected[i], expected[i]);
+        }
+        CHECK_LT(worst, step);
+        // Rounding swaps neighbours in magnitude, and values at the edge of zero: a few of them.
+        CHECK_LE(differentlyKept, 2 + packed.indices.size() / 50);
+    }
+    CHECK(losses.total == doctest::Approx(total).epsilon(1e-3));
+    CHECK(losses.dropped == doctest::Approx(dropped).epsilon(2e-3));
+}
+
+} // namespace
+
+TEST_CASE("transport pass: every size and sampling gives its CPU twin's rows") {
+    const TestDevice device;
+    for (const Case& c : {Case{64, 256, 1, 96, 2}, Case{64, 256, 4, 96, 1}, Case{64, 256, 16, 96, 1},
+                          Case{64, 128, 4, 33, 1}, Case{64, 64, 1, 1, 2}, Case{32, 256, 1, 300, 1},
+                          Case{32, 128, 16, 96, 1}, Case{32, 64, 4, 96, 1, DiskMapping::Polar}})
+        checkCase(device, c);
+}
+
+TEST_CASE("transport pass: lossless selection keeps every coefficient that does not quantise to zero") {
+    const TestDevice device;
+    checkCase(device, {64, 128, 1, 6 * 64 * 64, 1});
+    checkCase(device, {32, 64, 1, 6 * 32 * 32, 3});
+}
+
+TEST_CASE("transport pass: more terms than fit one buffer take turns") {
+    const TestDevice device;
+    BakeOptions options;
+    const FactoredBrdf brdf = makeMaps(32, 8, DiskMapping::Orthographic);
+    // Enough capacity that 32 terms of it exceed the largest storage buffer on lavapipe (128 MiB).
+    const uint32_t capacity = std::min(64u, TransportPass::largestBatch(device, options));
+    const Samples samples = makeSamples(2, 256);
+    const auto points = vk::makeUpload<shared::BakePoint>(device, samples.points, "points");
+    const auto bits = vk::makeUpload<uint32_t>(device, samples.bits, "bits");
+    const auto rowsOf = [&](uint32_t batch) {
+        const TransportPass pass(device, brdf, options, batch);
+        vk::Commands commands(device, "term groups");
+        commands.begin();
+        pass.record(commands, points, 0, 2, bits);
+        commands.submitAndWait();
+        SparseTransport transport;
+        transport.rowStarts = {0};
+        TransportLosses losses;
+        pass.collect(2, transport, losses);
+        return transport;
+    };
+    const SparseTransport apart = rowsOf(capacity), together = rowsOf(2);
+    CHECK_EQ(together.scales.size(), 64u);
+    CHECK(apart.rowStarts == together.rowStarts);
+    CHECK(apart.scales == together.scales);
+    CHECK(apart.indices == together.indices);
+    CHECK(apart.values == together.values);
+}
+
+TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
+    const TestDevice device;
+    const vk::Device& vulkan = device;
+    constexpr uint32_t kCount = 6 * 32 * 32;
+    std::mt19937 random(11);
+    std::vector<std::vector<vec3>> rows(6, std::vector<vec3>(kCount, vec3(0)));
+    for (vec3& value : rows[0]) value = vec3(float(random() % 4), 0, 0);               // many ties, many zeros
+    for (vec3& value : rows[1]) value = vec3(1);                                       // all equal
+    for (uint32_t i = 0; i < 5; i++) rows[3][i * 1000 + 17] = vec3(0, 1e-3f, -1e-3f); // row 2: zeros; few
+    for (vec3& value : rows[4]) value = vec3(std::ldexp(1.0f, -int(random() % 60)));   // all magnitudes
+    for (vec3& value : rows[5]) value = vec3(float(random()), -float(random()), float(random()));
+    std::vector<vec4> coefficients;
+    for (const std::vector<vec3>& row : rows)
+        for (const vec3& c : row) coefficients.emplace_back(c, c.x * c.x + c.y * c.y + c.z * c.z);
+
+    const vk::ComputeProgram select(vulkan, select_comp_spirv, {kCount}, "select");
+    const auto input = vk::makeUpload<vec4>(vulkan, coefficients, "coefficients");
+    for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 3000u, kCount}) {
+        CAPTURE(kept);
+        const vk::Buffer selected(vulkan, rows.size() * kept * 4, vk::BufferUse::Readback, "selected");
+        const vk::Buffer counts(vulkan, rows.size() * 4, vk::BufferUse::Readback, "counts");
+        const vk::Buffer statistics(vulkan, rows.size() * 12, vk::BufferUse::Readback, "statistics");
+        vk::Commands commands(vulkan, "select test");
+        commands.begin();
+        commands.dispatch(select, {input, selected, counts, statistics},
+                          shared::RowsPush{uint32_t(rows.size()), kept},
+                          {uint32_t(rows.size()) * select.groupSize()[0], 1, 1});
+        commands.barrier(vk::Stage::Compute, vk::Stage::Host);
+        commands.submitAndWait();
+        for (size_t row = 0; row < rows.size(); row++) {
+            CAPTURE(row);
+            const std::vector<uint16_t> expected = selectLargest(rows[row], int(kept));
+            const auto found = selected.map<uint32_t>().subspan(row * kept, counts.map<uint32_t>()[row]);
+            CHECK(std::vector<uint16_t>(found.begin(), found.end()) == expected);
+        }
+    }
+}
