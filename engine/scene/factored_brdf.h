@@ -8,6 +8,8 @@
 
 namespace relume {
 
+constexpr int kMaxTerms = 32; // K
+
 // f(ωi, ωo) ≈ Σk lightMap_k(ωi) viewMap_k(ωo), per colour channel; ωi and ωo in the local frame.
 // Maps are `size` × `size` texels, row by row, term after term, already extended beyond the disk's rim
 // so that bilinear lookups near it need no special case.

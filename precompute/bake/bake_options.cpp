@@ -1,6 +1,7 @@
 #include "precompute/bake/bake_options.h"
 
 #include "engine/base/error.h"
+#include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -19,7 +20,7 @@ static void expectOneOf(const char* option, int value, const char* names, std::i
 
 void BakeOptions::validate() const {
     expectRange("--terms", terms, 1, kMaxTerms);
-    expectRange("--map-size", mapSize, 8, 128);
+    expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);
     expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});
     expectOneOf("--transport-samples", transportSamples, "1, 4 or 16", {1, 4, 16});

@@ -1,19 +1,17 @@
 // Every choice that decides a bake's bytes.
 #pragma once
 
-#include "engine/math/disk_map.h"
+#include "engine/scene/factored_brdf.h"
 
 #include <cstddef>
 #include <optional>
 
 namespace relume {
 
-constexpr int kMaxTerms = 32;
-
 struct BakeOptions {
     int terms = 4;         // K, 1 to 32: the most that a part gets; a diffuse one needs a single term
     int coefficients = 96; // N, 1 to 6 F²
-    int mapSize = 48;      // S, 8 to 128
+    int mapSize = 48;      // S, 4 to 64
     DiskMapping mapping = DiskMapping::Orthographic;
     int faceSize = 64;        // F: 32 or 64
     int visibilitySize = 256; // 64, 128 or 256

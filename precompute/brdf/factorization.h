@@ -7,21 +7,13 @@
 namespace relume {
 
 struct FactorizationOptions {
-    int terms = 4; // K, 1 to 32
+    int terms = 4; // K, 1 to kMaxTerms
 };
 
 // Eigenpairs of largest |λ|, per channel. The light map is √|λ| v, the view map √|λ| v times the sign of
 // λ. An unsymmetric table (not reciprocal) is factored by SVD instead, said so in the log. Terms below
 // 1e-6 of the first are dropped, so a diffuse BRDF has one. Deterministic.
 FactoredBrdf factorize(const BrdfTable& table, const FactorizationOptions& options);
-
-// Eigenpairs of a symmetric matrix with the largest |λ|, by block power iteration with Rayleigh-Ritz,
-// by falling |λ|, to ‖Mv - λv‖ ≤ tolerance · |λ₁|. ±pairs and multiple values converge like any others.
-struct Eigenpairs {
-    Eigen::VectorXf values;
-    Eigen::MatrixXf vectors; // one column each, orthonormal
-};
-Eigenpairs largestEigenpairs(const Eigen::MatrixXf& symmetric, int count, float tolerance = 1e-5f);
 
 // sqrt(Σ (f̃ - f)² cos²θi cos²θo / Σ f² cos²θi cos²θo) over `pairs` random pairs of directions, uniform on
 // the hemisphere, mean over channels: the cos-weighted relative RMS of K terms as bilinear lookups return

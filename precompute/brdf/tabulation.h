@@ -20,6 +20,10 @@ struct BrdfTable {
     float asymmetry = 0;                     // max over channels of ‖M - Mᵀ‖ / ‖M‖ (Frobenius)
 };
 
+// Side of a map, S. The largest makes three matrices of 41 MB (orthographic) or 67 MB (polar).
+constexpr int kMinMapSize = 4, kMaxMapSize = 64;
+
+// Throws UsageError for a size outside these.
 BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping);
 
 } // namespace relume

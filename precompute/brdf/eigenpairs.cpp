@@ -1,0 +1,168 @@
+#include "precompute/brdf/eigenpairs.h"
+
+#include "engine/base/check.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <spdlog/spdlog.h>
+#include <vector>
+
+namespace relume {
+
+using Eigen::MatrixXd;
+using Eigen::MatrixXf;
+using Eigen::VectorXf;
+
+namespace {
+
+constexpr int kOversampling = 8; // pairs iterated beyond the wanted ones
+constexpr int kBasisBlocks = 4;  // size of a full basis, in blocks
+constexpr int kMaxRounds = 300;
+
+// Uniform in [-1, 1), from bits, so that every standard library gives the same.
+MatrixXf randomBlock(int rows, int columns) {
+    std::mt19937 random(20040621);
+    return MatrixXf::NullaryExpr(rows, columns, [&] { return float(random() >> 8) * 0x1p-23f - 1.0f; });
+}
+
+// An orthonormal basis of the block's columns, without those that depend on others: by the eigenvectors
+// of its Gram matrix (Stathopoulos and Wu, 2002), which is nearly all matrix products. One pass leaves an
+// error of up to 1e-2, the second rounding only.
+MatrixXf orthonormalized(const MatrixXf& block) {
+    constexpr double kDependent = 1e-5;
+    const MatrixXd gram = (block.transpose() * block).cast<double>();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
+    const auto& squares = solver.eigenvalues();
+    const double threshold = kDependent * squares[squares.size() - 1];
+    const auto kept = std::count_if(squares.begin(), squares.end(), [&](double s) { return s > threshold; });
+    const MatrixXd scaled =
+        solver.eigenvectors().rightCols(kept) * squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+    return block * scaled.cast<float>();
+}
+
+// Directions of the block that the basis lacks, orthonormal and orthogonal to it.
+MatrixXf orthonormalizedAgainst(const Eigen::Ref<const MatrixXf>& basis, MatrixXf block) {
+    for (int pass = 0; pass < 2 && block.cols() > 0; pass++) {
+        block.noalias() -= basis * (basis.transpose() * block).eval();
+        block = orthonormalized(block);
+    }
+    return block;
+}
+
+struct RitzPairs {
+    VectorXf values;
+    MatrixXf vectors;   // X
+    MatrixXf residuals; // MX - X diag(values)
+};
+
+class BlockEigensolver {
+  public:
+    BlockEigensolver(const BlockOperator& apply, int dimension, int count, float tolerance)
+        : mApply(apply), mDimension(dimension), mCount(count), mTolerance(tolerance),
+          mBlock(std::min(dimension, count + kOversampling)), mBasis(dimension, kBasisBlocks * mBlock),
+          mProduct(dimension, kBasisBlocks * mBlock) {}
+
+    Eigenpairs solve() {
+        append(orthonormalizedAgainst(MatrixXf(mDimension, 0), randomBlock(mDimension, mBlock)));
+        for (int round = 0; round < kMaxRounds; round++) {
+            RitzPairs ritz = rayleighRitz();
+            const std::vector<int> open = unconverged(ritz);
+            if (open.empty() || open.front() >= mCount) return result(ritz);
+            if (mSize + Eigen::Index(open.size()) > mBasis.cols()) restart(ritz);
+            const MatrixXf directions = orthonormalizedAgainst(basis(), residualBlock(ritz, open));
+            if (directions.cols() == 0) return result(ritz); // the basis is invariant
+            append(directions);
+        }
+        spdlog::warn("eigenvalues: not converged to {} after {} rounds; the factors are less exact",
+                     mTolerance, kMaxRounds);
+        return result(rayleighRitz());
+    }
+
+  private:
+    Eigen::Ref<const MatrixXf> basis() const { return mBasis.leftCols(mSize); }
+    Eigen::Ref<const MatrixXf> product() const { return mProduct.leftCols(mSize); }
+
+    void append(const MatrixXf& directions) {
+        mBasis.middleCols(mSize, directions.cols()) = directions;
+        mProduct.middleCols(mSize, directions.cols()) = mApply(directions);
+        mSize += directions.cols();
+    }
+
+    // The best approximations that the basis holds to the mBlock pairs of largest magnitude.
+    RitzPairs rayleighRitz() {
+        const MatrixXd projected = (basis().transpose() * product()).cast<double>();
+        const Eigen::SelfAdjointEigenSolver<MatrixXd> solver((projected + projected.transpose()) / 2);
+        std::vector<int> order(size_t(projected.cols()));
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+            return std::abs(solver.eigenvalues()[a]) > std::abs(solver.eigenvalues()[b]);
+        });
+        order.resize(size_t(mBlock));
+        mRotation = solver.eigenvectors()(Eigen::all, order).cast<float>();
+        RitzPairs ritz;
+        ritz.values = solver.eigenvalues()(order).cast<float>();
+        ritz.vectors = basis() * mRotation;
+        ritz.residuals = product() * mRotation;
+        ritz.residuals -= ritz.vectors * ritz.values.asDiagonal();
+        return ritz;
+    }
+
+    std::vector<int> unconverged(const RitzPairs& ritz) const {
+        const float limit = mTolerance * std::abs(ritz.values[0]);
+        std::vector<int> open;
+        for (int k = 0; k < mBlock; k++)
+            if (ritz.residuals.col(k).norm() > limit) open.push_back(k);
+        return open;
+    }
+
+    static MatrixXf residualBlock(const RitzPairs& ritz, const std::vector<int>& open) {
+        return ritz.residuals(Eigen::all, open).colwise().normalized();
+    }
+
+    void restart(const RitzPairs& ritz) {
+        mProduct.leftCols(mBlock) = (product() * mRotation).eval();
+        mBasis.leftCols(mBlock) = ritz.vectors;
+        mSize = mBlock;
+    }
+
+    // The sign is that of the first of the components whose magnitude is within 0.1 % of the largest: an
+    // antisymmetric vector has two of equal magnitude, and rounding must not choose between them.
+    Eigenpairs result(const RitzPairs& ritz) const {
+        Eigenpairs pairs{ritz.values.head(mCount), ritz.vectors.leftCols(mCount)};
+        for (auto vector : pairs.vectors.colwise()) {
+            const float threshold = 0.999f * vector.cwiseAbs().maxCoeff();
+            const auto first =
+                std::find_if(vector.begin(), vector.end(), [&](float v) { return std::abs(v) >= threshold; });
+            if (*first < 0) vector = -vector;
+        }
+        return pairs;
+    }
+
+    const BlockOperator& mApply;
+    int mDimension, mCount;
+    float mTolerance;
+    int mBlock;
+    MatrixXf mBasis, mProduct; // room for V, orthonormal, and MV
+    Eigen::Index mSize = 0;    // columns of V so far
+    MatrixXf mRotation;        // from V to the latest Ritz vectors
+};
+
+} // namespace
+
+Eigenpairs largestEigenpairs(const BlockOperator& apply, int dimension, int count, float tolerance) {
+    RELUME_CHECK_LE(1, count);
+    RELUME_CHECK_LE(count, dimension);
+    return BlockEigensolver(apply, dimension, count, tolerance).solve();
+}
+
+Eigenpairs largestEigenpairs(const MatrixXf& symmetric, int count, float tolerance) {
+    RELUME_CHECK_EQ(symmetric.rows(), symmetric.cols());
+    RELUME_CHECK(symmetric.allFinite());
+    const auto apply = [&](const MatrixXf& block) -> MatrixXf { return symmetric * block; };
+    return largestEigenpairs(apply, int(symmetric.rows()), count, tolerance);
+}
+
+} // namespace relume

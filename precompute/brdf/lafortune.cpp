@@ -1,0 +1,84 @@
+#include "engine/base/error.h"
+#include "precompute/brdf/models.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace relume {
+
+namespace {
+
+// Large enough for any fit in the literature, small enough that every sum stays finite.
+constexpr size_t kMaxLobes = 16;
+constexpr float kMaxPeak = 1e6f;
+
+struct Lobe {
+    vec3 x, y, z, exponent; // one of each per colour channel
+};
+
+class Lafortune final : public Brdf {
+  public:
+    Lafortune(vec3 diffuse, std::vector<Lobe> lobes) : mDiffuse(diffuse), mLobes(std::move(lobes)) {}
+
+    vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
+        const vec3 product = incoming * outgoing;
+        vec3 sum = mDiffuse / kPi;
+        for (const Lobe& lobe : mLobes) {
+            const vec3 base = lobe.x * product.x + lobe.y * product.y + lobe.z * product.z;
+            for (int c = 0; c < 3; c++)
+                if (base[c] > 0) sum[c] += std::pow(base[c], lobe.exponent[c]);
+        }
+        return sum;
+    }
+
+    nlohmann::json describe() const override {
+        nlohmann::json lobes = nlohmann::json::array();
+        for (const Lobe& lobe : mLobes)
+            lobes.push_back({{"cx", colourToJson(lobe.x)},
+                             {"cy", colourToJson(lobe.y)},
+                             {"cz", colourToJson(lobe.z)},
+                             {"n", colourToJson(lobe.exponent)}});
+        return {{"model", "lafortune"}, {"diffuse", colourToJson(mDiffuse)}, {"lobes", lobes}};
+    }
+
+  private:
+    vec3 mDiffuse;
+    std::vector<Lobe> mLobes;
+};
+
+Lobe readLobe(MaterialParameters& parameters) {
+    Lobe lobe;
+    lobe.x = parameters.requiredColour("cx", {-10, 10});
+    lobe.y = parameters.requiredColour("cy", {-10, 10});
+    lobe.z = parameters.requiredColour("cz", {-10, 10});
+    lobe.exponent = parameters.requiredColour("n", {0, 1e4f});
+    parameters.rejectUnknownKeys();
+    return lobe;
+}
+
+// The base of a lobe is at most the largest of |cx|, |cy| and cz: ωi.z ωo.z is never negative.
+void checkPeak(const Lobe& lobe) {
+    for (int c = 0; c < 3; c++) {
+        const float base = std::max({std::abs(lobe.x[c]), std::abs(lobe.y[c]), lobe.z[c], 0.0f});
+        if (!(std::pow(base, lobe.exponent[c]) <= kMaxPeak))
+            throw UsageError(
+                "material lafortune: a lobe of base {} and exponent {} peaks above {} sr⁻¹; lower "
+                "\"n\" or the coefficients",
+                base, lobe.exponent[c], kMaxPeak);
+    }
+}
+
+} // namespace
+
+std::unique_ptr<Brdf> makeLafortune(MaterialParameters& parameters) {
+    const vec3 diffuse = parameters.colour("diffuse", vec3(0), {0, 1});
+    std::vector<Lobe> lobes;
+    for (MaterialParameters& item : parameters.list("lobes", kMaxLobes)) {
+        lobes.push_back(readLobe(item));
+        checkPeak(lobes.back());
+    }
+    return std::make_unique<Lafortune>(diffuse, std::move(lobes));
+}
+
+} // namespace relume

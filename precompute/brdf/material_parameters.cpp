@@ -1,0 +1,100 @@
+#include "precompute/brdf/material_parameters.h"
+
+#include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace relume {
+
+using nlohmann::json;
+
+namespace {
+
+// The value as text, short enough for a message.
+std::string excerpt(const json& value) {
+    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (text.size() > 60) text = text.substr(0, 57) + "...";
+    return text;
+}
+
+bool isNumberInRange(const json& value, ParameterRange range) {
+    if (!value.is_number()) return false;
+    const double number = value.get<double>();
+    return number >= double(range.low) && number <= double(range.high);
+}
+
+vec3 readColour(const std::string& owner, const std::string& key, const json& value, ParameterRange range) {
+    if (isNumberInRange(value, range)) return vec3(value.get<float>());
+    const auto inRange = [&](const json& item) { return isNumberInRange(item, range); };
+    if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), inRange))
+        throw UsageError("material {}: \"{}\" must be a number from {} to {}, or [red, green, blue] of such, "
+                         "but is {}",
+                         owner, key, range.low, range.high, excerpt(value));
+    return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
+}
+
+} // namespace
+
+MaterialParameters::MaterialParameters(std::string owner, json object)
+    : mOwner(std::move(owner)), mObject(std::move(object)) {
+    if (!mObject.is_object())
+        throw UsageError("material {}: expected a JSON object of parameters, found {}", mOwner,
+                         excerpt(mObject));
+}
+
+const json* MaterialParameters::find(const std::string& key) {
+    mKnownKeys.push_back(key);
+    const auto found = mObject.find(key);
+    return found == mObject.end() ? nullptr : &*found;
+}
+
+float MaterialParameters::number(const std::string& key, float fallback, ParameterRange range) {
+    const json* value = find(key);
+    if (!value) return fallback;
+    if (!isNumberInRange(*value, range))
+        throw UsageError("material {}: \"{}\" must be a number from {} to {}, but is {}", mOwner, key,
+                         range.low, range.high, excerpt(*value));
+    return value->get<float>();
+}
+
+vec3 MaterialParameters::colour(const std::string& key, vec3 fallback, ParameterRange range) {
+    const json* value = find(key);
+    return value ? readColour(mOwner, key, *value, range) : fallback;
+}
+
+vec3 MaterialParameters::requiredColour(const std::string& key, ParameterRange range) {
+    const json* value = find(key);
+    if (!value)
+        throw UsageError("material {}: \"{}\" is missing; give a number from {} to {}, or [red, green, blue]",
+                         mOwner, key, range.low, range.high);
+    return readColour(mOwner, key, *value, range);
+}
+
+std::vector<MaterialParameters> MaterialParameters::list(const std::string& key, size_t limit) {
+    const json* value = find(key);
+    if (!value || !value->is_array() || value->size() > limit)
+        throw UsageError("material {}: \"{}\" must be an array of at most {} objects, but {}", mOwner, key,
+                         limit, value ? "is " + excerpt(*value) : std::string("is missing"));
+    std::vector<MaterialParameters> items;
+    for (size_t i = 0; i < value->size(); i++)
+        items.emplace_back(fmt::format("{}, {}[{}]", mOwner, key, i), (*value)[i]);
+    return items;
+}
+
+void MaterialParameters::rejectUnknownKeys() const {
+    const std::vector<std::string_view> known(mKnownKeys.begin(), mKnownKeys.end());
+    for (const auto& [key, value] : mObject.items())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            throw UsageError("material {}: unknown parameter \"{}\"; did you mean \"{}\"?", mOwner,
+                             key.substr(0, 60), nearestName(key, known));
+}
+
+json numberToJson(float value) { return json::parse(fmt::format("{}", value)); }
+
+json colourToJson(vec3 colour) {
+    return json::array({numberToJson(colour.x), numberToJson(colour.y), numberToJson(colour.z)});
+}
+
+} // namespace relume

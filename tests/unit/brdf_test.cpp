@@ -1,0 +1,221 @@
+// Every BRDF model against closed forms, its energy, its reciprocity; materials from hostile text.
+#include "engine/base/error.h"
+#include "precompute/brdf/brdf.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+using namespace relume;
+
+namespace {
+
+const vec3 kNormal(0, 0, 1);
+
+vec3 direction(float theta, float phi) {
+    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+// ∫ f cosθi dωi, by the midpoint rule over the disk, on which cosθ dω is the area.
+vec3 albedo(const Brdf& brdf, vec3 outgoing) {
+    const int rings = 150, sectors = 300;
+    glm::dvec3 sum(0);
+    for (int ring = 0; ring < rings; ring++)
+        for (int sector = 0; sector < sectors; sector++) {
+            const float radius = std::sqrt((float(ring) + 0.5f) / rings);
+            const float angle = 2 * kPi * (float(sector) + 0.5f) / sectors;
+            const vec3 incoming(radius * std::cos(angle), radius * std::sin(angle),
+                                std::sqrt(1 - radius * radius));
+            sum += glm::dvec3(brdf.evaluate(incoming, outgoing));
+        }
+    return vec3(sum * double(kPi) / double(rings * sectors));
+}
+
+std::vector<std::string> materials() {
+    std::vector<std::string> all;
+    for (const MaterialPreset& preset : materialPresets()) all.push_back(preset.name);
+    all.push_back(R"({"model": "plastic", "diffuse": 1, "f0": [0, 0.3, 1], "roughness": 0.5})");
+    all.push_back(R"({"model": "plastic", "diffuse": [1, 0.5, 0], "index": 2.5, "roughness": 1})");
+    all.push_back(R"({"model": "ashikhmin-shirley", "kd": 1, "ks": [0, 0.2, 1], "nu": 0, "nv": 50})");
+    return all;
+}
+
+// The message of the UsageError that the material causes; fails the test if it causes none.
+std::string usageError(const std::string& material) {
+    try {
+        makeBrdf(material);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    FAIL("accepted: " << material);
+    return {};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("brdf: diffuse is albedo over pi") {
+    const auto brdf = makeBrdf(R"({"model": "diffuse", "albedo": [0.2, 0.4, 0.6]})");
+    const vec3 value = brdf->evaluate(direction(1.0f, 2.0f), direction(0.3f, 1.0f));
+    CHECK(glm::length(value * kPi - vec3(0.2f, 0.4f, 0.6f)) < 1e-6f);
+}
+
+TEST_CASE("brdf: Ashikhmin-Shirley at normal incidence has its closed form") {
+    const auto brdf = makeBrdf("ashikhmin-shirley");
+    const float transmitted = 1 - 1.0f / 32;
+    const float diffuse = 28 * 0.5f * 0.25f / (23 * kPi) * transmitted * transmitted;
+    const float specular = std::sqrt(11.0f * 101.0f) / (8 * kPi) * 0.75f;
+    CHECK(brdf->evaluate(kNormal, kNormal).x == doctest::Approx(diffuse + specular).epsilon(1e-5));
+}
+
+TEST_CASE("brdf: Ashikhmin-Shirley is wide along s (nu 10), narrow along t (nv 100)") {
+    const auto brdf = makeBrdf("ashikhmin-shirley");
+    // The half vector tilts by 0.2 along each axis: specular lobes in the ratio cos^10 : cos^100.
+    const vec3 alongS = brdf->evaluate(direction(0.4f, 0), kNormal);
+    const vec3 alongT = brdf->evaluate(direction(0.4f, kPi / 2), kNormal);
+    const auto base = makeBrdf(R"({"model": "ashikhmin-shirley", "kd": 0})");
+    const float ratio =
+        base->evaluate(direction(0.4f, 0), kNormal).x / base->evaluate(direction(0.4f, kPi / 2), kNormal).x;
+    CHECK(alongS.x > 2 * alongT.x);
+    CHECK(ratio == doctest::Approx(std::pow(std::cos(0.2), 10 - 100)).epsilon(1e-4));
+}
+
+TEST_CASE("brdf: a Lafortune lobe at the mirror direction has its closed form") {
+    const auto brdf = makeBrdf(
+        R"({"model": "lafortune", "diffuse": 0.1, "lobes": [{"cx": -0.9, "cy": -0.8, "cz": 0.7, "n": 5}]})");
+    const float sine = std::sin(0.7f), cosine = std::cos(0.7f);
+    const float alongX = std::pow(0.9f * sine * sine + 0.7f * cosine * cosine, 5.0f);
+    const float alongY = std::pow(0.8f * sine * sine + 0.7f * cosine * cosine, 5.0f);
+    CHECK(brdf->evaluate(direction(0.7f, 0), direction(0.7f, kPi)).x ==
+          doctest::Approx(0.1f / kPi + alongX).epsilon(1e-4));
+    CHECK(brdf->evaluate(direction(0.7f, kPi / 2), direction(0.7f, -kPi / 2)).x ==
+          doctest::Approx(0.1f / kPi + alongY).epsilon(1e-4));
+}
+
+TEST_CASE("brdf: plastic at normal incidence has its closed form") {
+    const auto brdf = makeBrdf(R"({"model": "plastic", "diffuse": 0.5, "index": 1.5, "roughness": 0.3})");
+    const float reflectance = 0.04f; // (0.5 / 2.5)²
+    const float base = 0.5f * (1 - reflectance) * (1 - reflectance) / kPi;
+    const float coat = reflectance / (4 * kPi * 0.09f);
+    CHECK(brdf->evaluate(kNormal, kNormal).x == doctest::Approx(base + coat).epsilon(1e-5));
+}
+
+TEST_CASE("brdf: no material reflects more than it receives") {
+    for (const std::string& material : materials()) {
+        const auto brdf = makeBrdf(material);
+        for (float degrees : {0.0f, 30.0f, 60.0f, 80.0f, 87.0f})
+            for (float phi : {0.0f, kPi / 4, kPi / 2}) {
+                CAPTURE(material);
+                CAPTURE(degrees);
+                const vec3 reflected = albedo(*brdf, direction(degrees * kPi / 180, phi));
+                for (int c = 0; c < 3; c++) CHECK(reflected[c] <= 1.0f);
+            }
+    }
+    const vec3 white = albedo(*makeBrdf("white-diffuse"), direction(1.0f, 0.5f));
+    CHECK(white.x == doctest::Approx(0.8).epsilon(1e-4));
+}
+
+TEST_CASE("brdf: every material is reciprocal, finite and never negative, down to the horizon") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    std::vector<vec3> directions = {kNormal,        direction(1.5707f, 0), direction(1.5707f, kPi),
+                                    {1, 0, 1e-30f}, {-1, 0, 1e-30f},       {0, 1, 1e-8f}};
+    for (int i = 0; i < 100; i++)
+        directions.push_back(direction(std::acos(1 - uniform(random)), 2 * kPi * uniform(random)));
+    for (const std::string& material : materials()) {
+        CAPTURE(material);
+        const auto brdf = makeBrdf(material);
+        CHECK(brdf->isReciprocal());
+        for (const vec3& a : directions)
+            for (const vec3& b : directions) {
+                const vec3 there = brdf->evaluate(a, b), back = brdf->evaluate(b, a);
+                for (int c = 0; c < 3; c++) {
+                    REQUIRE(std::isfinite(there[c]));
+                    REQUIRE(there[c] >= 0);
+                    REQUIRE(std::abs(there[c] - back[c]) <= 1e-5f * there[c]);
+                }
+            }
+    }
+}
+
+TEST_CASE("brdf: a description makes the same BRDF") {
+    const vec3 a = direction(0.5f, 0.3f), b = direction(0.6f, 3.0f);
+    for (const std::string& material : materials()) {
+        CAPTURE(material);
+        const auto brdf = makeBrdf(material);
+        const auto again = makeBrdf(brdf->describe().dump());
+        CHECK(again->describe() == brdf->describe());
+        CHECK(again->evaluate(a, b) == brdf->evaluate(a, b));
+    }
+    CHECK(makeBrdf("ashikhmin-shirley")->describe().dump() ==
+          R"({"kd":[0.5,0.5,0.5],"ks":[0.75,0.75,0.75],"model":"ashikhmin-shirley","nu":10,"nv":100})");
+}
+
+TEST_CASE("brdf: absent parameters take the model's defaults") {
+    const auto brdf = makeBrdf(R"( {"model": "ashikhmin-shirley", "nu": 20})");
+    CHECK(brdf->describe()["nu"] == 20);
+    CHECK(brdf->describe()["nv"] == 100);
+    CHECK(makeBrdf("diffuse")->describe()["albedo"] == nlohmann::json({0.5, 0.5, 0.5}));
+    CHECK(makeBrdf("plastic")->describe()["model"] == "plastic");
+}
+
+TEST_CASE("brdf: unknown names lead to the nearest valid one") {
+    CHECK(contains(usageError("red-plastik"), "did you mean \"red-plastic\""));
+    CHECK(contains(usageError("Clay"), "did you mean \"clay\""));
+    CHECK(contains(usageError("lafortun"), "did you mean \"lafortune\""));
+    CHECK(contains(usageError(R"({"model": "plastics"})"), "did you mean \"plastic\""));
+    CHECK(contains(usageError(R"({"model": "plastic", "rougness": 0.1})"), "did you mean \"roughness\""));
+}
+
+TEST_CASE("brdf: wrong parameters are named with their range") {
+    const std::string error = usageError(R"({"model": "plastic", "roughness": 2})");
+    CHECK(contains(error, "\"roughness\""));
+    CHECK(contains(error, "from 0.02 to 1"));
+    CHECK(contains(error, "is 2"));
+    const std::string lobe = R"({"cx": -1, "cy": -1, "cz": 1})";
+    CHECK(contains(usageError(R"({"model": "lafortune", "lobes": [)" + lobe + "]}"), "\"n\" is missing"));
+    for (const char* material :
+         {"",
+          " ",
+          "{",
+          "{}",
+          "{\"model\": 5}",
+          R"({"model": "diffuse", "albedo": -0.1})",
+          R"({"model": "diffuse", "albedo": 1e999})",
+          R"({"model": "diffuse", "albedo": NaN})",
+          R"({"model": "diffuse", "albedo": [0.1, 0.2]})",
+          R"({"model": "diffuse", "albedo": [0, 0, "x"]})",
+          R"({"model": "diffuse", "albedo": null})",
+          R"({"model": "ashikhmin-shirley", "nu": -1})",
+          R"({"model": "ashikhmin-shirley", "nu": [1, 2, 3]})",
+          R"({"model": "ashikhmin-shirley", "ks": 1.1})",
+          R"({"model": "plastic", "f0": 0.04, "index": 1.5})",
+          R"({"model": "lafortune"})",
+          "lafortune",
+          R"({"model": "lafortune", "lobes": 3})",
+          R"({"model": "lafortune", "lobes": [3]})",
+          R"({"model": "lafortune", "lobes": [{"cx": -9, "cy": 9, "cz": 9, "n": 9999}]})"})
+        usageError(material);
+}
+
+TEST_CASE("brdf: hostile text ends in an error, not in a crash") {
+    usageError(std::string(1 << 17, ' ') + "{}");
+    usageError(R"({"model": "diffuse", "albedo": )" + std::string(30000, '[') + std::string(30000, ']') +
+               "}");
+    usageError(std::string(1 << 20, 'x'));
+    const std::string valid = makeBrdf("clay")->describe().dump();
+    for (size_t length = 0; length < valid.size(); length++) usageError(valid.substr(0, length));
+    for (size_t bit = 0; bit < 8 * valid.size(); bit += 3) {
+        std::string flipped = valid;
+        flipped[bit / 8] = char(flipped[bit / 8] ^ (1 << (bit % 8)));
+        try {
+            makeBrdf(flipped);
+        } catch (const UsageError&) {
+        }
+    }
+}

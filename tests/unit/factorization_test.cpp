@@ -1,0 +1,192 @@
+// From tables to light and view maps: what the terms reproduce, and what the maps hold.
+#include "engine/base/error.h"
+#include "precompute/brdf/factorization.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <random>
+
+using namespace relume;
+using Eigen::MatrixXf;
+
+namespace {
+
+BrdfTable tableOf(const std::string& material, int size, DiskMapping mapping = DiskMapping::Orthographic) {
+    return tabulate(*makeBrdf(material), size, mapping);
+}
+
+// The sum of the terms at two directions of the table, texel against texel.
+MatrixXf reconstruct(const FactoredBrdf& brdf, const BrdfTable& table, int channel) {
+    const Eigen::Index n = Eigen::Index(table.directions.size());
+    MatrixXf light(n, brdf.terms), view(n, brdf.terms);
+    for (Eigen::Index i = 0; i < n; i++)
+        for (int term = 0; term < brdf.terms; term++) {
+            const ivec2 texel = table.texels[size_t(i)];
+            const size_t place = size_t(term) * brdf.mapTexels() + size_t(texel.y * brdf.size + texel.x);
+            light(i, term) = brdf.lightMaps[place][channel];
+            view(i, term) = brdf.viewMaps[place][channel];
+        }
+    return light * view.transpose();
+}
+
+// A table of 12 directions (4 × 4 texels) with any matrix.
+BrdfTable tableWith(const MatrixXf& matrix) {
+    BrdfTable table = tableOf("grey-diffuse", 4);
+    REQUIRE(table.directions.size() == size_t(matrix.rows()));
+    for (MatrixXf& channel : table.channels) channel = matrix;
+    table.asymmetry = (matrix - matrix.transpose()).norm() / matrix.norm();
+    return table;
+}
+
+} // namespace
+
+TEST_CASE("factorization: a diffuse BRDF has one term and no error, up to the rim") {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar}) {
+        const auto brdf = makeBrdf(R"({"model": "diffuse", "albedo": [0.2, 0.5, 0.8]})");
+        const FactoredBrdf factored = factorize(tabulate(*brdf, 16, mapping), {32});
+        CHECK(factored.terms == 1);
+        CHECK(factored.mapping == mapping);
+        CHECK(factorizationError(*brdf, factored, 10000) < 1e-5f);
+        const vec3 grazing = evaluate(factored, liftAboveHorizon({0.7f, 0.7f, 0}), {0, 0, 1});
+        CHECK(glm::length(grazing * kPi - vec3(0.2f, 0.5f, 0.8f)) < 1e-5f);
+    }
+}
+
+TEST_CASE("factorization: all terms together are the table") {
+    for (const char* material : {"ashikhmin-shirley", "clay", "red-plastic"}) {
+        const BrdfTable table = tableOf(material, 6);
+        REQUIRE(table.directions.size() <= 32);
+        const FactoredBrdf brdf = factorize(table, {32});
+        for (int c = 0; c < 3; c++) {
+            const MatrixXf& exact = table.channels[size_t(c)];
+            CHECK((reconstruct(brdf, table, c) - exact).norm() < 1e-4f * exact.norm());
+        }
+    }
+}
+
+TEST_CASE("factorization: what K terms miss is the rest of the spectrum") {
+    const BrdfTable table = tableOf("skin", 16);
+    const FactoredBrdf brdf = factorize(table, {8});
+    for (int c = 0; c < 3; c++) {
+        const MatrixXf& exact = table.channels[size_t(c)];
+        double kept = 0;
+        for (const auto& values : brdf.eigenvalues) kept += std::pow(double(values[size_t(c)]), 2);
+        const double rest = std::sqrt(double(exact.squaredNorm()) - kept);
+        CHECK(double((reconstruct(brdf, table, c) - exact).norm()) == doctest::Approx(rest).epsilon(1e-2));
+    }
+}
+
+TEST_CASE("factorization: light maps keep their sign, view maps take that of the eigenvalue") {
+    const FactoredBrdf brdf = factorize(tableOf("clay", 16), {12});
+    CHECK(brdf.terms == 12);
+    bool someNegative = false;
+    for (int term = 0; term < brdf.terms; term++)
+        for (int c = 0; c < 3; c++) {
+            const float value = brdf.eigenvalues[size_t(term)][size_t(c)];
+            if (term > 0)
+                CHECK(std::abs(value) <=
+                      std::abs(brdf.eigenvalues[size_t(term) - 1][size_t(c)]) * (1 + 1e-5f));
+            someNegative |= value < 0;
+            const float sign = value < 0 ? -1.0f : 1.0f;
+            float largest = 0, lowest = 0;
+            for (size_t texel = 0; texel < brdf.mapTexels(); texel++) {
+                const size_t place = size_t(term) * brdf.mapTexels() + texel;
+                CHECK(brdf.viewMaps[place][c] == sign * brdf.lightMaps[place][c]);
+                largest = std::max(largest, brdf.lightMaps[place][c]);
+                lowest = std::min(lowest, brdf.lightMaps[place][c]);
+            }
+            CHECK(largest >= -0.999f * lowest);
+        }
+    CHECK(someNegative);
+}
+
+TEST_CASE("factorization: texels outside the disk copy the nearest inside") {
+    const int size = 12;
+    const BrdfTable table = tableOf("ashikhmin-shirley", size);
+    const FactoredBrdf brdf = factorize(table, {2});
+    std::vector<bool> inside(size * size, false);
+    for (const ivec2& texel : table.texels) inside[size_t(texel.y * size + texel.x)] = true;
+    for (int y = 0; y < size; y++)
+        for (int x = 0; x < size; x++) {
+            if (inside[size_t(y * size + x)]) continue;
+            // The inside texels at the least distance, in the order of their indices: the first counts.
+            float least = 1e9f;
+            size_t nearest = 0;
+            for (int v = 0; v < size; v++)
+                for (int u = 0; u < size; u++) {
+                    const float distance = std::hypot(float(u - x), float(v - y));
+                    if (!inside[size_t(v * size + u)] || distance >= least - 1e-4f) continue;
+                    least = distance;
+                    nearest = size_t(v * size + u);
+                }
+            for (size_t start : {size_t(0), brdf.mapTexels()}) {
+                CHECK(brdf.lightMaps[start + size_t(y * size + x)] == brdf.lightMaps[start + nearest]);
+                CHECK(brdf.viewMaps[start + size_t(y * size + x)] == brdf.viewMaps[start + nearest]);
+            }
+        }
+}
+
+TEST_CASE("factorization: an unsymmetric table is factored by its singular values") {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    const MatrixXf matrix = MatrixXf::NullaryExpr(12, 12, [&] { return uniform(random); });
+    const BrdfTable table = tableWith(matrix);
+    const Eigen::JacobiSVD<MatrixXf> library(matrix);
+    const FactoredBrdf all = factorize(table, {12});
+    CHECK((reconstruct(all, table, 1) - matrix).norm() < 1e-4f * matrix.norm());
+    const FactoredBrdf brdf = factorize(table, {4});
+    REQUIRE(brdf.terms == 4);
+    for (int term = 0; term < 4; term++)
+        CHECK(brdf.eigenvalues[size_t(term)][0] ==
+              doctest::Approx(library.singularValues()[term]).epsilon(1e-4));
+    const float rest = library.singularValues().tail(8).norm();
+    CHECK((reconstruct(brdf, table, 2) - matrix).norm() == doctest::Approx(rest).epsilon(1e-3));
+}
+
+TEST_CASE("factorization: an unsymmetric table of one term has one, rows lit and columns seen") {
+    const Eigen::VectorXf light = Eigen::VectorXf::LinSpaced(12, 1, 2),
+                          view = Eigen::VectorXf::Constant(12, 3);
+    const BrdfTable table = tableWith(light * view.transpose());
+    const FactoredBrdf brdf = factorize(table, {8});
+    CHECK(brdf.terms == 1);
+    CHECK((reconstruct(brdf, table, 0) - table.channels[0]).norm() < 1e-4f * table.channels[0].norm());
+}
+
+TEST_CASE("factorization: more terms, less error") {
+    const auto brdf = makeBrdf("ashikhmin-shirley");
+    const BrdfTable table = tabulate(*brdf, 24, DiskMapping::Orthographic);
+    float last = 1;
+    for (int terms : {1, 4, 16, 32}) {
+        const float error = factorizationError(*brdf, factorize(table, {terms}), 20000);
+        CHECK(error < last);
+        last = error;
+    }
+    CHECK(last < 0.5f);
+    const auto skin = makeBrdf("skin");
+    CHECK(factorizationError(*skin, factorize(tabulate(*skin, 48, DiskMapping::Orthographic), {16}), 20000) <
+          0.07f);
+}
+
+TEST_CASE("factorization: the same bytes every time, and equal channels equal") {
+    const BrdfTable table = tableOf("ashikhmin-shirley", 16);
+    const FactoredBrdf first = factorize(table, {6}), second = factorize(table, {6});
+    CHECK(first.lightMaps == second.lightMaps);
+    CHECK(first.viewMaps == second.viewMaps);
+    for (const vec3& value : first.lightMaps) CHECK((value.x == value.y && value.y == value.z));
+}
+
+TEST_CASE("factorization: a black channel or BRDF is zero everywhere") {
+    const FactoredBrdf black = factorize(tableOf(R"({"model": "diffuse", "albedo": 0})", 8), {4});
+    CHECK(black.terms == 1);
+    for (const vec3& value : black.lightMaps) CHECK(value == vec3(0));
+    const FactoredBrdf red = factorize(tableOf(R"({"model": "diffuse", "albedo": [1, 0, 0]})", 8), {4});
+    CHECK(red.terms == 1);
+    for (const vec3& value : red.viewMaps) CHECK((value.x > 0 && value.y == 0 && value.z == 0));
+}
+
+TEST_CASE("factorization: term counts out of range are refused") {
+    const BrdfTable table = tableOf("clay", 4);
+    for (int terms : {-1, 0, 33}) CHECK_THROWS_AS(factorize(table, {terms}), UsageError);
+}
