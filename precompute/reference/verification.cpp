@@ -1,5 +1,6 @@
 #include "precompute/reference/verification.h"
 
+#include "engine/math/cubemap.h"
 #include "engine/render/relighter.h"
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
