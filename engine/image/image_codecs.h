@@ -13,7 +13,10 @@ namespace relume {
 bool isExr(std::span<const std::byte> bytes);
 bool isRadiance(std::span<const std::byte> bytes);
 
-// `name` is the file's name for the text of an Error. Pixels may be infinite or NaN.
+// What readImage() makes of a file's bytes; `name` is the file's name for the text of an Error.
+ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name);
+
+// One format each. Pixels may be infinite or NaN.
 ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name);
 Image decodeRadiance(std::span<const std::byte> bytes, const std::string& name);
 

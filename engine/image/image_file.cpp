@@ -54,9 +54,7 @@ void checkImageSize(const std::string& name, int64_t width, int64_t height, size
                     width, height, bytes);
 }
 
-ImageFile readImage(const std::filesystem::path& path) {
-    const std::string name = path.string();
-    const std::vector<std::byte> bytes = readFile(path, size_t(16) << 30);
+ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name) {
     ImageFile file;
     if (isExr(bytes))
         file = decodeExr(bytes, name);
@@ -66,6 +64,10 @@ ImageFile readImage(const std::filesystem::path& path) {
         throw Error("{}: expected an OpenEXR (.exr) or Radiance (.hdr) image, found neither", name);
     zeroWhatIsNotFinite(file.image, name);
     return file;
+}
+
+ImageFile readImage(const std::filesystem::path& path) {
+    return decodeImage(readFile(path, size_t(16) << 30), path.string());
 }
 
 void writeExr(const std::filesystem::path& path, const Image& image) {

@@ -1,0 +1,307 @@
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/image/image_codecs.h"
+#include "tests/support/temporary_folder.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+
+#include <cmath>
+#include <cstring>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+#include <spdlog/spdlog.h>
+#include <stb_image.h>
+#include <stb_image_write.h>
+
+using namespace relume;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+const test::TemporaryFolder folder;
+
+Image randomImage(int width, int height) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> gauss;
+    Image image(width, height);
+    for (vec4& pixel : image.pixels) pixel = {gauss(random), gauss(random), 1e6f * gauss(random), 1};
+    return image;
+}
+
+ImageFile readBytes(const Bytes& bytes) { return decodeImage(bytes, "bytes"); }
+
+ImageFile readText(const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return readBytes({bytes.begin(), bytes.end()});
+}
+
+Bytes exrBytes(const Image& image) {
+    writeExr(folder.path() / "image.exr", image);
+    return readFile(folder.path() / "image.exr");
+}
+
+// Radiance bytes as stb writes them: run-length encoded from 8 pixels a row.
+Bytes radianceBytes(const Image& image) {
+    std::vector<float> rgb;
+    for (const vec4& pixel : image.pixels)
+        for (int c = 0; c < 3; c++) rgb.push_back(pixel[c]);
+    Bytes bytes;
+    const auto append = [](void* target, void* data, int size) {
+        const auto* first = static_cast<const std::byte*>(data);
+        static_cast<Bytes*>(target)->insert(static_cast<Bytes*>(target)->end(), first, first + size);
+    };
+    stbi_write_hdr_to_func(append, &bytes, image.width, image.height, 3, rgb.data());
+    return bytes;
+}
+
+// Every reading of damaged bytes must end in an image or in an Error; anything else fails the test.
+bool readsOrThrows(const Bytes& bytes) {
+    try {
+        readBytes(bytes);
+    } catch (const Error&) {
+    }
+    return true;
+}
+
+void checkTruncations(const Bytes& bytes) {
+    for (size_t length = 0; length < bytes.size(); length++)
+        CHECK_THROWS_AS(readBytes({bytes.begin(), bytes.begin() + std::ptrdiff_t(length)}), Error);
+}
+
+void checkBitFlips(const Bytes& bytes, int count) {
+    std::mt19937 random(2);
+    for (int i = 0; i < count; i++) {
+        Bytes damaged = bytes;
+        for (unsigned flips = 1 + random() % 3; flips > 0; flips--)
+            damaged[random() % damaged.size()] ^= std::byte(1u << random() % 8);
+        CHECK(readsOrThrows(damaged));
+    }
+}
+
+// Overwrites the value of an attribute of the header, `offset` bytes into it.
+void patchAttribute(Bytes& bytes, const std::string& nameAndType, size_t offset, int32_t value) {
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    const size_t place = std::string_view(text, bytes.size()).find(nameAndType);
+    REQUIRE(place != std::string_view::npos);
+    std::memcpy(bytes.data() + place + nameAndType.size() + 4 + offset, &value, sizeof value);
+}
+
+const std::string kDataWindow("dataWindow\0box2i\0", 17);
+
+// Writes half-float channels, each the column number plus ten times the row plus its place in `names`.
+void writeHalves(const std::filesystem::path& path, Imf::Header header,
+                 const std::vector<const char*>& names) {
+    const Imath::Box2i window = header.dataWindow();
+    const size_t width = size_t(window.max.x - window.min.x + 1),
+                 height = size_t(window.max.y - window.min.y + 1);
+    std::vector<std::vector<half>> planes(names.size(), std::vector<half>(width * height));
+    Imf::FrameBuffer source;
+    for (size_t n = 0; n < names.size(); n++) {
+        for (size_t i = 0; i < width * height; i++)
+            planes[n][i] = float(i % width) + 10 * float(i / width) + float(n);
+        header.channels().insert(names[n], Imf::Channel(Imf::HALF));
+        source.insert(names[n], Imf::Slice::Make(Imf::HALF, planes[n].data(), window, sizeof(half),
+                                                 sizeof(half) * width));
+    }
+    if (header.hasTileDescription()) {
+        Imf::TiledOutputFile file(path.c_str(), header);
+        file.setFrameBuffer(source);
+        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    } else {
+        Imf::OutputFile file(path.c_str(), header);
+        file.setFrameBuffer(source);
+        file.writePixels(int(height));
+    }
+}
+
+ImageFile readHalves(const Imf::Header& header, const std::vector<const char*>& names) {
+    writeHalves(folder.path() / "halves.exr", header, names);
+    return readImage(folder.path() / "halves.exr");
+}
+
+struct QuietLog {
+    QuietLog() { spdlog::set_level(spdlog::level::err); }
+    ~QuietLog() { spdlog::set_level(spdlog::level::info); }
+};
+
+} // namespace
+
+TEST_CASE("image file: OpenEXR keeps floats exactly, in the same bytes each time") {
+    const Image image = randomImage(37, 21);
+    const Bytes bytes = exrBytes(image);
+    const ImageFile file = readBytes(bytes);
+    CHECK(file.projection == ImageProjection::None);
+    REQUIRE(file.image.width == 37);
+    REQUIRE(file.image.height == 21);
+    CHECK(file.image.pixels == image.pixels);
+    CHECK(exrBytes(image) == bytes);
+}
+
+TEST_CASE("image file: pixels that are not finite become 0") {
+    const QuietLog quiet;
+    Image image = randomImage(4, 4);
+    image.at(1, 0).x = std::numeric_limits<float>::infinity();
+    image.at(2, 3).z = std::nanf("");
+    const ImageFile file = readBytes(exrBytes(image));
+    CHECK(file.image.at(1, 0) == vec4(0));
+    CHECK(file.image.at(2, 3) == vec4(0));
+    CHECK(file.image.at(0, 0) == image.at(0, 0));
+}
+
+TEST_CASE("image file: OpenEXR halves, tiles, offset windows and single channels") {
+    const ImageFile colour = readHalves(Imf::Header(6, 4), {"R", "G", "B"});
+    CHECK(colour.image.at(2, 3) == vec4(32, 33, 34, 1));
+
+    Imf::Header tiled(6, 4);
+    tiled.setTileDescription(Imf::TileDescription(4, 2));
+    CHECK(readHalves(tiled, {"R", "G", "B", "A"}).image.at(5, 3) == vec4(35, 36, 37, 38));
+
+    const Imf::Header shifted(Imath::Box2i({0, 0}, {99, 99}), Imath::Box2i({-3, 7}, {2, 10}));
+    const ImageFile window = readHalves(shifted, {"R", "G", "B"});
+    CHECK(window.image.width == 6);
+    CHECK(window.image.at(1, 1) == vec4(11, 12, 13, 1));
+
+    CHECK(readHalves(Imf::Header(6, 4), {"Y"}).image.at(2, 1) == vec4(12, 12, 12, 1));
+    CHECK(readHalves(Imf::Header(6, 4), {"G"}).image.at(2, 1) == vec4(0, 12, 0, 1));
+}
+
+TEST_CASE("image file: OpenEXR says what its pixels map") {
+    Imf::Header header(8, 4);
+    Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
+    CHECK(readHalves(header, {"R", "G", "B"}).projection == ImageProjection::LatLong);
+    Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+    CHECK(readHalves(header, {"R", "G", "B"}).projection == ImageProjection::Cube);
+}
+
+TEST_CASE("image file: OpenEXR that cannot be used is refused") {
+    CHECK_THROWS_AS(readHalves(Imf::Header(4, 4), {"depth.Z"}), Error);
+    CHECK_THROWS_AS(readHalves(Imf::Header(4, 4), {"BY", "RY", "Y"}), Error);
+    const Bytes bytes = exrBytes(randomImage(16, 8));
+    for (unsigned flag : {0x08u, 0x10u}) { // deep, multi-part
+        Bytes other = bytes;
+        other[5] |= std::byte(flag);
+        CHECK_THROWS_AS(readBytes(other), Error);
+    }
+}
+
+TEST_CASE("image file: claims beyond what the file can hold are refused") {
+    const Bytes bytes = exrBytes(randomImage(16, 8));
+    for (int32_t side : {1 << 16, 1 << 20, 1 << 29, std::numeric_limits<int32_t>::max(), -5}) {
+        Bytes wide = bytes, high = bytes;
+        patchAttribute(wide, kDataWindow, 8, side);
+        CHECK_THROWS_AS(readBytes(wide), Error);
+        patchAttribute(high, kDataWindow, 12, side);
+        CHECK_THROWS_AS(readBytes(high), Error);
+        patchAttribute(high, kDataWindow, 8, side);
+        CHECK_THROWS_AS(readBytes(high), Error);
+    }
+    Bytes large = bytes;
+    patchAttribute(large, kDataWindow, 8, (1 << 14) - 1);
+    patchAttribute(large, kDataWindow, 12, (1 << 14) - 1);
+    CHECK_THROWS_AS(readBytes(large), Error);
+    Imf::Header tiled(6, 4);
+    tiled.setTileDescription(Imf::TileDescription(4, 2));
+    writeHalves(folder.path() / "tiled.exr", tiled, {"R", "G", "B"});
+    const Bytes tiles = readFile(folder.path() / "tiled.exr");
+    for (int32_t side : {0, 1, 1 << 20, 1 << 30, -1}) {
+        Bytes patched = tiles;
+        patchAttribute(patched, std::string("tiles\0tiledesc\0", 15), 0, side);
+        CHECK(readsOrThrows(patched));
+    }
+}
+
+TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
+    const QuietLog quiet;
+    checkTruncations(exrBytes(randomImage(5, 3)));
+    checkBitFlips(exrBytes(randomImage(16, 9)), 1500);
+    for (Imf::Compression compression : {Imf::RLE_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION,
+                                         Imf::B44A_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+        Imf::Header header(20, 10);
+        header.compression() = compression;
+        writeHalves(folder.path() / "halves.exr", header, {"R", "G", "B"});
+        checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
+    }
+    Imf::Header tiled(20, 10);
+    tiled.setTileDescription(Imf::TileDescription(8, 4));
+    writeHalves(folder.path() / "halves.exr", tiled, {"R", "G", "B"});
+    checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
+}
+
+TEST_CASE("image file: Radiance pixels, plain and in run lengths") {
+    const std::string header = "#?RADIANCE\n# comment\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 3\n";
+    const std::string one = "\x80\x40\x20\x81"; // 1, 0.5, 0.25
+    const std::string repeat("\x01\x01\x01\x02", 4), zero(4, '\0');
+    const Image plain = readText(header + one + one + zero + zero + one + one).image;
+    CHECK(plain.at(1, 0) == vec4(1, 0.5f, 0.25f, 1));
+    CHECK(plain.at(2, 0) == vec4(0, 0, 0, 1));
+    const Image runs = readText(header + one + repeat + zero + one + one).image;
+    CHECK(runs.at(2, 0) == vec4(1, 0.5f, 0.25f, 1));
+    CHECK(runs.at(0, 1) == vec4(0, 0, 0, 1));
+    CHECK_THROWS_AS(readText(header + repeat + one + one + one + one + one), Error);
+
+    Image image = randomImage(40, 5);
+    for (size_t i = 0; i < image.pixels.size(); i++)
+        image.pixels[i] = i % 40 < 20 ? vec4(1, 2, 3, 1) : glm::abs(image.pixels[i]);
+    const Image read = readBytes(radianceBytes(image)).image;
+    for (size_t i = 0; i < image.pixels.size(); i++)
+        for (int c = 0; c < 3; c++) {
+            const float largest = std::max({image.pixels[i].x, image.pixels[i].y, image.pixels[i].z});
+            CHECK(std::abs(read.pixels[i][c] - image.pixels[i][c]) <= largest / 127);
+        }
+}
+
+TEST_CASE("image file: damaged Radiance is an error, never a crash") {
+    const QuietLog quiet;
+    const Bytes bytes = radianceBytes(randomImage(12, 3));
+    checkTruncations(bytes);
+    checkBitFlips(bytes, 2000);
+    const std::string header = "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n";
+    for (const char* resolution :
+         {"", "-Y 0 +X 0\n", "-Y 100000 +X 100000\n", "-Y 16384 +X 16384\n", "-Y 99999999999999999999 +X 1\n",
+          "-Y -3 +X 3\n", "+Y 2 +X 2\n", "-Y 2 -X 2\n", "+X 2 -Y 2\n", "-Y 2\n", "-Y 2 +X\n"})
+        CHECK_THROWS_AS(readText(header + resolution + std::string(1000, '\x40')), Error);
+    CHECK_THROWS_AS(readText("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd"), Error);
+    // A count of zero makes no progress.
+    CHECK_THROWS_AS(
+        readText(header + "-Y 1 +X 8\n" + std::string("\x02\x02\x00\x08", 4) + std::string(64, '\0')), Error);
+}
+
+TEST_CASE("image file: what is no image is refused") {
+    CHECK_THROWS_AS(readText(""), Error);
+    CHECK_THROWS_AS(readText("P6 2 2 255 ............"), Error);
+    CHECK_THROWS_AS(readImage(folder.path()), Error);
+    CHECK_THROWS_AS(readImage(folder.path() / "absent.exr"), Error);
+    CHECK_THROWS_AS(writeExr(folder.path() / "absent" / "image.exr", randomImage(2, 2)), Error);
+    CHECK_THROWS_AS(writePng(folder.path() / "absent" / "image.png", randomImage(2, 2)), Error);
+}
+
+TEST_CASE("image file: PNG rounds display values to 8 bits") {
+    Image image(3, 2);
+    image.at(0, 0) = {0, 0.5f, 1, 1};
+    image.at(2, 1) = {-1, 2, std::nanf(""), 0.25f};
+    image.at(1, 1) = vec4(100.4f / 255, 100.6f / 255, 0, 1);
+    const auto path = folder.path() / "image.png";
+    writePng(path, image);
+    int width, height, channels;
+    stbi_uc* texels = stbi_load(path.c_str(), &width, &height, &channels, 4);
+    REQUIRE(texels != nullptr);
+    CHECK(width == 3);
+    CHECK(height == 2);
+    CHECK(channels == 4);
+    const auto at = [&](int x, int y, int c) { return int(texels[(y * 3 + x) * 4 + c]); };
+    CHECK(at(0, 0, 1) == 128);
+    CHECK(at(0, 0, 2) == 255);
+    CHECK(at(2, 1, 0) == 0);
+    CHECK(at(2, 1, 1) == 255);
+    CHECK(at(2, 1, 2) == 0);
+    CHECK(at(2, 1, 3) == 64);
+    CHECK(at(1, 1, 0) == 100);
+    CHECK(at(1, 1, 1) == 101);
+    stbi_image_free(texels);
+}
