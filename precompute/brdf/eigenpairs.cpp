@@ -22,21 +22,23 @@ constexpr int kOversampling = 8; // pairs iterated beyond the wanted ones
 constexpr int kBasisBlocks = 4;  // size of a full basis, in blocks
 constexpr int kMaxRounds = 300;
 
-// Uniform in [-1, 1), from bits, so that every standard library gives the same.
-MatrixXf randomBlock(int rows, int columns) {
-    std::mt19937 random(20040621);
-    return MatrixXf::NullaryExpr(rows, columns, [&] { return float(random() >> 8) * 0x1p-23f - 1.0f; });
+// Unit columns, uniform in direction up to the cube's corners; from bits, so that every standard library
+// gives the same.
+MatrixXf randomBlock(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
+    const MatrixXf block =
+        MatrixXf::NullaryExpr(rows, columns, [&] { return float(random() >> 8) * 0x1p-23f - 1.0f; });
+    return block.colwise().normalized();
 }
 
-// An orthonormal basis of the block's columns, without those that depend on others: by the eigenvectors
-// of its Gram matrix (Stathopoulos and Wu, 2002), which is nearly all matrix products. One pass leaves an
-// error of up to 1e-2, the second rounding only.
+// An orthonormal basis of the block's columns, of norm 1 at most, without what depends on others or is too
+// short to have a direction: by the eigenvectors of its Gram matrix (Stathopoulos and Wu, 2002), which is
+// nearly all matrix products. One pass leaves an error of up to 1e-2, the second rounding only.
 MatrixXf orthonormalized(const MatrixXf& block) {
     constexpr double kDependent = 1e-5;
     const MatrixXd gram = (block.transpose() * block).cast<double>();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
     const auto& squares = solver.eigenvalues();
-    const double threshold = kDependent * squares[squares.size() - 1];
+    const double threshold = kDependent * std::max(1.0, squares[squares.size() - 1]);
     const auto kept = std::count_if(squares.begin(), squares.end(), [&](double s) { return s > threshold; });
     const MatrixXd scaled =
         solver.eigenvectors().rightCols(kept) * squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
@@ -66,7 +68,9 @@ class BlockEigensolver {
           mProduct(dimension, kBasisBlocks * mBlock) {}
 
     Eigenpairs solve() {
-        append(orthonormalizedAgainst(MatrixXf(mDimension, 0), randomBlock(mDimension, mBlock)));
+        std::mt19937 random(20040621);
+        while (mSize < mBlock)
+            append(orthonormalizedAgainst(basis(), randomBlock(random, mDimension, mBlock - mSize)));
         for (int round = 0; round < kMaxRounds; round++) {
             RitzPairs ritz = rayleighRitz();
             const std::vector<int> open = unconverged(ritz);

@@ -68,6 +68,7 @@ TEST_CASE("eigenpairs: ± pairs, near ± pairs and multiple values converge") {
 
 TEST_CASE("eigenpairs: as many as the matrix has, identity, zero, and one by one") {
     checkAgainstEigen(withSpectrum({3, -2, 1}, 12), 12);
+    for (int n = 1; n <= 40; n++) checkAgainstEigen(withSpectrum({2, -2}, n), n);
     const Eigenpairs identity = largestEigenpairs(MatrixXf::Identity(50, 50), 8);
     for (float value : identity.values) CHECK(value == doctest::Approx(1));
     checkOrthonormal(identity.vectors);
