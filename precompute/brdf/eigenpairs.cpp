@@ -19,7 +19,10 @@ using Eigen::VectorXf;
 namespace {
 
 constexpr int kOversampling = 8; // pairs iterated beyond the wanted ones
-constexpr int kBasisBlocks = 4;  // size of a full basis, in blocks
+// A glossy BRDF in a polar map has a cluster of S values that differ by 1e-4, the rim's mirror pairs: a
+// smaller block would separate it slowly.
+constexpr int kLeastBlock = 40;
+constexpr int kBasisBlocks = 4; // size of a full basis, in blocks
 constexpr int kMaxRounds = 300;
 
 // Unit columns, uniform in direction up to the cube's corners; from bits, so that every standard library
@@ -64,8 +67,8 @@ class BlockEigensolver {
   public:
     BlockEigensolver(const BlockOperator& apply, int dimension, int count, float tolerance)
         : mApply(apply), mDimension(dimension), mCount(count), mTolerance(tolerance),
-          mBlock(std::min(dimension, count + kOversampling)), mBasis(dimension, kBasisBlocks * mBlock),
-          mProduct(dimension, kBasisBlocks * mBlock) {}
+          mBlock(std::min(dimension, std::max(count + kOversampling, kLeastBlock))),
+          mBasis(dimension, kBasisBlocks * mBlock), mProduct(dimension, kBasisBlocks * mBlock) {}
 
     Eigenpairs solve() {
         std::mt19937 random(20040621);

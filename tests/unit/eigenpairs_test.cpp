@@ -101,6 +101,20 @@ TEST_CASE("eigenpairs: of BRDFs agree with Eigen's full decomposition") {
     checkAgainstEigen((matrix + matrix.transpose()) / 2, 32);
 }
 
+TEST_CASE("eigenpairs: a cluster larger than what is wanted of it converges") {
+    std::vector<double> values;
+    for (int i = 0; i < 24; i++) {
+        values.push_back(5 - 1e-5 * i);
+        values.push_back(-5 + 2e-5 * i);
+    }
+    const MatrixXf matrix = withSpectrum(values, 400).cast<float>();
+    const Eigenpairs pairs = largestEigenpairs(matrix, 4);
+    for (int k = 0; k < 4; k++) {
+        CHECK(std::abs(pairs.values[k]) == doctest::Approx(5).epsilon(1e-5));
+        CHECK((matrix * pairs.vectors.col(k) - pairs.values[k] * pairs.vectors.col(k)).norm() < 6e-5f);
+    }
+}
+
 TEST_CASE("eigenpairs: of Ashikhmin-Shirley at 48 x 48 agree with Spectra") {
     const BrdfTable table = tabulate(*makeBrdf("ashikhmin-shirley"), 48, DiskMapping::Orthographic);
     const MatrixXf matrix = (table.channels[0] + table.channels[0].transpose()) / 2;
