@@ -1,6 +1,7 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
+#include "engine/base/error.h"
 #include "engine/base/file.h"
 
 #include <spdlog/spdlog.h>

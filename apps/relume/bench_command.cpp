@@ -22,7 +22,7 @@ struct Arguments {
     bool json = false;
 };
 
-constexpr uint32_t kWidth = 1280, kHeight = 720;
+constexpr int kWidth = 1280, kHeight = 720;
 
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
@@ -81,7 +81,7 @@ void run(Arguments& arguments) {
     LightPass light(*device, asset.faceSize);
     light.setEnvironment(prepareForSampling(arguments.light.environment()));
     const Relighter relighter(*device, asset);
-    ViewPass view(*device, asset, kWidth, kHeight);
+    ViewPass view(*device, asset, {.width = kWidth, .height = kHeight});
     CameraArguments view16by9;
     view16by9.width = kWidth;
     view16by9.height = kHeight;
@@ -94,7 +94,7 @@ void run(Arguments& arguments) {
     });
     const nlohmann::ordered_json lightPasses = perRepeat(commands.times(), arguments.repeats);
     const double viewChange = medianMilliseconds(
-        commands, arguments.repeats, [&](int) { view.record(commands, relighter, light, camera); });
+        commands, arguments.repeats, [&](int) { view.record(commands, camera, relighter, light); });
 
     const nlohmann::ordered_json result = {{"device", device->info().name},
                                            {"driver", device->info().driver},

@@ -46,7 +46,7 @@ void run(const Arguments& arguments) {
     LightPass light(*device, asset.faceSize);
     if (arguments.light.isEnvironment()) light.setEnvironment(prepareForSampling(arguments.light.environment()));
     const Relighter relighter(*device, asset);
-    ViewPass view(*device, asset, uint32_t(arguments.camera.width), uint32_t(arguments.camera.height));
+    ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
 
     const bool turnsLight = arguments.turn == "light";
     auto frames = nlohmann::ordered_json::array();
@@ -63,7 +63,7 @@ void run(const Arguments& arguments) {
                          arguments.threshold);
             relighter.record(commands, light);
         }
-        view.record(commands, relighter, light, arguments.camera.camera(asset, turnsLight ? 0 : angle));
+        view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter, light);
         commands.submitAndWait();
         frames.push_back(milliseconds(commands.times()));
         commands.clearTimes();

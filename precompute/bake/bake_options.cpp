@@ -1,6 +1,7 @@
 #include "precompute/bake/bake_options.h"
 
 #include "engine/base/error.h"
+#include "precompute/brdf/factorization.h"
 #include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
