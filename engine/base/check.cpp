@@ -5,9 +5,9 @@
 
 namespace relume {
 
-void failCheck(std::string_view condition, std::string_view values, std::source_location where) {
-    fmt::print(stderr, "{}:{}: check failed: {}{}{}\n", where.file_name(), where.line(), condition,
-               values.empty() ? "" : ": ", values);
+void failCheck(std::string_view condition, std::string_view values, const char* file, int line) {
+    fmt::print(stderr, "{}:{}: check failed: {}{}{}\n", file, line, condition, values.empty() ? "" : ": ",
+               values);
     std::abort();
 }
 

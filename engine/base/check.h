@@ -3,19 +3,18 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <source_location>
 #include <string_view>
 
 namespace relume {
 
 // Prints the failed condition with its place and aborts.
-[[noreturn]] void failCheck(std::string_view condition, std::string_view values, std::source_location where);
+[[noreturn]] void failCheck(std::string_view condition, std::string_view values, const char* file, int line);
 
 } // namespace relume
 
 #define RELUME_CHECK(condition)                                                                              \
     do {                                                                                                     \
-        if (!(condition)) ::relume::failCheck(#condition, "", std::source_location::current());              \
+        if (!(condition)) ::relume::failCheck(#condition, "", __FILE__, __LINE__);                           \
     } while (false)
 
 #define RELUME_CHECK_OP(a, op, b)                                                                            \
@@ -24,7 +23,7 @@ namespace relume {
         const auto& checkRight = (b);                                                                        \
         if (!(checkLeft op checkRight))                                                                      \
             ::relume::failCheck(#a " " #op " " #b, fmt::format("{} against {}", checkLeft, checkRight),      \
-                                std::source_location::current());                                            \
+                                __FILE__, __LINE__);                                                         \
     } while (false)
 
 #define RELUME_CHECK_EQ(a, b) RELUME_CHECK_OP(a, ==, b)

@@ -23,8 +23,13 @@ struct SparseTransport {
 
 // 11, 11 and 10 signed bits, red lowest. GLSL twin: shaders/lib/packing.glsl.
 constexpr int kRedMaximum = 1023, kGreenMaximum = 1023, kBlueMaximum = 511;
-uint32_t packCoefficient(ivec3 quantised);
-ivec3 unpackCoefficient(uint32_t packed);
+inline uint32_t packCoefficient(ivec3 q) {
+    return (uint32_t(q.x) & 0x7ffu) | (uint32_t(q.y) & 0x7ffu) << 11 | (uint32_t(q.z) & 0x3ffu) << 22;
+}
+inline ivec3 unpackCoefficient(uint32_t packed) {
+    // A field shifted to the top comes back down with its sign.
+    return {int32_t(packed << 21) >> 21, int32_t(packed << 10) >> 21, int32_t(packed) >> 22};
+}
 
 // Rounds to nearest, halves away from zero; `scale` maps to the maxima. A scale of 0 gives 0.
 ivec3 quantiseCoefficient(vec3 value, float scale);

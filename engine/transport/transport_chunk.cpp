@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/transport/byte_stream.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace relume {
@@ -113,7 +114,8 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
         transport.scales.push_back(std::bit_cast<float>(scales[row]));
     }
     if (read != entries) throw Error("{}: rows hold {} of {} entries", where, read, entries);
-    for (uint32_t value : values) transport.values.push_back(correlate(value));
+    transport.values.resize(transport.indices.size());
+    std::ranges::transform(values, transport.values.end() - ptrdiff_t(entries), correlate);
 }
 
 } // namespace relume
