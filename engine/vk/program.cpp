@@ -154,11 +154,11 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     VkPipelineColorBlendAttachmentState blend{};
     blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                            VK_COLOR_COMPONENT_A_BIT;
-    if (options.additive) {
+    if (options.blend != Blend::None) {
         blend.blendEnable = VK_TRUE;
         blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
         blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        blend.colorBlendOp = VK_BLEND_OP_ADD;
+        blend.colorBlendOp = options.blend == Blend::Add ? VK_BLEND_OP_ADD : VK_BLEND_OP_MAX;
         blend.alphaBlendOp = VK_BLEND_OP_MAX;
     }
     VkPipelineColorBlendStateCreateInfo blending{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};

@@ -45,12 +45,15 @@ class ComputeProgram : public Program {
                    std::string_view name);
 };
 
+// How a fragment's colour meets what is there; alpha takes the larger unless it is replaced.
+enum class Blend { None, Add, Max };
+
 struct GraphicsOptions {
     VkFormat colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     VkFormat depthFormat = VK_FORMAT_UNDEFINED; // none: no depth test
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
     bool depthWrite = true;
-    bool additive = false; // blend by adding colours; alpha takes the larger
+    Blend blend = Blend::None;
 };
 
 // A vertex and a fragment shader drawing triangle lists, no culling, viewport and scissor dynamic,

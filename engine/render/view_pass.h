@@ -1,0 +1,71 @@
+// View change: draws every part with its light-modulated tuples and view maps into a linear float image.
+// Touches no transport.
+#pragma once
+
+#include "engine/image/image.h"
+#include "engine/render/relighter.h"
+#include "engine/scene/camera.h"
+
+namespace relume {
+
+struct ViewOptions {
+    int width = 640, height = 480;
+    // Terms that one draw interpolates; 0, or more than the device passes from vertex to fragment: as many
+    // as it does.
+    uint32_t termsPerDraw = 0;
+};
+
+class ViewPass {
+  public:
+    // Uploads meshes, row scales and view maps. Throws OutOfMemory, or Error when a part has more vertices
+    // than the device can bind, or the image is larger than it can make.
+    ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options = {});
+
+    // A new image size; what was drawn is lost.
+    void resize(int width, int height);
+
+    // Pass "view": draws the asset under the light and sums recorded before.
+    void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter,
+                const LightPass& light) const;
+
+    // RGBA32F, linear, alpha 1 where covered, 0 elsewhere; in TRANSFER_SRC_OPTIMAL after record().
+    const vk::Image& image() const { return mColor; }
+
+    // The image of the last submission. Waits for the device.
+    Image read() const;
+
+    // One submission of record(), read back.
+    Image render(const Camera& camera, const Relighter& relighter, const LightPass& light) const;
+
+  private:
+    // Terms of a part are drawn a few at a time: the first draw settles depth, further ones add where depth
+    // is equal, and a last one clamps at zero; a part whose terms fit one draw clamps in the shader.
+    struct Draw {
+        uint32_t firstTerm;
+        const vk::GraphicsProgram* program;
+    };
+    struct Part {
+        vk::Buffer vertices, indices, rowScales;
+        uint32_t indexCount = 0, terms = 0;
+        DiskMapping mapping = DiskMapping::Orthographic;
+        int mapSize = 0;
+        vk::Image viewMaps; // a layer a term
+        std::vector<Draw> draws;
+        bool clamps = false; // needs the last draw
+    };
+
+    Part makePart(const AssetPart& source);
+    void planDraws(Part& part);
+    const vk::GraphicsProgram& program(uint32_t terms, bool first, bool clamps);
+
+    const vk::Device& mDevice;
+    Bounds mBounds;
+    uint32_t mTermsPerDraw;
+    std::map<std::array<uint32_t, 3>, vk::GraphicsProgram> mPrograms; // by program()'s arguments
+    vk::GraphicsProgram mClampProgram;
+    vk::Sampler mSampler;
+    std::vector<Part> mParts;
+    vk::Image mColor, mDepth;
+};
+
+} // namespace relume

@@ -1,0 +1,31 @@
+#version 460
+// A vertex with its light-modulated tuple: integer sums times the scales of row and light.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/packing.glsl"
+#include "shaders/shared/render.h"
+
+layout(constant_id = 0) const uint kTerms = 4; // of this draw
+layout(push_constant, scalar) uniform Push { ViewPush push; };
+layout(binding = 0, scalar) readonly buffer Vertices { ViewVertex vertices[]; };
+layout(binding = 1, scalar) readonly buffer Sums { ivec3 sums[]; };
+layout(binding = 2, scalar) readonly buffer RowScales { float rowScales[]; };
+layout(binding = 3, scalar) readonly buffer Scale { LightScale light; };
+
+// A part with more terms than a draw holds is drawn again where its depth is equal.
+invariant gl_Position;
+layout(location = 0) out vec3 position;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec3 tuple[kTerms];
+
+void main() {
+    const ViewVertex vertex = vertices[gl_VertexIndex];
+    position = vertex.position;
+    normal = vertex.normal;
+    gl_Position = push.clipFromWorld * vec4(vertex.position, 1);
+
+    const uint firstRow = gl_VertexIndex * push.terms + push.firstTerm;
+    for (uint k = 0; k < kTerms; k++)
+        tuple[k] = vec3(sums[firstRow + k]) * (light.scale * rowScales[firstRow + k]) /
+                   vec3(kCoefficientMaximum);
+}
