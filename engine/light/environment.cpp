@@ -18,16 +18,20 @@ vec2 Environment::place(vec3 d) const {
     return {(0.5f - longitude / (2 * kPi)) * float(width), (0.5f - latitude / kPi) * float(height)};
 }
 
-vec3 Environment::lookup(vec3 d) const {
+MapTaps Environment::taps(vec3 d) const {
     const vec2 centred = place(d) - 0.5f;
     const vec2 low = glm::floor(centred);
-    const vec2 weight = centred - low;
     // place() lies in [0, width], so one wrap on either side is enough.
-    const int x0 = (int(low.x) + width) % width, x1 = (x0 + 1) % width;
+    const int x0 = (int(low.x) + width) % width;
     const int y0 = std::clamp(int(low.y), 0, height - 1), y1 = std::clamp(int(low.y) + 1, 0, height - 1);
-    const auto at = [&](int x, int y) { return radiance[size_t(y) * size_t(width) + size_t(x)]; };
-    return glm::mix(glm::mix(at(x0, y0), at(x1, y0), weight.x), glm::mix(at(x0, y1), at(x1, y1), weight.x),
-                    weight.y);
+    return {x0, y0, (x0 + 1) % width, y1, centred - low};
+}
+
+vec3 Environment::lookup(vec3 d) const {
+    const MapTaps at = taps(d);
+    const auto pixel = [&](int x, int y) { return radiance[size_t(y) * size_t(width) + size_t(x)]; };
+    return glm::mix(glm::mix(pixel(at.x0, at.y0), pixel(at.x1, at.y0), at.weight.x),
+                    glm::mix(pixel(at.x0, at.y1), pixel(at.x1, at.y1), at.weight.x), at.weight.y);
 }
 
 } // namespace relume

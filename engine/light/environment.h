@@ -7,6 +7,12 @@
 
 namespace relume {
 
+// The four pixels around a place of a map: bilinear weights towards x1 and y1.
+struct MapTaps {
+    int x0, y0, x1, y1;
+    vec2 weight;
+};
+
 // A latlong map with pixel centres: column x is longitude π - 2π (x + ½) / width, row y latitude
 // π/2 - π (y + ½) / height, direction (sin lon cos lat, sin lat, cos lon cos lat): +Y up, the centre
 // looks along +Z, a quarter turn left of it along +X, as OpenEXR defines its latlong.
@@ -15,9 +21,10 @@ struct Environment {
     std::vector<vec3> radiance; // W·m⁻²·sr⁻¹, rows from the top
 
     vec3 direction(float column,
-                   float row) const;   // of a point in pixel units; (0.5, 0.5) is the first centre
-    vec2 place(vec3 direction) const;  // the inverse, in pixel units
-    vec3 lookup(vec3 direction) const; // bilinear, wrapping in longitude
+                   float row) const;    // of a point in pixel units; (0.5, 0.5) is the first centre
+    vec2 place(vec3 direction) const;   // the inverse, in pixel units
+    MapTaps taps(vec3 direction) const; // wrapping in longitude, clamped in latitude
+    vec3 lookup(vec3 direction) const;  // bilinear, wrapping in longitude
 };
 
 // Reads .exr (latlong, or cube by its envmap attribute) or .hdr. A file without the attribute is a

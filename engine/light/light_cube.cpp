@@ -1,6 +1,8 @@
 #include "engine/light/light_cube.h"
 
 #include "engine/base/check.h"
+#include "engine/light/cube_cells.h"
+#include "engine/light/light_footprint.h"
 #include "engine/math/cubemap.h"
 
 #include <algorithm>
@@ -15,29 +17,15 @@ LightCube emptyCube(int size) {
     return {size, std::vector<vec3>(size_t(kCubeFaces) * size_t(size) * size_t(size), vec3(0))};
 }
 
-// Coordinate on a face, in [-1, 1], of the centre of sub-cell `sub` of `count` in texel `texel` of `size`.
-float subCentre(int texel, int sub, int count, int size) {
-    return 2.0f * (float(texel) + (float(sub) + 0.5f) / float(count)) / float(size) - 1.0f;
-}
-
-// Solid angle of a small square at (u, v), over the square's area.
-float solidAngleDensity(float u, float v) {
-    const float squared = 1.0f + u * u + v * v;
-    return 1.0f / (squared * std::sqrt(squared));
-}
-
 // Mean of `value(direction)` over a texel, by `count` × `count` sub-cells weighted by solid angle.
 template <typename Value>
 auto texelMean(int face, int x, int y, int size, int count, Value value) {
     decltype(value(vec3())) sum(0);
     float weights = 0;
-    for (int j = 0; j < count; j++)
-        for (int i = 0; i < count; i++) {
-            const float u = subCentre(x, i, count, size), v = subCentre(y, j, count, size);
-            const float weight = solidAngleDensity(u, v);
-            sum += weight * value(cubeDirection(face, u, v));
-            weights += weight;
-        }
+    forEachSubCell(face, x, y, size, count, [&](vec3 direction, float weight) {
+        sum += weight * value(direction);
+        weights += weight;
+    });
     return sum / weights;
 }
 
@@ -46,25 +34,18 @@ float angleBetween(vec3 a, vec3 b) { return 2 * std::asin(std::min(1.0f, 0.5f * 
 
 } // namespace
 
-int samplesPerTexelSide(int environmentWidth, int cubeSize) {
-    RELUME_CHECK(environmentWidth > 0 && cubeSize > 0);
-    const double widestTexel = 2.0 / cubeSize, pixel = 2 * double(kPi) / environmentWidth;
-    return std::max(2, int(std::ceil(5 * widestTexel / pixel)));
-}
-
 LightCube sampleEnvironment(const Environment& prepared, int size, float rotation) {
-    RELUME_CHECK(std::isfinite(rotation));
     LightCube cube = emptyCube(size);
-    const int count = samplesPerTexelSide(prepared.width, size);
-    const float cosine = std::cos(rotation), sine = std::sin(rotation);
-    const auto seen = [&](vec3 d) {
-        return prepared.lookup({d.x * cosine - d.z * sine, d.y, d.x * sine + d.z * cosine});
-    };
-    for (int face = 0; face < kCubeFaces; face++)
-        for (int y = 0; y < size; y++)
-            for (int x = 0; x < size; x++)
-                cube.radiance[size_t(cubeTexelIndex(face, x, y, size))] =
-                    texelMean(face, x, y, size, count, seen);
+    const LightFootprints footprints = makeLightFootprints(prepared.width, prepared.height, size);
+    const ColumnShift shift = columnShift(rotation, prepared.width);
+    const uint32_t width = uint32_t(prepared.width);
+    for (size_t texel = 0; texel < cube.radiance.size(); texel++)
+        for (uint32_t entry = footprints.starts[texel]; entry < footprints.starts[texel + 1]; entry++) {
+            const auto& [place, weight] = footprints.pixels[entry];
+            const uint32_t left = ((place & 0xffff) + shift.whole) % width, right = (left + 1) % width;
+            const vec3* row = &prepared.radiance[size_t(place >> 16) * width];
+            cube.radiance[texel] += weight * glm::mix(row[left], row[right], shift.fraction);
+        }
     return cube;
 }
 

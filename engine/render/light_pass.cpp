@@ -1,6 +1,7 @@
 #include "engine/render/light_pass.h"
 
 #include "engine/base/error.h"
+#include "engine/light/light_footprint.h"
 #include "engine/vk/upload.h"
 #include "shaders/light_haar_comp.h"
 #include "shaders/light_quantise_comp.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace relume {
 
@@ -22,7 +22,7 @@ LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), 
     RELUME_CHECK(faceSize >= 2 && std::has_single_bit(unsigned(faceSize)));
     RELUME_CHECK_LE(coefficients(), kMaximumLightEntries);
     const vk::Constants size{uint32_t(faceSize)};
-    mSampleProgram = vk::ComputeProgram(device, light_sample_comp_spirv, size, "light sample");
+    mSampleProgram = vk::ComputeProgram(device, light_sample_comp_spirv, {}, "light sample");
     mHaarProgram = vk::ComputeProgram(device, light_haar_comp_spirv, size, "light haar");
     mQuantiseProgram = vk::ComputeProgram(device, light_quantise_comp_spirv, {}, "light quantise");
     mRadiance = vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light radiance");
@@ -36,11 +36,18 @@ LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), 
 void LightPass::setEnvironment(const Environment& prepared) {
     RELUME_CHECK(prepared.width > 0 && prepared.height > 0);
     RELUME_CHECK_EQ(prepared.radiance.size(), size_t(prepared.width) * size_t(prepared.height));
-    if (std::span(prepared.radiance).size_bytes() > mDevice.largestStorageBuffer())
-        throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
-                    prepared.width, prepared.height, mDevice.name());
+    const ivec2 mapSize{prepared.width, prepared.height};
+    if (mapSize != mEnvironmentSize) {
+        const LightFootprints footprints = makeLightFootprints(mapSize.x, mapSize.y, mFaceSize);
+        mFootprintStarts = vk::upload<uint32_t>(mDevice, footprints.starts, "light footprint starts");
+        mFootprintPixels =
+            vk::upload<shared::FootprintPixel>(mDevice, footprints.pixels, "light footprint pixels");
+    }
     mEnvironment = vk::upload<vec3>(mDevice, prepared.radiance, "environment");
-    mEnvironmentSize = {prepared.width, prepared.height};
+    mEnvironmentSize = mapSize;
+    if (std::max(mEnvironment.bytes(), mFootprintPixels.bytes()) > mDevice.largestStorageBuffer())
+        throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
+                    mapSize.x, mapSize.y, mDevice.name());
     mHasLight = mSamplesEnvironment = true;
 }
 
@@ -54,7 +61,6 @@ void LightPass::setCube(const LightCube& cube) {
 
 void LightPass::record(vk::Commands& commands, float rotation, int threshold) const {
     RELUME_CHECK(mHasLight);
-    RELUME_CHECK(std::isfinite(rotation));
     const shared::LightQuantisePush quantise{coefficients(), uint32_t(std::max(threshold, 1)),
                                              uint32_t(kLightMaximum), kLightSumLimit, kMaximumLightEntries};
     // An earlier frame of the same submission may still be reading the table and the scale.
@@ -62,10 +68,11 @@ void LightPass::record(vk::Commands& commands, float rotation, int threshold) co
     commands.barrier(Stage::Draw, Stage::Compute);
     if (mSamplesEnvironment) {
         commands.pass("light sample", [&] {
-            const int samples = samplesPerTexelSide(mEnvironmentSize.x, mFaceSize);
-            const shared::LightSamplePush push{mEnvironmentSize.x, mEnvironmentSize.y, uint32_t(samples),
-                                               std::cos(rotation), std::sin(rotation)};
-            commands.dispatch(mSampleProgram, {mEnvironment, mRadiance}, push, {coefficients(), 1, 1});
+            const ColumnShift shift = columnShift(rotation, mEnvironmentSize.x);
+            const shared::LightSamplePush push{coefficients(), uint32_t(mEnvironmentSize.x), shift.whole,
+                                               shift.fraction};
+            commands.dispatch(mSampleProgram, {mEnvironment, mFootprintStarts, mFootprintPixels, mRadiance},
+                              push, {coefficients(), 1, 1});
             commands.barrier(Stage::Compute, Stage::Compute);
         });
     }

@@ -39,9 +39,10 @@ class LightPass {
     bool mHasLight = false;
     bool mSamplesEnvironment = false;
     ivec2 mEnvironmentSize{0};
-    vk::Buffer mEnvironment;  // vec3 per pixel of the latlong map
-    vk::Buffer mRadiance;     // 6 F² × vec3
-    vk::Buffer mCoefficients; // 6 F² × vec3
+    vk::Buffer mEnvironment;                       // vec3 per pixel of the latlong map
+    vk::Buffer mFootprintStarts, mFootprintPixels; // LightFootprints
+    vk::Buffer mRadiance;                          // 6 F² × vec3
+    vk::Buffer mCoefficients;                      // 6 F² × vec3
     vk::Buffer mTable, mScale;
 };
 

@@ -5,12 +5,20 @@
 
 RELUME_SHARED_BEGIN
 
-struct LightSamplePush {
-    int width, height;  // of the environment
-    uint samples;       // subdivisions a side of a texel
-    float cosine, sine; // of the rotation about +Y
+// A pixel of a latlong map in the footprint of a texel of the lighting cube.
+struct FootprintPixel {
+    uint place; // column, and row << 16
+    float weight;
 };
-RELUME_SHARED_SIZE(LightSamplePush, 20)
+RELUME_SHARED_SIZE(FootprintPixel, 8)
+
+struct LightSamplePush {
+    uint texels; // of the cube
+    uint width;  // of the map
+    uint shift;  // columns that the map is turned by, below the width; and the fraction of one
+    float fraction;
+};
+RELUME_SHARED_SIZE(LightSamplePush, 16)
 
 struct LightQuantisePush {
     uint coefficients; // 6 · F²

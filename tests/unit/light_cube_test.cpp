@@ -1,4 +1,5 @@
 #include "engine/light/light_cube.h"
+#include "engine/light/light_footprint.h"
 #include "engine/math/cubemap.h"
 
 #include <cmath>
