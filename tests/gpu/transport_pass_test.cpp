@@ -1,4 +1,5 @@
 // Transport, Haar, selection, quantisation and compaction on the device against their CPU twins.
+#include "engine/math/cubemap.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/reference/transport_stages.h"
 #include "shaders/select_comp.h"

@@ -3,7 +3,7 @@
 #include "engine/scene/builtin_mesh.h"
 #include "precompute/reference/ray_tracer.h"
 #include "precompute/reference/transport_stages.h"
-#include "tests/helpers/test_device.h"
+#include "tests/support/test_device.h"
 
 #include <algorithm>
 #include <array>
