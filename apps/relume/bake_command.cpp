@@ -47,13 +47,16 @@ void addBakeCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("bake", "Bake a mesh or scene into a .relume file");
     const auto arguments = std::make_shared<Arguments>();
     arguments->scene.add(*command);
-    command->add_option("-o,--output", arguments->output, "Bake to write (.relume)")->type_name("FILE")->required();
+    command->add_option("-o,--output", arguments->output, "Bake to write (.relume)")
+        ->type_name("FILE")
+        ->required();
     arguments->bake.add(*command);
     arguments->device.add(*command);
     command->add_option("--timings", arguments->timings, "Write stage timings as JSON")->type_name("FILE");
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
-    command->footer("With no INPUT it bakes a built-in torus knot: relume bake -o knot.relume\n"
-                    "A material with parameters: -m '{\"model\": \"ashikhmin-shirley\", \"nu\": 50, \"nv\": 50}'");
+    command->footer(
+        "With no INPUT it bakes a built-in torus knot: relume bake -o knot.relume\n"
+        "A material with parameters: -m '{\"model\": \"ashikhmin-shirley\", \"nu\": 50, \"nv\": 50}'");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -39,8 +39,10 @@ double medianMilliseconds(vk::Commands& commands, int repeats, const Work& work)
         work(repeat);
         commands.submitAndWait();
         const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-        if (repeat > 0) times.push_back(elapsed.count());
-        else commands.clearTimes();
+        if (repeat > 0)
+            times.push_back(elapsed.count());
+        else
+            commands.clearTimes();
     }
     return median(times);
 }
@@ -59,16 +61,18 @@ uint64_t peakHostMemory() {
 
 void print(const nlohmann::ordered_json& result) {
     fmt::print("{}, {} vertices\n", result["device"].get<std::string>(), result["bake"]["vertices"].dump());
-    fmt::print("bake              {:8.3f} ms per vertex, {:.1f} s\n", result["bake"]["ms_per_vertex"].get<double>(),
-               result["bake"]["seconds"].get<double>());
+    fmt::print("bake              {:8.3f} ms per vertex, {:.1f} s\n",
+               result["bake"]["ms_per_vertex"].get<double>(), result["bake"]["seconds"].get<double>());
     for (const auto& [name, stage] : result["bake"]["stages"].items())
         fmt::print("  {:22} {:8.3f} ms per vertex  {:5.1f} %\n", name, stage["ms_per_vertex"].get<double>(),
                    100 * stage["share"].get<double>());
     fmt::print("light change      {:8.2f} ms\n", result["light_change_ms"].get<double>());
     for (const auto& [name, ms] : result["light_change"].items())
         fmt::print("  {:22} {:8.2f} ms\n", name, ms.get<double>());
-    fmt::print("view change       {:8.2f} ms at {} x {}\n", result["view_change_ms"].get<double>(), kWidth, kHeight);
-    fmt::print("peak host memory  {:8.0f} MiB\n", double(result["host_memory_bytes"].get<uint64_t>()) / (1 << 20));
+    fmt::print("view change       {:8.2f} ms at {} x {}\n", result["view_change_ms"].get<double>(), kWidth,
+               kHeight);
+    fmt::print("peak host memory  {:8.0f} MiB\n",
+               double(result["host_memory_bytes"].get<uint64_t>()) / (1 << 20));
 }
 
 void run(Arguments& arguments) {
@@ -76,7 +80,8 @@ void run(Arguments& arguments) {
     Scene scene = arguments.scene.load();
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     BakeTimes times;
-    const Asset asset = bakeWithProgress(*device, std::move(scene), arguments.bake.options, arguments.json, times);
+    const Asset asset =
+        bakeWithProgress(*device, std::move(scene), arguments.bake.options, arguments.json, times);
 
     LightPass light(*device, asset.faceSize);
     light.setEnvironment(prepareForSampling(arguments.light.environment()));
@@ -104,14 +109,17 @@ void run(Arguments& arguments) {
                                            {"light_coefficients", light.readVector().indices.size()},
                                            {"view_change_ms", viewChange},
                                            {"host_memory_bytes", peakHostMemory()}};
-    if (arguments.json) fmt::print("{}\n", result.dump(2));
-    else print(result);
+    if (arguments.json)
+        fmt::print("{}\n", result.dump(2));
+    else
+        print(result);
 }
 
 } // namespace
 
 void addBenchCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("bench", "Time bake, light change and view change, stage by stage");
+    CLI::App* command =
+        program.add_subcommand("bench", "Time bake, light change and view change, stage by stage");
     const auto arguments = std::make_shared<Arguments>();
     arguments->scene.add(*command);
     arguments->bake.add(*command);

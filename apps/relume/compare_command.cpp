@@ -20,7 +20,8 @@ void addCompareCommand(CLI::App& program) {
     };
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("IMAGE", arguments->image, "Linear image (.exr, .hdr)")->required();
-    command->add_option("REFERENCE", arguments->reference, "What it is held against (.exr, .hdr)")->required();
+    command->add_option("REFERENCE", arguments->reference, "What it is held against (.exr, .hdr)")
+        ->required();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_option("--threshold", arguments->threshold, "Exit with 3 if the relative RMSE is above this")
         ->type_name("RMSE");
@@ -29,7 +30,9 @@ void addCompareCommand(CLI::App& program) {
             compareImages(readImage(arguments->image).image, readImage(arguments->reference).image);
         if (arguments->json) {
             // JSON has no infinity: equal images have no PSNR.
-            const auto number = [](double value) { return std::isfinite(value) ? nlohmann::json(value) : nullptr; };
+            const auto number = [](double value) {
+                return std::isfinite(value) ? nlohmann::json(value) : nullptr;
+            };
             const nlohmann::json json = {{"relative_rmse", difference.relativeRmse},
                                          {"psnr", number(difference.psnr)},
                                          {"max_difference", difference.maxDifference},

@@ -25,7 +25,8 @@ void printTable(const std::vector<vk::DeviceInfo>& devices) {
         fmt::print("   layers            {}\n", device.largestLayerCount);
         fmt::print("   shared memory     {} bytes\n", device.sharedMemory);
         fmt::print("   subgroup size     {}\n", device.subgroupSize);
-        fmt::print("   usable            {}\n", device.unsuitable.empty() ? "yes" : "no: " + device.unsuitable);
+        fmt::print("   usable            {}\n",
+                   device.unsuitable.empty() ? "yes" : "no: " + device.unsuitable);
     }
 }
 
@@ -52,15 +53,19 @@ void printJson(const std::vector<vk::DeviceInfo>& devices) {
 } // namespace
 
 void addDevicesCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("devices", "List the Vulkan devices and the limits that matter");
+    CLI::App* command =
+        program.add_subcommand("devices", "List the Vulkan devices and the limits that matter");
     const auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "Print JSON");
     command->callback([json] {
         const std::vector<vk::DeviceInfo> devices = vk::listDevices();
         if (devices.empty())
-            throw NoDeviceError("no Vulkan device was found; on Debian, mesa-vulkan-drivers brings a software one");
-        if (*json) printJson(devices);
-        else printTable(devices);
+            throw NoDeviceError(
+                "no Vulkan device was found; on Debian, mesa-vulkan-drivers brings a software one");
+        if (*json)
+            printJson(devices);
+        else
+            printTable(devices);
     });
 }
 

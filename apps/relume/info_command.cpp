@@ -16,7 +16,9 @@ static void printReadable(const nlohmann::json& value, int depth) {
         if (entry.is_structured() && !entry.empty()) {
             fmt::print("{}{}\n", indent, name);
             printReadable(entry, depth + 1);
-        } else fmt::print("{}{} {}\n", indent, name, entry.is_string() ? entry.get<std::string>() : entry.dump());
+        } else
+            fmt::print("{}{} {}\n", indent, name,
+                       entry.is_string() ? entry.get<std::string>() : entry.dump());
     }
 }
 
@@ -32,8 +34,10 @@ void addInfoCommand(CLI::App& program) {
     command->callback([arguments] {
         const Asset asset = readAsset(arguments->file);
         const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file));
-        if (arguments->json) fmt::print("{}", text);
-        else printReadable(nlohmann::json::parse(text), 0);
+        if (arguments->json)
+            fmt::print("{}", text);
+        else
+            printReadable(nlohmann::json::parse(text), 0);
     });
 }
 

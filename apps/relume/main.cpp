@@ -46,9 +46,10 @@ int main(int argc, char** argv) {
     program.set_version_flag("--version", "relume " RELUME_VERSION);
     program.require_subcommand(1);
     program.get_formatter()->column_width(34);
-    program.footer("Try: relume bake -o knot.relume && relume render knot.relume -o knot.png\n"
-                   "`relume COMMAND --help` explains each command.\n"
-                   "Exit codes: 0 done, 1 failed, 2 usage, 3 comparison over its threshold, 4 no usable device.");
+    program.footer(
+        "Try: relume bake -o knot.relume && relume render knot.relume -o knot.png\n"
+        "`relume COMMAND --help` explains each command.\n"
+        "Exit codes: 0 done, 1 failed, 2 usage, 3 comparison over its threshold, 4 no usable device.");
     addBakeCommand(program);
     addRenderCommand(program);
     addReferenceCommand(program);

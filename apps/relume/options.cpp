@@ -31,7 +31,8 @@ vec3 vectorOf(const std::vector<float>& values) { return {values[0], values[1], 
 } // namespace
 
 void DeviceArguments::add(CLI::App& command) {
-    command.add_option("--device", options.select, "Vulkan device by index, UUID or name (see `relume devices`)")
+    command
+        .add_option("--device", options.select, "Vulkan device by index, UUID or name (see `relume devices`)")
         ->type_name("DEVICE");
     command.add_option("--validation", options.validation, "Vulkan checks: some of core,sync,gpu,best")
         ->type_name("LIST");
@@ -40,16 +41,16 @@ void DeviceArguments::add(CLI::App& command) {
 std::unique_ptr<vk::Device> DeviceArguments::open() const { return std::make_unique<vk::Device>(options); }
 
 void CameraArguments::add(CLI::App& command) {
-    command
-        .add_option("--size", mSize, "Image size in pixels (default 960x720)")
+    command.add_option("--size", mSize, "Image size in pixels (default 960x720)")
         ->type_name("WxH")
         ->each([this](const std::string& text) {
             char rest;
-            if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
-                width > 16384 || height > 16384)
+            if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 ||
+                height < 1 || width > 16384 || height > 16384)
                 throw UsageError("--size: expected WIDTHxHEIGHT, each 1 to 16384, found \"{}\"", text);
         });
-    CLI::Option* eye = command.add_option("--eye", mEye, "Eye position")->type_name("X,Y,Z")->delimiter(',')->expected(3);
+    CLI::Option* eye =
+        command.add_option("--eye", mEye, "Eye position")->type_name("X,Y,Z")->delimiter(',')->expected(3);
     mTargetOption = command.add_option("--target", mTarget, "Point looked at (default: the object's middle)")
                         ->type_name("X,Y,Z")
                         ->delimiter(',')
@@ -74,7 +75,8 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
     if (!mOrbit.empty()) {
         if (!(mOrbit[2] > 0)) throw UsageError("--orbit: expected a distance above 0, found {}", mOrbit[2]);
         camera = orbitCamera(bounds, radians(mOrbit[0]), radians(mOrbit[1]), mOrbit[2], fov, aspect);
-    } else camera = defaultCamera(bounds, fov, aspect);
+    } else
+        camera = defaultCamera(bounds, fov, aspect);
     if (!mEye.empty()) {
         camera.target = bounds.centre();
         camera.eye = vectorOf(mEye);
@@ -88,17 +90,20 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
 }
 
 void LightArguments::add(CLI::App& command) {
-    CLI::Option* environment =
-        command.add_option("-e,--environment", mEnvironment, "Latlong or cube .exr, or .hdr (default: a built-in sky)")
-            ->type_name("FILE");
-    CLI::Option* distant =
-        command.add_option("--distant-light", mDistant, "One direction instead: azimuth (0 +Z, 90 +X), elevation, degrees")
-            ->type_name("AZ,EL")
-            ->delimiter(',')
-            ->expected(2)
-            ->excludes(environment);
+    CLI::Option* environment = command
+                                   .add_option("-e,--environment", mEnvironment,
+                                               "Latlong or cube .exr, or .hdr (default: a built-in sky)")
+                                   ->type_name("FILE");
+    CLI::Option* distant = command
+                               .add_option("--distant-light", mDistant,
+                                           "One direction instead: azimuth (0 +Z, 90 +X), elevation, degrees")
+                               ->type_name("AZ,EL")
+                               ->delimiter(',')
+                               ->expected(2)
+                               ->excludes(environment);
     command
-        .add_option("--sphere-light", mSphere, "A distant sphere instead: azimuth, elevation and angular radius, degrees")
+        .add_option("--sphere-light", mSphere,
+                    "A distant sphere instead: azimuth, elevation and angular radius, degrees")
         ->type_name("AZ,EL,RADIUS")
         ->delimiter(',')
         ->expected(3)
@@ -107,7 +112,8 @@ void LightArguments::add(CLI::App& command) {
     command.add_option("--rotate", rotationDegrees, "Turn the light about +Y, from +Z towards +X")
         ->type_name("DEG")
         ->capture_default_str();
-    command.add_option("--intensity", mIntensity, "Scales the light; 1 lets a lamp light white to radiance 1")
+    command
+        .add_option("--intensity", mIntensity, "Scales the light; 1 lets a lamp light white to radiance 1")
         ->type_name("X")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
@@ -122,20 +128,24 @@ Environment LightArguments::environment() const {
 LightCube LightArguments::lamp(int faceSize, float turn) const {
     const float turned = rotationDegrees + turn * 180 / kPi;
     if (!mDistant.empty())
-        return makeDistantLight(directionOf(mDistant[0] + turned, mDistant[1]), vec3(mIntensity * kPi), faceSize);
+        return makeDistantLight(directionOf(mDistant[0] + turned, mDistant[1]), vec3(mIntensity * kPi),
+                                faceSize);
     if (!(mSphere[2] > 0 && mSphere[2] <= 90))
-        throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}", mSphere[2]);
+        throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}",
+                         mSphere[2]);
     // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
     const float radius = radians(mSphere[2]), sine = std::sin(radius);
-    return makeSphereLight(directionOf(mSphere[0] + turned, mSphere[1]), radius, vec3(mIntensity / (sine * sine)),
-                           faceSize);
+    return makeSphereLight(directionOf(mSphere[0] + turned, mSphere[1]), radius,
+                           vec3(mIntensity / (sine * sine)), faceSize);
 }
 
 void ImageArguments::add(CLI::App& command) {
     command.add_option("-o,--output", output, "Image to write: .exr (linear) or .png (tone-mapped)")
         ->type_name("IMAGE")
         ->required();
-    command.add_option("--exposure", exposure, "Exposure of a .png in stops")->type_name("STOPS")->capture_default_str();
+    command.add_option("--exposure", exposure, "Exposure of a .png in stops")
+        ->type_name("STOPS")
+        ->capture_default_str();
     command.add_option("--tone", mTone, "Tone curve of a .png: none, aces or agx")
         ->type_name("CURVE")
         ->capture_default_str()
@@ -149,8 +159,10 @@ void ImageArguments::check() const {
 }
 
 void ImageArguments::write(const std::filesystem::path& path, const Image& image) const {
-    if (path.extension() == ".exr") writeExr(path, image);
-    else writePng(path, toneMap(image, *toneCurveFromName(mTone), exposure));
+    if (path.extension() == ".exr")
+        writeExr(path, image);
+    else
+        writePng(path, toneMap(image, *toneCurveFromName(mTone), exposure));
 }
 
 } // namespace relume

@@ -37,13 +37,13 @@ void run(const Arguments& arguments) {
     if (arguments.lightForm == "environment") {
         if (!arguments.light.isEnvironment())
             throw UsageError("--light environment: expected an environment, found a lamp; use --light cube");
-        image = renderReference(asset, camera, arguments.light.environment(), rotation, arguments.environmentWidth,
-                                options, report);
+        image = renderReference(asset, camera, arguments.light.environment(), rotation,
+                                arguments.environmentWidth, options, report);
     } else {
-        const LightCube cube =
-            arguments.light.isEnvironment()
-                ? sampleEnvironment(prepareForSampling(arguments.light.environment()), asset.faceSize, rotation)
-                : arguments.light.lamp(asset.faceSize);
+        const LightCube cube = arguments.light.isEnvironment()
+                                   ? sampleEnvironment(prepareForSampling(arguments.light.environment()),
+                                                       asset.faceSize, rotation)
+                                   : arguments.light.lamp(asset.faceSize);
         image = renderReference(asset, camera, cube, options, report);
     }
     arguments.image.write(arguments.image.output, image);
@@ -52,7 +52,8 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void addReferenceCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("reference", "Ray-trace the image that `render` should give, with Embree");
+    CLI::App* command =
+        program.add_subcommand("reference", "Ray-trace the image that `render` should give, with Embree");
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     arguments->image.add(*command);
@@ -61,10 +62,14 @@ void addReferenceCommand(CLI::App& program) {
     command->add_option("--brdf", arguments->brdf, "exact, or factored: the baked K terms")
         ->check(CLI::IsMember({"exact", "factored"}))
         ->capture_default_str();
-    command->add_option("--light", arguments->lightForm, "cube: the bake's lighting texels; environment: the full map")
+    command
+        ->add_option("--light", arguments->lightForm,
+                     "cube: the bake's lighting texels; environment: the full map")
         ->check(CLI::IsMember({"cube", "environment"}))
         ->capture_default_str();
-    command->add_option("--occluder", arguments->occluder, "What casts shadows: full mesh, or the baked occluder")
+    command
+        ->add_option("--occluder", arguments->occluder,
+                     "What casts shadows: full mesh, or the baked occluder")
         ->check(CLI::IsMember({"full", "baked"}))
         ->capture_default_str();
     command->add_option("--rays", arguments->rays, "Shadow rays per lighting texel: 1, 4, 16 or 64")

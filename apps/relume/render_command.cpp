@@ -29,7 +29,8 @@ struct Arguments {
 std::filesystem::path framePath(const Arguments& arguments, int frame) {
     if (arguments.frames == 1) return arguments.image.output;
     std::filesystem::path path = arguments.image.output;
-    const std::string name = fmt::format("{}_{:04}{}", path.stem().string(), frame + 1, path.extension().string());
+    const std::string name =
+        fmt::format("{}_{:04}{}", path.stem().string(), frame + 1, path.extension().string());
     return path.replace_filename(name);
 }
 
@@ -44,7 +45,8 @@ void run(const Arguments& arguments) {
     const Asset asset = readAsset(arguments.file);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     LightPass light(*device, asset.faceSize);
-    if (arguments.light.isEnvironment()) light.setEnvironment(prepareForSampling(arguments.light.environment()));
+    if (arguments.light.isEnvironment())
+        light.setEnvironment(prepareForSampling(arguments.light.environment()));
     const Relighter relighter(*device, asset);
     ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
 

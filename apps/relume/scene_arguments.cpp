@@ -9,8 +9,9 @@
 namespace relume {
 
 void SceneArguments::add(CLI::App& command) {
-    command.add_option("INPUT", input,
-                       "Mesh (.obj, .ply, .gltf, .glb), scene (.json), or built-in knot, sphere, torus, plane")
+    command
+        .add_option("INPUT", input,
+                    "Mesh (.obj, .ply, .gltf, .glb), scene (.json), or built-in knot, sphere, torus, plane")
         ->capture_default_str();
     command.add_option("-m,--material", material, "Preset, model, or JSON object with parameters")
         ->type_name("MATERIAL")
@@ -33,18 +34,26 @@ void SceneArguments::add(CLI::App& command) {
 
 Scene SceneArguments::load() const {
     Scene scene;
-    if (input.ends_with(".json")) scene = readScene(input);
-    else scene.parts.push_back(loadPart(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, material));
+    if (input.ends_with(".json"))
+        scene = readScene(input);
+    else
+        scene.parts.push_back(loadPart(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, material));
     if (ground) addGround(scene, mGroundOptions, mGroundMaterial);
     return scene;
 }
 
 void BakeArguments::add(CLI::App& command) {
-    command.add_option("-K,--terms", options.terms, "BRDF terms, 1 to 32")->type_name("K")->capture_default_str();
-    command.add_option("-N,--coefficients", options.coefficients, "Wavelet coefficients kept per vertex and term")
+    command.add_option("-K,--terms", options.terms, "BRDF terms, 1 to 32")
+        ->type_name("K")
+        ->capture_default_str();
+    command
+        .add_option("-N,--coefficients", options.coefficients,
+                    "Wavelet coefficients kept per vertex and term")
         ->type_name("N")
         ->capture_default_str();
-    command.add_option("--map-size", options.mapSize, "Side of a light or view map")->type_name("S")->capture_default_str();
+    command.add_option("--map-size", options.mapSize, "Side of a light or view map")
+        ->type_name("S")
+        ->capture_default_str();
     command.add_option("--map", mMapping, "Layout of the maps: orthographic or polar")
         ->type_name("MAP")
         ->check(CLI::IsMember({"orthographic", "polar"}))
@@ -52,13 +61,18 @@ void BakeArguments::add(CLI::App& command) {
     command.add_option("--face-size", options.faceSize, "Side of a face of the lighting cube: 32 or 64")
         ->type_name("F")
         ->capture_default_str();
-    command.add_option("--visibility-size", options.visibilitySize, "Side of a face of the visibility cube: 64, 128 or 256")
+    command
+        .add_option("--visibility-size", options.visibilitySize,
+                    "Side of a face of the visibility cube: 64, 128 or 256")
         ->type_name("V")
         ->capture_default_str();
-    command.add_option("--transport-samples", options.transportSamples, "BRDF evaluations per lighting texel: 1, 4 or 16")
+    command
+        .add_option("--transport-samples", options.transportSamples,
+                    "BRDF evaluations per lighting texel: 1, 4 or 16")
         ->type_name("COUNT")
         ->capture_default_str();
-    command.add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
+    command
+        .add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
         ->type_name("TRIANGLES")
         ->capture_default_str();
 }
@@ -71,7 +85,8 @@ void BakeArguments::resolve() {
                             mOccluder.find_first_not_of("0123456789") == std::string::npos;
         if (number) options.occluderTriangles = std::stoul(mOccluder);
         if (options.occluderTriangles < 4)
-            throw UsageError("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"", mOccluder);
+            throw UsageError("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"",
+                             mOccluder);
     }
     options.validate();
 }
@@ -81,7 +96,8 @@ Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions&
     uint64_t vertices = 0;
     for (const Part& part : scene.parts) vertices += part.mesh.vertexCount();
     Progress progress("baking", vertices, "vertices", quiet);
-    return bake(device, std::move(scene), options, [&](uint64_t done) { progress.update(done); }, &times);
+    return bake(
+        device, std::move(scene), options, [&](uint64_t done) { progress.update(done); }, &times);
 }
 
 uint64_t vertexCount(const Asset& asset) {

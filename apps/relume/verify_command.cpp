@@ -38,23 +38,27 @@ void run(const Arguments& arguments) {
         fmt::print("vertices sampled     {}\n", found.samples);
         fmt::print("visibility mismatch  {:.6f}  of the texels above the horizon, against Embree\n",
                    found.visibilityMismatch);
-        fmt::print("transport error      {:.2e}  before compression, device against CPU\n", found.transportError);
+        fmt::print("transport error      {:.2e}  before compression, device against CPU\n",
+                   found.transportError);
         fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
                    asset.coefficients);
         fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantisationError);
         fmt::print("BRDF error           {:.4f}    cos-weighted RMS of the terms\n", found.brdfError);
         fmt::print("relight bits         {}         vertices that differ between device and CPU\n",
                    found.relightBits);
-        fmt::print("total error          {:.4f}    stored transport against uncompressed, Embree's visibility\n",
-                   found.totalError);
+        fmt::print(
+            "total error          {:.4f}    stored transport against uncompressed, Embree's visibility\n",
+            found.totalError);
     }
-    if (found.relightBits > 0) throw Error("{} vertices relight differently on device and CPU", found.relightBits);
+    if (found.relightBits > 0)
+        throw Error("{} vertices relight differently on device and CPU", found.relightBits);
 }
 
 } // namespace
 
 void addVerifyCommand(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("verify", "Hold a bake against the CPU and Embree, stage by stage");
+    CLI::App* command =
+        program.add_subcommand("verify", "Hold a bake against the CPU and Embree, stage by stage");
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     command->add_option("--samples", arguments->samples, "Vertices to recompute")

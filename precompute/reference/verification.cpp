@@ -53,15 +53,18 @@ class DeviceStages {
 
         std::vector<shared::BakePoint> points;
         for (uint32_t vertex : vertices)
-            points.push_back({part.mesh.positions[vertex] + asset.visibilityOffset * part.mesh.normals[vertex],
-                              part.mesh.normals[vertex]});
+            points.push_back(
+                {part.mesh.positions[vertex] + asset.visibilityOffset * part.mesh.normals[vertex],
+                 part.mesh.normals[vertex]});
         const auto pointBuffer = vk::makeUpload<shared::BakePoint>(device, points, "points");
-        const RasterVisibility visibility(device, asset.occluder, size, batch, visibilityNearDistance(asset.visibilityOffset));
+        const RasterVisibility visibility(device, asset.occluder, size, batch,
+                                          visibilityNearDistance(asset.visibilityOffset));
         const TransportPass transport(device, part.brdf, options, batch);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
         const uint64_t coefficientBytes = batch * mTerms * mFaceCoefficients * sizeof(vec4);
-        const vk::Buffer coefficientsBack(device, coefficientBytes, vk::BufferUse::Readback, "coefficients back");
+        const vk::Buffer coefficientsBack(device, coefficientBytes, vk::BufferUse::Readback,
+                                          "coefficients back");
         vk::Commands commands(device, "verify");
         for (uint32_t first = 0; first < points.size(); first += batch) {
             const uint32_t count = std::min(batch, uint32_t(points.size()) - first);
@@ -76,7 +79,8 @@ class DeviceStages {
             for (uint32_t point = 0; point < count; point++) {
                 const auto words = bitsBack.map<uint32_t>().subspan(point * bitBytes / 4, bitBytes / 4);
                 std::vector<uint8_t>& cube = mVisibility.emplace_back(words.size() * 32);
-                for (size_t texel = 0; texel < cube.size(); texel++) cube[texel] = words[texel / 32] >> texel % 32 & 1;
+                for (size_t texel = 0; texel < cube.size(); texel++)
+                    cube[texel] = words[texel / 32] >> texel % 32 & 1;
                 const auto rows = coefficientsBack.map<vec4>().subspan(point * mTerms * mFaceCoefficients,
                                                                        mTerms * mFaceCoefficients);
                 mCoefficients.emplace_back(rows.begin(), rows.end());
@@ -104,7 +108,8 @@ vec3 dequantise(uint32_t packed, float scale) {
 // A stored row as dense coefficients.
 std::vector<vec3> expand(const PackedRow& row, size_t count) {
     std::vector<vec3> dense(count, vec3(0));
-    for (size_t i = 0; i < row.indices.size(); i++) dense[row.indices[i]] = dequantise(row.values[i], row.scale);
+    for (size_t i = 0; i < row.indices.size(); i++)
+        dense[row.indices[i]] = dequantise(row.values[i], row.scale);
     return dense;
 }
 
@@ -130,7 +135,8 @@ void checkVertex(const Asset& asset, size_t partIndex, uint32_t vertex, const Ra
 
         std::vector<bool> kept(expected.size(), false);
         for (uint16_t index : selectLargest(found, asset.coefficients)) kept[index] = true;
-        const std::vector<vec3> stored = expand(storedRow(part.transport, vertex, size_t(term)), expected.size());
+        const std::vector<vec3> stored =
+            expand(storedRow(part.transport, vertex, size_t(term)), expected.size());
         const std::vector<vec3>& exact = reference.terms[size_t(term)].coefficients;
         for (size_t i = 0; i < expected.size(); i++) {
             sums.wavelet.add(kept[i] ? found[i] : vec3(0), found[i]);
@@ -149,7 +155,8 @@ std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samp
     for (int sample = 0; sample < samples; sample++) {
         uint64_t vertex = random() % vertices;
         size_t part = 0;
-        while (vertex >= asset.parts[part].mesh.vertexCount()) vertex -= asset.parts[part++].mesh.vertexCount();
+        while (vertex >= asset.parts[part].mesh.vertexCount())
+            vertex -= asset.parts[part++].mesh.vertexCount();
         drawn[part].push_back(uint32_t(vertex));
     }
     for (auto& [part, list] : drawn) std::sort(list.begin(), list.end());

@@ -16,7 +16,7 @@ struct Verification {
     double quantisationError = 0;  // the asset's rows against the coefficients they keep
     double brdfError = 0;          // cos-weighted relative RMS of the K terms, mean over samples' parts
     uint64_t relightBits = 0;      // vertices, of all, whose integer K-tuple differs between device and CPU
-    double totalError = 0;         // the asset's rows against uncompressed transport under Embree's visibility
+    double totalError = 0; // the asset's rows against uncompressed transport under Embree's visibility
 };
 
 // Recomputes `samples` random vertices (seeded, so the same ones every time), and relights all vertices under

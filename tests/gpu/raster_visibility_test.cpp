@@ -60,7 +60,8 @@ TEST_CASE("raster visibility: a sphere alone sees everything above its horizon")
         int wrong = 0;
         for (int texel = 0; texel < 6 * 64 * 64; texel++) {
             const vec3 direction = cubeTexelDirection(texel / 4096, texel % 64, texel / 64 % 64, 64);
-            // Faceted: within half a texel of the horizon a facet may rise above the tangent plane's rounding.
+            // Faceted: within half a texel of the horizon a facet may rise above the tangent plane's
+            // rounding.
             const float cosine = glm::dot(direction, points[point].normal);
             if (std::abs(cosine) < 1e-5f) continue;
             wrong += cubes[point][size_t(texel)] != (cosine > 0);

@@ -48,7 +48,8 @@ Samples makeSamples(int count, int size) {
         samples.points.push_back({vec3(0), normal});
         std::vector<uint8_t>& cube = samples.visibility.emplace_back();
         for (int texel = 0; texel < 6 * size * size; texel++) {
-            const vec3 towards = cubeTexelDirection(texel / (size * size), texel % size, texel / size % size, size);
+            const vec3 towards =
+                cubeTexelDirection(texel / (size * size), texel % size, texel / size % size, size);
             cube.push_back(glm::dot(towards, normal) > 0 && glm::dot(towards, blocker) < 0.6f);
         }
         for (size_t word = 0; word < cube.size() / 32; word++) {
@@ -120,8 +121,10 @@ void checkCase(const vk::Device& device, const Case& c) {
             total += glm::dot(expected[i], expected[i]);
         }
         for (size_t i = 0, next = 0; i < count; i++) {
-            if (next < selected.size() && selected[next] == i) next++;
-            else dropped += glm::dot(expected[i], expected[i]);
+            if (next < selected.size() && selected[next] == i)
+                next++;
+            else
+                dropped += glm::dot(expected[i], expected[i]);
         }
         CHECK_LT(worst, step);
         // Rounding swaps neighbours in magnitude, and values at the edge of zero: a few of them.
@@ -182,10 +185,10 @@ TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
     constexpr uint32_t kCount = 6 * 32 * 32;
     std::mt19937 random(11);
     std::vector<std::vector<vec3>> rows(6, std::vector<vec3>(kCount, vec3(0)));
-    for (vec3& value : rows[0]) value = vec3(float(random() % 4), 0, 0);               // many ties, many zeros
-    for (vec3& value : rows[1]) value = vec3(1);                                       // all equal
+    for (vec3& value : rows[0]) value = vec3(float(random() % 4), 0, 0);              // many ties, many zeros
+    for (vec3& value : rows[1]) value = vec3(1);                                      // all equal
     for (uint32_t i = 0; i < 5; i++) rows[3][i * 1000 + 17] = vec3(0, 1e-3f, -1e-3f); // row 2: zeros; few
-    for (vec3& value : rows[4]) value = vec3(std::ldexp(1.0f, -int(random() % 60)));   // all magnitudes
+    for (vec3& value : rows[4]) value = vec3(std::ldexp(1.0f, -int(random() % 60)));  // all magnitudes
     for (vec3& value : rows[5]) value = vec3(float(random()), -float(random()), float(random()));
     std::vector<vec4> coefficients;
     for (const std::vector<vec3>& row : rows)

@@ -1,0 +1,93 @@
+// Relit images against Embree references of the same view and light; what remains is explained.
+#include "engine/render/compare.h"
+#include "engine/render/relighter.h"
+#include "engine/render/view_pass.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/scene.h"
+#include "precompute/bake/bake.h"
+#include "precompute/reference/reference_image.h"
+#include "tests/support/test_device.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+
+namespace {
+
+constexpr int kWidth = 120, kHeight = 90;
+
+Asset bakeKnot(const vk::Device& device, const std::string& material, int coefficients, int vertices) {
+    Scene scene;
+    scene.parts.push_back({"knot", makeKnot(vertices), material, "built-in knot", ""});
+    BakeOptions options;
+    options.coefficients = coefficients;
+    return bake(device, std::move(scene), options);
+}
+
+Camera viewOf(const Asset& asset) {
+    return defaultCamera(boundsOf(asset), 0.6f, float(kWidth) / float(kHeight));
+}
+
+Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube, int threshold) {
+    LightPass light(device, asset.faceSize);
+    light.setCube(cube);
+    const Relighter relighter(device, asset);
+    const ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
+    vk::Commands commands(device, "render test");
+    commands.begin();
+    light.record(commands, 0, threshold);
+    relighter.record(commands, light);
+    view.record(commands, viewOf(asset), relighter, light);
+    commands.submitAndWait();
+    return view.read();
+}
+
+double relativeRmse(const vk::Device& device, const Asset& asset, const LightCube& cube, ReferenceBrdf brdf,
+                    int threshold) {
+    ReferenceOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.brdf = brdf;
+    return compareImages(relit(device, asset, cube, threshold),
+                         renderReference(asset, viewOf(asset), cube, options))
+        .relativeRmse;
+}
+
+} // namespace
+
+TEST_CASE("image: a diffuse knot under the sky is its reference") {
+    const TestDevice device;
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    // What remains at all coefficients is interpolation between vertices and facets against smooth normals.
+    CHECK_LE(relativeRmse(device, bakeKnot(device, "grey-diffuse", 6 * 64 * 64, 3000), sky,
+                          ReferenceBrdf::Exact, 0),
+             0.02);
+    CHECK_LE(relativeRmse(device, bakeKnot(device, "grey-diffuse", 96, 3000), sky, ReferenceBrdf::Exact,
+                          kDefaultLightThreshold),
+             0.05);
+}
+
+TEST_CASE("image: a glossy knot under the sky is the reference of its factors") {
+    const TestDevice device;
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    CHECK_LE(relativeRmse(device, bakeKnot(device, "ashikhmin-shirley", 96, 3000), sky,
+                          ReferenceBrdf::Factored, kDefaultLightThreshold),
+             0.08);
+}
+
+TEST_CASE("image: under an even light a convex diffuse object shows its albedo") {
+    const TestDevice device;
+    Scene scene;
+    scene.parts.push_back({"sphere", makeSphere(3), R"({"model": "diffuse", "albedo": 0.5})", "", ""});
+    const Asset asset = bake(device, std::move(scene), {});
+    const LightCube even{64, std::vector<vec3>(6 * 64 * 64, vec3(1))};
+    const Image image = relit(device, asset, even, 0);
+    int covered = 0;
+    for (const vec4& pixel : image.pixels) {
+        if (pixel.w == 0) continue;
+        covered++;
+        CHECK(pixel.x == doctest::Approx(0.5).epsilon(0.01));
+        CHECK(pixel.z == doctest::Approx(0.5).epsilon(0.01));
+    }
+    CHECK_GT(covered, kWidth * kHeight / 6);
+}
