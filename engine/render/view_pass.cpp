@@ -61,8 +61,9 @@ ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptio
                                     .blend = vk::Blend::Max};
     mClampProgram =
         vk::GraphicsProgram(device, view_vert_spirv, view_clamp_frag_spirv, {1}, clamp, "view clamp");
-    mSampler = vk::Sampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, "view maps");
+    constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    mDiskSampler = {device, kClamp, kClamp, "view maps"};
+    mPolarSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, kClamp, "polar view maps"};
     for (const AssetPart& part : asset.parts) mParts.push_back(makePart(part));
     resize(options.width, options.height);
 }
@@ -79,7 +80,6 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source) {
     part.indexCount = uint32_t(3 * source.mesh.triangleCount());
     part.terms = uint32_t(brdf.terms);
     part.mapping = brdf.mapping;
-    part.mapSize = brdf.size;
     part.viewMaps =
         makeMapTexture(mDevice, brdf.viewMaps, uint32_t(brdf.size), part.terms, source.name + " view maps");
     planDraws(part);
@@ -127,12 +127,16 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
     const mat4 clipFromWorld = camera.clipFromWorld(aspect, mBounds);
     const auto draw = [&](size_t i, const Draw& step, bool sampled) {
         const Part& part = mParts[i];
-        const shared::ViewPush push{clipFromWorld,          camera.eye,  part.terms, step.firstTerm,
-                                    uint32_t(part.mapping), part.mapSize};
+        const shared::ViewPush push{clipFromWorld, camera.eye, part.terms, step.firstTerm,
+                                    uint32_t(part.mapping)};
         if (sampled)
             commands.bind(
                 *step.program,
-                {part.vertices, relighter.sums(i), part.rowScales, light.scale(), {part.viewMaps, mSampler}},
+                {part.vertices,
+                 relighter.sums(i),
+                 part.rowScales,
+                 light.scale(),
+                 {part.viewMaps, part.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler}},
                 push);
         else
             commands.bind(*step.program, {part.vertices, relighter.sums(i), part.rowScales, light.scale()},

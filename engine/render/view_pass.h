@@ -48,7 +48,6 @@ class ViewPass {
         vk::Buffer vertices, indices, rowScales;
         uint32_t indexCount = 0, terms = 0;
         DiskMapping mapping = DiskMapping::Orthographic;
-        int mapSize = 0;
         vk::Image viewMaps; // a layer a term
         std::vector<Draw> draws;
         bool clamps = false; // needs the last draw
@@ -63,7 +62,7 @@ class ViewPass {
     uint32_t mTermsPerDraw;
     std::map<std::array<uint32_t, 3>, vk::GraphicsProgram> mPrograms; // by program()'s arguments
     vk::GraphicsProgram mClampProgram;
-    vk::Sampler mSampler;
+    vk::Sampler mDiskSampler, mPolarSampler; // the latter wraps in x
     std::vector<Part> mParts;
     vk::Image mColor, mDepth;
 };

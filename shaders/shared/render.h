@@ -60,9 +60,8 @@ struct ViewPush {
     uint terms;     // K of the part
     uint firstTerm; // of this draw
     uint mapping;   // of the view maps: DiskMapping
-    int mapSize;    // texels a side
 };
-RELUME_SHARED_SIZE(ViewPush, 92)
+RELUME_SHARED_SIZE(ViewPush, 88)
 
 RELUME_SHARED_END
 

@@ -25,7 +25,7 @@ struct Outcome {
 };
 
 // Runs `relume ARGUMENTS` in a shell inside the folder; `environment` is put before it.
-Outcome relume(const TemporaryFolder& folder, const std::string& arguments,
+Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
                const std::string& environment = "") {
     const std::string command = "cd '" + folder.path().string() + "' && " + environment +
                                 " '" RELUME_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
@@ -45,23 +45,23 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 TEST_CASE("cli: help and version go to stdout and end well") {
     const TemporaryFolder folder;
-    const Outcome help = relume(folder, "--help");
+    const Outcome help = runRelume(folder, "--help");
     CHECK_EQ(help.exitCode, 0);
     for (const char* command :
          {"bake", "render", "reference", "compare", "verify", "info", "devices", "bench"}) {
         CHECK(says(help.out, command));
-        const Outcome own = relume(folder, std::string(command) + " --help");
+        const Outcome own = runRelume(folder, std::string(command) + " --help");
         CHECK_EQ(own.exitCode, 0);
         CHECK(says(own.out, "Usage"));
     }
-    CHECK(says(relume(folder, "--version").out, "relume "));
+    CHECK(says(runRelume(folder, "--version").out, "relume "));
 }
 
 TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
     const TemporaryFolder folder;
-    CHECK_EQ(relume(folder, "").exitCode, 2);
-    CHECK_EQ(relume(folder, "paint").exitCode, 2);
-    CHECK_EQ(relume(folder, "bake").exitCode, 2); // no -o
+    CHECK_EQ(runRelume(folder, "").exitCode, 2);
+    CHECK_EQ(runRelume(folder, "paint").exitCode, 2);
+    CHECK_EQ(runRelume(folder, "bake").exitCode, 2); // no -o
     for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
              {"bake -o x.relume --terms 33", "1 to 32"},
              {"bake -o x.relume --coefficients 0", "--coefficients"},
@@ -75,7 +75,7 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"render x.relume -o x.png --tone film", "--tone"},
              {"reference x.relume -o x.exr --rays 3", "--rays"}}) {
         CAPTURE(arguments);
-        const Outcome outcome = relume(folder, arguments);
+        const Outcome outcome = runRelume(folder, arguments);
         CHECK_EQ(outcome.exitCode, 2);
         CHECK(says(outcome.err, part));
         CHECK(outcome.out.empty());
@@ -88,80 +88,80 @@ TEST_CASE("cli: bad input is 1, names the file, and leaves what was there alone"
     std::ofstream(folder.path() / "broken.obj") << "v 0 0 nonsense\nf 1 2 3\n";
     std::ofstream(folder.path() / "empty.relume");
     std::ofstream(folder.path() / "old.relume") << "precious";
-    const Outcome missing = relume(folder, "bake missing.obj -o old.relume");
+    const Outcome missing = runRelume(folder, "bake missing.obj -o old.relume");
     CHECK_EQ(missing.exitCode, 1);
     CHECK(says(missing.err, "missing.obj"));
-    const Outcome broken = relume(folder, "bake broken.obj -o old.relume");
+    const Outcome broken = runRelume(folder, "bake broken.obj -o old.relume");
     CHECK_EQ(broken.exitCode, 1);
     CHECK(says(broken.err, "broken.obj"));
     CHECK_EQ(contents(folder.path() / "old.relume"), "precious");
-    const Outcome empty = relume(folder, "info empty.relume");
+    const Outcome empty = runRelume(folder, "info empty.relume");
     CHECK_EQ(empty.exitCode, 1);
     CHECK(says(empty.err, "empty.relume"));
-    CHECK_EQ(relume(folder, std::string(kSmallBake) + "-o nowhere/x.relume").exitCode, 1);
+    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o nowhere/x.relume").exitCode, 1);
 }
 
 TEST_CASE("cli: without a device the exit code is 4") {
     const TemporaryFolder folder;
     const std::string noDriver = "VK_DRIVER_FILES=/nonexistent.json VK_ICD_FILENAMES=/nonexistent.json";
-    const Outcome bake = relume(folder, std::string(kSmallBake) + "-o x.relume", noDriver);
+    const Outcome bake = runRelume(folder, std::string(kSmallBake) + "-o x.relume", noDriver);
     CHECK_EQ(bake.exitCode, 4);
     CHECK(says(bake.err, "Vulkan"));
-    CHECK_EQ(relume(folder, "devices", noDriver).exitCode, 4);
-    CHECK_EQ(relume(folder, std::string(kSmallBake) + "-o x.relume --device no-such-device").exitCode, 4);
+    CHECK_EQ(runRelume(folder, "devices", noDriver).exitCode, 4);
+    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o x.relume --device no-such-device").exitCode, 4);
 }
 
 TEST_CASE("cli: devices lists what a choice needs") {
     const TemporaryFolder folder;
-    const Outcome outcome = relume(folder, "devices --json");
+    const Outcome outcome = runRelume(folder, "devices --json");
     REQUIRE_EQ(outcome.exitCode, 0);
     const auto devices = nlohmann::json::parse(outcome.out);
     REQUIRE_FALSE(devices.empty());
     for (const char* key : {"index", "name", "type", "driver", "uuid", "largest_storage_buffer", "usable"})
         CHECK(devices[0].contains(key));
     const std::string name = devices[0]["name"], uuid = devices[0]["uuid"];
-    CHECK_EQ(relume(folder, std::string(kSmallBake) + "-o a.relume --device " + uuid).exitCode, 0);
-    CHECK_EQ(relume(folder, std::string(kSmallBake) + "-o b.relume --device '" + name + "'").exitCode, 0);
+    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o a.relume --device " + uuid).exitCode, 0);
+    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o b.relume --device '" + name + "'").exitCode, 0);
     CHECK_EQ(contents(folder.path() / "a.relume"), contents(folder.path() / "b.relume"));
 }
 
 TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, without a validation message") {
     const TemporaryFolder folder;
     const std::string validated = " --validation core,sync";
-    const Outcome bake = relume(folder, std::string(kSmallBake) + "-o a.relume --timings t.json" + validated);
+    const Outcome bake = runRelume(folder, std::string(kSmallBake) + "-o a.relume --timings t.json" + validated);
     CAPTURE(bake.err);
     REQUIRE_EQ(bake.exitCode, 0);
     CHECK(nlohmann::json::parse(contents(folder.path() / "t.json")).contains("stages"));
 
-    const Outcome info = relume(folder, "info a.relume --json");
+    const Outcome info = runRelume(folder, "info a.relume --json");
     REQUIRE_EQ(info.exitCode, 0);
     CHECK(says(info.out, "ashikhmin-shirley"));
     CHECK(nlohmann::json::parse(info.out).is_object());
-    CHECK(says(relume(folder, "info a.relume").out, "provenance"));
+    CHECK(says(runRelume(folder, "info a.relume").out, "provenance"));
 
     for (const std::string light : {"", "--distant-light 30,60", "--sphere-light 30,60,5"}) {
-        const Outcome render = relume(folder, "render a.relume -o a.exr --size 64x48 " + light + validated);
+        const Outcome render = runRelume(folder, "render a.relume -o a.exr --size 64x48 " + light + validated);
         CAPTURE(render.err);
         REQUIRE_EQ(render.exitCode, 0);
-        REQUIRE_EQ(relume(folder, "reference a.relume -o b.exr --size 64x48 " + light).exitCode, 0);
-        const Outcome compare = relume(folder, "compare a.exr b.exr --json");
+        REQUIRE_EQ(runRelume(folder, "reference a.relume -o b.exr --size 64x48 " + light).exitCode, 0);
+        const Outcome compare = runRelume(folder, "compare a.exr b.exr --json");
         REQUIRE_EQ(compare.exitCode, 0);
         const auto difference = nlohmann::json::parse(compare.out);
         for (const char* key : {"relative_rmse", "psnr", "max_difference", "flip"})
             CHECK(difference.contains(key));
         CHECK_GT(difference["relative_rmse"].get<double>(), 0);
-        CHECK_EQ(relume(folder, "compare a.exr b.exr --threshold 1e-6").exitCode, 3);
-        CHECK_EQ(relume(folder, "compare a.exr a.exr --threshold 1e-6").exitCode, 0);
+        CHECK_EQ(runRelume(folder, "compare a.exr b.exr --threshold 1e-6").exitCode, 3);
+        CHECK_EQ(runRelume(folder, "compare a.exr a.exr --threshold 1e-6").exitCode, 0);
     }
     REQUIRE_EQ(
-        relume(folder, "render a.relume -o turn.png --size 32x24 --frames 3 --turn light --timings f.json")
+        runRelume(folder, "render a.relume -o turn.png --size 32x24 --frames 3 --turn light --timings f.json")
             .exitCode,
         0);
     for (const char* frame : {"turn_0001.png", "turn_0002.png", "turn_0003.png"})
         CHECK(contents(folder.path() / frame).starts_with("\x89PNG"));
     CHECK_EQ(nlohmann::json::parse(contents(folder.path() / "f.json"))["frames_ms"].size(), 3u);
 
-    const Outcome verify = relume(folder, "verify a.relume --samples 10 --json" + validated);
+    const Outcome verify = runRelume(folder, "verify a.relume --samples 10 --json" + validated);
     REQUIRE_EQ(verify.exitCode, 0);
     CHECK_EQ(nlohmann::json::parse(verify.out)["relight_bits"], 0);
 }
