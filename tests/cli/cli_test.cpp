@@ -26,7 +26,7 @@ struct Outcome {
 
 // Runs `relume ARGUMENTS` in a shell inside the folder; `environment` is put before it.
 Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
-               const std::string& environment = "") {
+                  const std::string& environment = "") {
     const std::string command = "cd '" + folder.path().string() + "' && " + environment +
                                 " '" RELUME_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
@@ -128,7 +128,8 @@ TEST_CASE("cli: devices lists what a choice needs") {
 TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, without a validation message") {
     const TemporaryFolder folder;
     const std::string validated = " --validation core,sync";
-    const Outcome bake = runRelume(folder, std::string(kSmallBake) + "-o a.relume --timings t.json" + validated);
+    const Outcome bake =
+        runRelume(folder, std::string(kSmallBake) + "-o a.relume --timings t.json" + validated);
     CAPTURE(bake.err);
     REQUIRE_EQ(bake.exitCode, 0);
     CHECK(nlohmann::json::parse(contents(folder.path() / "t.json")).contains("stages"));
@@ -140,7 +141,8 @@ TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, witho
     CHECK(says(runRelume(folder, "info a.relume").out, "provenance"));
 
     for (const std::string light : {"", "--distant-light 30,60", "--sphere-light 30,60,5"}) {
-        const Outcome render = runRelume(folder, "render a.relume -o a.exr --size 64x48 " + light + validated);
+        const Outcome render =
+            runRelume(folder, "render a.relume -o a.exr --size 64x48 " + light + validated);
         CAPTURE(render.err);
         REQUIRE_EQ(render.exitCode, 0);
         REQUIRE_EQ(runRelume(folder, "reference a.relume -o b.exr --size 64x48 " + light).exitCode, 0);
