@@ -60,7 +60,7 @@ void main() {
         ((point * 6 + face) * kVisibilitySize + block.y * 4 * kRatio) * wordsPerRow + bit / 32;
     for (uint i = 0; i < 4 * kRatio; i++) rows[i] = visible[firstWord + i * wordsPerRow] >> (bit % 32);
 
-    const mat3 frame = tangentFrame(points[push.firstPoint + point].normal) * kFaceAxes[face];
+    const mat3 frame = tangentFrame(points[point].normal) * kFaceAxes[face];
     const float cellWidth = 2.0 / float(kFaceSize * kSamplesPerSide);
     vec3 texels[16];
     for (uint i = 0; i < 16; i++) {

@@ -13,7 +13,7 @@ layout(binding = 2, scalar) readonly buffer Layers { uint instanceLayers[]; };
 
 void main() {
     const uint layer = instanceLayers[gl_InstanceIndex];
-    const vec3 local = (positions[gl_VertexIndex] - points[push.firstPoint + layer / 6].origin) * kFaceAxes[layer % 6];
+    const vec3 local = (positions[gl_VertexIndex] - points[layer / 6].origin) * kFaceAxes[layer % 6];
     // Depth is not stored; z only clips at the near plane, since 0 ≤ z ≤ w where z = w - near.
     gl_Position = vec4(local.xy, local.z - push.nearDistance, local.z);
     gl_Layer = int(layer);

@@ -18,7 +18,7 @@ layout(binding = 3, scalar) writeonly buffer Layers { uint instanceLayers[]; };
 void main() {
     const uint layer = gl_GlobalInvocationID.x, cluster = gl_GlobalInvocationID.y;
     if (layer >= push.layers) return;
-    const BakePoint point = points[push.firstPoint + layer / 6];
+    const BakePoint point = points[layer / 6];
     const TriangleCluster sphere = clusters[cluster];
     const vec3 centre = sphere.centre - point.origin;
     if (dot(centre, point.normal) < -sphere.radius) return;

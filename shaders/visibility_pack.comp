@@ -26,7 +26,7 @@ void main() {
     const uint y = texel / kSize % kSize, x = texel % kSize;
 
     // The cosine is linear along a row, up to the direction's length: its sign needs no normalisation.
-    const vec3 normal = points[push.firstPoint + layer / 6].normal * kFaceAxes[layer % 6];
+    const vec3 normal = points[layer / 6].normal * kFaceAxes[layer % 6];
     const float texelWidth = 2.0 / kSize;
     const float v = (float(y) + 0.5) * texelWidth - 1;
     const float rowStart = normal.y * v + normal.z + normal.x * ((float(x) + 0.5) * texelWidth - 1);

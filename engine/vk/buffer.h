@@ -43,12 +43,4 @@ class Buffer {
     void* mMapped = nullptr;
 };
 
-// An upload buffer that holds a copy of `values`.
-template <typename T>
-Buffer makeUpload(const Device& device, std::span<const T> values, std::string_view name) {
-    Buffer buffer(device, std::max<uint64_t>(values.size_bytes(), 4), BufferUse::Upload, name);
-    std::copy(values.begin(), values.end(), buffer.map<T>().begin());
-    return buffer;
-}
-
 } // namespace relume::vk

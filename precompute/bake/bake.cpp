@@ -47,13 +47,6 @@ class MaterialFactory {
     std::map<std::string, Material> mMaterials;
 };
 
-std::vector<shared::BakePoint> bakePoints(const Mesh& mesh, float offset) {
-    std::vector<shared::BakePoint> points;
-    for (size_t i = 0; i < mesh.vertexCount(); i++)
-        points.push_back({mesh.positions[i] + offset * mesh.normals[i], mesh.normals[i]});
-    return points;
-}
-
 // The passes of one part with their buffers, for batches of a given size.
 struct PartPasses {
     PartPasses(const vk::Device& device, const Asset& asset, const FactoredBrdf& brdf,
@@ -61,13 +54,14 @@ struct PartPasses {
         : batch(capacity), visibility(device, asset.occluder, uint32_t(options.visibilitySize), capacity,
                                       visibilityNearDistance(asset.visibilityOffset)),
           transport(device, brdf, options, capacity),
+          points(device, capacity * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points"),
           bits(device, capacity * RasterVisibility::bytesPerPoint(uint32_t(options.visibilitySize)),
                vk::BufferUse::Device, "visibility bits") {}
 
     uint32_t batch;
     RasterVisibility visibility;
     TransportPass transport;
-    vk::Buffer bits;
+    vk::Buffer points, bits;
 };
 
 // Makes the passes for the planned batch, or half of it as often as memory asks for.
@@ -91,16 +85,17 @@ void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& o
     part.transport.terms = uint32_t(part.brdf.terms);
     part.transport.rowStarts = {0};
 
-    const auto points =
-        vk::makeUpload<shared::BakePoint>(device, bakePoints(part.mesh, asset.visibilityOffset), "points");
     const std::unique_ptr<PartPasses> passes = makePasses(device, asset, part.brdf, options, vertices);
     times.batch = std::max(times.batch, passes->batch);
     vk::Commands commands(device, "bake");
     for (uint32_t first = 0; first < vertices; first += passes->batch) {
         const uint32_t count = std::min(passes->batch, vertices - first);
+        for (uint32_t i = 0; i < count; i++)
+            passes->points.map<shared::BakePoint>()[i] =
+                bakePoint(part.mesh, first + i, asset.visibilityOffset);
         commands.begin();
-        passes->visibility.record(commands, points, first, count, passes->bits);
-        passes->transport.record(commands, points, first, count, passes->bits);
+        passes->visibility.record(commands, passes->points, count, passes->bits);
+        passes->transport.record(commands, passes->points, count, passes->bits);
         commands.submitAndWait();
         passes->transport.collect(count, part.transport, losses);
         if (progress) progress(first + count);

@@ -73,14 +73,14 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
     mCompact = {device, compact_comp_spirv, {}, "compact"};
 }
 
-void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uint32_t first, uint32_t count,
+void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                            const vk::Buffer& bits) const {
-    for (const TermGroup& group : mGroups) recordGroup(commands, group, points, first, count, bits);
+    for (const TermGroup& group : mGroups) recordGroup(commands, group, points, count, bits);
     commands.barrier(vk::Stage::Compute, vk::Stage::Host);
 }
 
 void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points,
-                                uint32_t first, uint32_t count, const vk::Buffer& bits) const {
+                                uint32_t count, const vk::Buffer& bits) const {
     using enum vk::Stage;
     const uint32_t rowCount = count * group.terms;
     const shared::RowsPush rows{rowCount, mKept};
@@ -90,7 +90,7 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
     commands.barrier(Compute, Compute);
     commands.pass("transport", [&] {
         commands.dispatch(mTransport, {points, bits, {mLightMaps, mSampler}, mCoefficients},
-                          shared::TransportPush{first, group.firstTerm, group.terms},
+                          shared::TransportPush{group.firstTerm, group.terms},
                           {mTransport.groupSize()[0], 6, rowCount});
     });
     commands.barrier(Compute, Compute);

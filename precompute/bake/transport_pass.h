@@ -23,8 +23,8 @@ class TransportPass {
     TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
                   uint32_t capacity);
 
-    // Records all terms of points [first, first + count), whose bits lie at the front of `bits`.
-    void record(vk::Commands& commands, const vk::Buffer& points, uint32_t first, uint32_t count,
+    // Records all terms of the first `count` BakePoints, whose bits lie at the front of `bits`.
+    void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const;
 
     // After the submission: appends the batch's rows.
@@ -43,8 +43,8 @@ class TransportPass {
         uint32_t firstTerm, terms;
         vk::Buffer counts, scales, statistics, entries; // mapped
     };
-    void recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points, uint32_t first,
-                     uint32_t count, const vk::Buffer& bits) const;
+    void recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points, uint32_t count,
+                     const vk::Buffer& bits) const;
 
     uint32_t mFaceSize, mKept;
     vk::Image mLightMaps;

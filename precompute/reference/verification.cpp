@@ -51,12 +51,7 @@ class DeviceStages {
         const auto size = uint32_t(asset.visibilitySize);
         const uint64_t bitBytes = RasterVisibility::bytesPerPoint(size);
 
-        std::vector<shared::BakePoint> points;
-        for (uint32_t vertex : vertices)
-            points.push_back(
-                {part.mesh.positions[vertex] + asset.visibilityOffset * part.mesh.normals[vertex],
-                 part.mesh.normals[vertex]});
-        const auto pointBuffer = vk::makeUpload<shared::BakePoint>(device, points, "points");
+        const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
         const RasterVisibility visibility(device, asset.occluder, size, batch,
                                           visibilityNearDistance(asset.visibilityOffset));
         const TransportPass transport(device, part.brdf, options, batch);
@@ -66,11 +61,14 @@ class DeviceStages {
         const vk::Buffer coefficientsBack(device, coefficientBytes, vk::BufferUse::Readback,
                                           "coefficients back");
         vk::Commands commands(device, "verify");
-        for (uint32_t first = 0; first < points.size(); first += batch) {
-            const uint32_t count = std::min(batch, uint32_t(points.size()) - first);
+        for (uint32_t first = 0; first < vertices.size(); first += batch) {
+            const uint32_t count = std::min(batch, uint32_t(vertices.size()) - first);
+            for (uint32_t i = 0; i < count; i++)
+                points.map<shared::BakePoint>()[i] =
+                    bakePoint(part.mesh, vertices[first + i], asset.visibilityOffset);
             commands.begin();
-            visibility.record(commands, pointBuffer, first, count, bits);
-            transport.record(commands, pointBuffer, first, count, bits);
+            visibility.record(commands, points, count, bits);
+            transport.record(commands, points, count, bits);
             commands.barrier(vk::Stage::Compute, vk::Stage::Transfer);
             commands.copy(bits, bitsBack, count * bitBytes);
             commands.copy(transport.coefficients(), coefficientsBack, count * coefficientBytes / batch);

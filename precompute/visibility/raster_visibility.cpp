@@ -1,11 +1,14 @@
 #include "precompute/visibility/raster_visibility.h"
 
+#include "engine/vk/result.h"
+#include "engine/vk/upload.h"
 #include "shaders/visibility_cull_comp.h"
 #include "shaders/visibility_cull_reset_comp.h"
 #include "shaders/visibility_frag.h"
 #include "shaders/visibility_pack_comp.h"
 #include "shaders/visibility_vert.h"
 
+#include <algorithm>
 #include <meshoptimizer.h>
 
 namespace relume {
@@ -75,23 +78,27 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
     else
         clusters.push_back({vec3(0), 0, 0, 0});
     mClusterCount = uint32_t(clusters.size());
-    mPositions = makeUpload<vec3>(device, occluder.positions, "occluder positions");
-    mIndices = makeUpload<uint32_t>(device, indices, "occluder indices");
-    mClusters = makeUpload<shared::TriangleCluster>(device, clusters, "occluder clusters");
+    const uint64_t largestBinding = std::max(occluder.vertexCount() * sizeof(vec3),
+                                             clusters.size() * sizeof(VkDrawIndexedIndirectCommand));
+    if (largestBinding > device.largestStorageBuffer() ||
+        mClusterCount >
+            std::min(device.limits().maxComputeWorkGroupCount[1], device.limits().maxDrawIndirectCount))
+        throw Error(
+            "the occluder's {} triangles are more than {} can take; simplify it: --occluder TRIANGLES",
+            occluder.triangleCount(), device.name());
+    mPositions = vk::upload<vec3>(device, occluder.positions, "occluder positions");
+    mIndices = vk::upload<uint32_t>(device, indices, "occluder indices");
+    mClusters = vk::upload<shared::TriangleCluster>(device, clusters, "occluder clusters");
     mDraws = {device, uint64_t(mClusterCount) * sizeof(VkDrawIndexedIndirectCommand), vk::BufferUse::Device,
               "visibility draws"};
 }
 
-uint64_t RasterVisibility::deviceBytesPerPoint() const {
-    return 6ull * (2 * mSize * mSize + 4 * mClusterCount); // target, its copy, instance layers
-}
-
-void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, uint32_t first,
-                              uint32_t count, const vk::Buffer& bits) const {
+void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
+                              const vk::Buffer& bits) const {
     using enum vk::Stage;
     RELUME_CHECK_LE(count, mCapacity);
     const uint32_t layers = 6 * count;
-    const shared::CullPush cull{first, layers, mClusterCount};
+    const shared::CullPush cull{layers, mClusterCount};
     commands.pass("visibility cull", [&] {
         commands.barrier(Draw, Compute);
         commands.dispatch(mReset, {mClusters, mDraws}, cull, {mClusterCount, 1, 1});
@@ -103,7 +110,7 @@ void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, 
         commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             Transfer, Color);
         commands.render({.color = &mTarget, .layers = layers}, [&] {
-            commands.bind(mDraw, {points, mPositions, mLayers}, shared::VisibilityPush{first, mNearDistance});
+            commands.bind(mDraw, {points, mPositions, mLayers}, shared::VisibilityPush{mNearDistance});
             commands.drawIndexedIndirect(mIndices, mDraws, mClusterCount);
         });
         commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -114,8 +121,7 @@ void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, 
         commands.copy(mTarget, mBlocked, layers);
         commands.barrier(Transfer, Compute);
         const auto words = uint32_t(count * bytesPerPoint(mSize) / 4);
-        commands.dispatch(mPack, {points, mBlocked, bits}, shared::PackVisibilityPush{first, words},
-                          {words, 1, 1});
+        commands.dispatch(mPack, {points, mBlocked, bits}, shared::PackVisibilityPush{words}, {words, 1, 1});
     });
 }
 

@@ -21,30 +21,26 @@ struct TriangleCluster {
 RELUME_SHARED_SIZE(TriangleCluster, 24)
 
 struct CullPush {
-    uint firstPoint; // of this batch, in the point buffer
-    uint layers;     // 6 × points of this batch
+    uint layers; // 6 × points of this batch
     uint clusters;
 };
-RELUME_SHARED_SIZE(CullPush, 12)
+RELUME_SHARED_SIZE(CullPush, 8)
 
 struct VisibilityPush {
-    uint firstPoint;
     float nearDistance; // along a face's axis; what lies nearer casts no shadow
 };
-RELUME_SHARED_SIZE(VisibilityPush, 8)
+RELUME_SHARED_SIZE(VisibilityPush, 4)
 
 struct PackVisibilityPush {
-    uint firstPoint;
     uint words; // of this batch: points × 6 × size² / 32
 };
-RELUME_SHARED_SIZE(PackVisibilityPush, 8)
+RELUME_SHARED_SIZE(PackVisibilityPush, 4)
 
 struct TransportPush {
-    uint firstPoint;
     uint firstTerm; // of this dispatch; its rows are point-major: (point, term of the dispatch)
     uint terms;
 };
-RELUME_SHARED_SIZE(TransportPush, 12)
+RELUME_SHARED_SIZE(TransportPush, 8)
 
 struct RowsPush {
     uint rows;

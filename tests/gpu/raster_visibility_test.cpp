@@ -15,7 +15,7 @@ namespace {
 std::vector<std::vector<uint8_t>> visibilityOf(const vk::Device& device, const Mesh& occluder,
                                                const std::vector<shared::BakePoint>& points, uint32_t size,
                                                uint32_t batch, float nearDistance) {
-    const auto pointBuffer = vk::makeUpload<shared::BakePoint>(device, points, "points");
+    const vk::Buffer pointBuffer(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
     const RasterVisibility visibility(device, occluder, size, batch, nearDistance);
     const uint64_t pointBytes = RasterVisibility::bytesPerPoint(size);
     const vk::Buffer bits(device, batch * pointBytes, vk::BufferUse::Device, "bits");
@@ -24,8 +24,9 @@ std::vector<std::vector<uint8_t>> visibilityOf(const vk::Device& device, const M
     std::vector<std::vector<uint8_t>> cubes;
     for (uint32_t first = 0; first < points.size(); first += batch) {
         const uint32_t count = std::min(batch, uint32_t(points.size()) - first);
+        std::copy_n(points.begin() + first, count, pointBuffer.map<shared::BakePoint>().begin());
         commands.begin();
-        visibility.record(commands, pointBuffer, first, count, bits);
+        visibility.record(commands, pointBuffer, count, bits);
         commands.barrier(vk::Stage::Compute, vk::Stage::Transfer);
         commands.copy(bits, back, count * pointBytes);
         commands.barrier(vk::Stage::Transfer, vk::Stage::Host);
@@ -44,7 +45,7 @@ std::vector<shared::BakePoint> somePoints(const Mesh& mesh, size_t count, float 
     std::vector<shared::BakePoint> points;
     for (size_t i = 0; i < count; i++) {
         const size_t vertex = i * mesh.vertexCount() / count;
-        points.push_back({mesh.positions[vertex] + offset * mesh.normals[vertex], mesh.normals[vertex]});
+        points.push_back(bakePoint(mesh, vertex, offset));
     }
     return points;
 }

@@ -1,5 +1,6 @@
 // Transport, Haar, selection, quantisation and compaction on the device against their CPU twins.
 #include "engine/math/cubemap.h"
+#include "engine/vk/upload.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/reference/transport_stages.h"
 #include "shaders/select_comp.h"
@@ -78,12 +79,12 @@ void checkCase(const vk::Device& device, const Case& c) {
     options.coefficients = c.coefficients;
     const FactoredBrdf brdf = makeMaps(c.terms, 16, c.mapping);
     const Samples samples = makeSamples(3, c.visibilitySize);
-    const auto points = vk::makeUpload<shared::BakePoint>(device, samples.points, "points");
-    const auto bits = vk::makeUpload<uint32_t>(device, samples.bits, "bits");
+    const auto points = vk::upload<shared::BakePoint>(device, samples.points, "points");
+    const auto bits = vk::upload<uint32_t>(device, samples.bits, "bits");
     const TransportPass pass(device, brdf, options, 4);
     vk::Commands commands(device, "transport test");
     commands.begin();
-    pass.record(commands, points, 0, 3, bits);
+    pass.record(commands, points, 3, bits);
     commands.submitAndWait();
     SparseTransport found;
     found.rowStarts = {0};
@@ -157,13 +158,13 @@ TEST_CASE("transport pass: more terms than fit one buffer take turns") {
     // Enough capacity that 32 terms of it exceed the largest storage buffer on lavapipe (128 MiB).
     const uint32_t capacity = std::min(64u, TransportPass::largestBatch(device, options));
     const Samples samples = makeSamples(2, 256);
-    const auto points = vk::makeUpload<shared::BakePoint>(device, samples.points, "points");
-    const auto bits = vk::makeUpload<uint32_t>(device, samples.bits, "bits");
+    const auto points = vk::upload<shared::BakePoint>(device, samples.points, "points");
+    const auto bits = vk::upload<uint32_t>(device, samples.bits, "bits");
     const auto rowsOf = [&](uint32_t batch) {
         const TransportPass pass(device, brdf, options, batch);
         vk::Commands commands(device, "term groups");
         commands.begin();
-        pass.record(commands, points, 0, 2, bits);
+        pass.record(commands, points, 2, bits);
         commands.submitAndWait();
         SparseTransport transport;
         transport.rowStarts = {0};
@@ -195,7 +196,7 @@ TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
         for (const vec3& c : row) coefficients.emplace_back(c, c.x * c.x + c.y * c.y + c.z * c.z);
 
     const vk::ComputeProgram select(vulkan, select_comp_spirv, {kCount}, "select");
-    const auto input = vk::makeUpload<vec4>(vulkan, coefficients, "coefficients");
+    const auto input = vk::upload<vec4>(vulkan, coefficients, "coefficients");
     for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 3000u, kCount}) {
         CAPTURE(kept);
         const vk::Buffer selected(vulkan, rows.size() * kept * 4, vk::BufferUse::Readback, "selected");
