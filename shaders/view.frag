@@ -20,7 +20,8 @@ layout(location = 2) in vec3 tuple[kTerms];
 layout(location = 0) out vec4 color;
 
 void main() {
-    const mat3 frame = tangentFrame(normalize(normal));
+    // Opposite normals can cancel out on a fold; any direction does there.
+    const mat3 frame = tangentFrame(dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal));
     const vec3 local = liftAboveHorizon(frame * normalize(push.eye - position));
     const vec2 place = diskMapCoordinates(push.mapping, local);
     vec3 radiance = vec3(0);

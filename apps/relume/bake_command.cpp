@@ -18,9 +18,19 @@ struct Arguments {
     bool quiet = false;
 };
 
+// Outputs are tried before the work, not after it.
+void checkOutputs(const Arguments& arguments) {
+    if (arguments.output.extension() != ".relume")
+        throw UsageError("--output: expected a name ending in .relume, found \"{}\"",
+                         arguments.output.string());
+    expectWritable(arguments.output);
+    if (!arguments.timings.empty()) expectWritable(arguments.timings);
+}
+
 void run(Arguments& arguments) {
     arguments.bake.resolve();
     const BakeOptions& options = arguments.bake.options;
+    checkOutputs(arguments);
     Scene scene = arguments.scene.load();
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     for (const Part& part : scene.parts)
@@ -37,8 +47,7 @@ void run(Arguments& arguments) {
                  1e3 * times.total / double(vertices), device->name());
     if (!arguments.timings.empty())
         writeFileAtomically(arguments.timings, describeTimes(times, vertices).dump(2) + "\n");
-    if (device->validationMessages() > 0)
-        throw Error("the Vulkan validation layer reported {} messages", device->validationMessages());
+    DeviceArguments::expectNoMessages(*device);
 }
 
 } // namespace

@@ -84,7 +84,10 @@ void run(Arguments& arguments) {
         bakeWithProgress(*device, std::move(scene), arguments.bake.options, arguments.json, times);
 
     LightPass light(*device, asset.faceSize);
-    light.setEnvironment(prepareForSampling(arguments.light.environment()));
+    if (arguments.light.isEnvironment())
+        light.setEnvironment(prepareForSampling(arguments.light.environment()));
+    else
+        light.setCube(arguments.light.lamp(asset.faceSize));
     const Relighter relighter(*device, asset);
     ViewPass view(*device, asset, {.width = kWidth, .height = kHeight});
     CameraArguments view16by9;
@@ -113,6 +116,7 @@ void run(Arguments& arguments) {
         fmt::print("{}\n", result.dump(2));
     else
         print(result);
+    DeviceArguments::expectNoMessages(*device);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "apps/relume/commands.h"
+#include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
 #include "engine/render/compare.h"
@@ -24,7 +25,8 @@ void addCompareCommand(CLI::App& program) {
         ->required();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_option("--threshold", arguments->threshold, "Exit with 3 if the relative RMSE is above this")
-        ->type_name("RMSE");
+        ->type_name("RMSE")
+        ->check(between(0, 1e30f));
     command->callback([arguments] {
         const ImageDifference difference =
             compareImages(readImage(arguments->image).image, readImage(arguments->reference).image);

@@ -1,6 +1,7 @@
 #include "apps/relume/options.h"
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/image/image_file.h"
 
 #include <cmath>
@@ -8,7 +9,19 @@
 
 namespace relume {
 
+// Angles and positions beyond this have lost all precision.
+static constexpr float kLargestNumber = 1e6f;
+
 float radians(float degrees) { return degrees * kPi / 180; }
+
+CLI::Validator between(float low, float high) {
+    const auto check = [low, high](const std::string& text) -> std::string {
+        float value;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
+        return fmt::format("expected a number from {} to {}, found \"{}\"", low, high, text);
+    };
+    return CLI::Validator(check, "");
+}
 
 namespace {
 
@@ -22,8 +35,8 @@ vec3 directionOf(float azimuth, float elevation) {
 Bounds objectBounds(const Asset& asset) {
     Bounds bounds;
     for (const AssetPart& part : asset.parts)
-        if (part.name != "ground" || asset.parts.size() == 1) bounds.add(boundsOf(part.mesh));
-    return bounds;
+        if (part.name != "ground") bounds.add(boundsOf(part.mesh));
+    return bounds.low.x <= bounds.high.x ? bounds : boundsOf(asset);
 }
 
 vec3 vectorOf(const std::vector<float>& values) { return {values[0], values[1], values[2]}; }
@@ -40,6 +53,11 @@ void DeviceArguments::add(CLI::App& command) {
 
 std::unique_ptr<vk::Device> DeviceArguments::open() const { return std::make_unique<vk::Device>(options); }
 
+void DeviceArguments::expectNoMessages(const vk::Device& device) {
+    if (device.validationMessages() > 0)
+        throw Error("the Vulkan validation layer reported {} messages", device.validationMessages());
+}
+
 void CameraArguments::add(CLI::App& command) {
     command.add_option("--size", mSize, "Image size in pixels (default 960x720)")
         ->type_name("WxH")
@@ -49,23 +67,28 @@ void CameraArguments::add(CLI::App& command) {
                 height < 1 || width > 16384 || height > 16384)
                 throw UsageError("--size: expected WIDTHxHEIGHT, each 1 to 16384, found \"{}\"", text);
         });
-    CLI::Option* eye =
-        command.add_option("--eye", mEye, "Eye position")->type_name("X,Y,Z")->delimiter(',')->expected(3);
+    CLI::Option* eye = command.add_option("--eye", mEye, "Eye position")
+                           ->type_name("X,Y,Z")
+                           ->delimiter(',')
+                           ->expected(3)
+                           ->check(between(-kLargestNumber, kLargestNumber));
     mTargetOption = command.add_option("--target", mTarget, "Point looked at (default: the object's middle)")
                         ->type_name("X,Y,Z")
                         ->delimiter(',')
-                        ->expected(3);
+                        ->expected(3)
+                        ->check(between(-kLargestNumber, kLargestNumber));
     command
         .add_option("--orbit", mOrbit,
                     "Eye about the object: azimuth and elevation in degrees, distance where 1 just fits it")
         ->type_name("AZ,EL,DIST")
         ->delimiter(',')
         ->expected(3)
+        ->check(between(-kLargestNumber, kLargestNumber))
         ->excludes(eye);
     command.add_option("--fov", mFovDegrees, "Vertical field of view in degrees")
         ->type_name("DEG")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 170.0));
+        ->check(between(1, 170));
 }
 
 Camera CameraArguments::camera(const Asset& asset, float turn) const {
@@ -100,6 +123,7 @@ void LightArguments::add(CLI::App& command) {
                                ->type_name("AZ,EL")
                                ->delimiter(',')
                                ->expected(2)
+                               ->check(between(-kLargestNumber, kLargestNumber))
                                ->excludes(environment);
     command
         .add_option("--sphere-light", mSphere,
@@ -107,16 +131,18 @@ void LightArguments::add(CLI::App& command) {
         ->type_name("AZ,EL,RADIUS")
         ->delimiter(',')
         ->expected(3)
+        ->check(between(-kLargestNumber, kLargestNumber))
         ->excludes(environment)
         ->excludes(distant);
     command.add_option("--rotate", rotationDegrees, "Turn the light about +Y, from +Z towards +X")
+        ->check(between(-kLargestNumber, kLargestNumber))
         ->type_name("DEG")
         ->capture_default_str();
     command
         .add_option("--intensity", mIntensity, "Scales the light; 1 lets a lamp light white to radiance 1")
         ->type_name("X")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(between(1e-6f, 1e6f));
 }
 
 Environment LightArguments::environment() const {
@@ -144,6 +170,7 @@ void ImageArguments::add(CLI::App& command) {
         ->type_name("IMAGE")
         ->required();
     command.add_option("--exposure", exposure, "Exposure of a .png in stops")
+        ->check(between(-100, 100))
         ->type_name("STOPS")
         ->capture_default_str();
     command.add_option("--tone", mTone, "Tone curve of a .png: none, aces or agx")
@@ -156,6 +183,7 @@ void ImageArguments::check() const {
     const std::string extension = output.extension();
     if (extension != ".exr" && extension != ".png")
         throw UsageError("--output: expected a name ending in .exr or .png, found \"{}\"", output.string());
+    expectWritable(output);
 }
 
 void ImageArguments::write(const std::filesystem::path& path, const Image& image) const {

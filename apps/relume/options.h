@@ -20,6 +20,8 @@ struct DeviceArguments {
 
     void add(CLI::App& command);
     std::unique_ptr<vk::Device> open() const;
+    // Throws Error if the validation layer reported anything.
+    static void expectNoMessages(const vk::Device& device);
 };
 
 // --size, --eye, --target, --fov, --orbit
@@ -45,7 +47,7 @@ struct LightArguments {
     bool isEnvironment() const { return mDistant.empty() && mSphere.empty(); }
     // The environment file, or the built-in sky; at full resolution.
     Environment environment() const;
-    // A lamp as a cube, turned by `turn` radians about +Y; only if !isEnvironment().
+    // The lamp as a cube, turned by `turn` radians about +Y; only if !isEnvironment().
     LightCube lamp(int faceSize, float turn = 0) const;
 
   private:
@@ -70,5 +72,8 @@ struct ImageArguments {
 };
 
 float radians(float degrees);
+
+// Accepts numbers from `low` to `high`; not infinity, not NaN (which CLI::Range lets pass).
+CLI::Validator between(float low, float high);
 
 } // namespace relume

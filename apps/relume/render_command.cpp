@@ -42,6 +42,7 @@ nlohmann::ordered_json milliseconds(const vk::PassTimes& times) {
 
 void run(const Arguments& arguments) {
     arguments.image.check();
+    if (!arguments.timings.empty()) expectWritable(arguments.timings);
     const Asset asset = readAsset(arguments.file);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     LightPass light(*device, asset.faceSize);
@@ -78,8 +79,7 @@ void run(const Arguments& arguments) {
                                              {"frames_ms", frames}};
         writeFileAtomically(arguments.timings, json.dump(2) + "\n");
     }
-    if (device->validationMessages() > 0)
-        throw Error("the Vulkan validation layer reported {} messages", device->validationMessages());
+    DeviceArguments::expectNoMessages(*device);
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 #include "apps/relume/scene_arguments.h"
 
+#include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
+#include "precompute/brdf/brdf.h"
 
 #include <algorithm>
 #include <spdlog/spdlog.h>
@@ -13,33 +15,63 @@ void SceneArguments::add(CLI::App& command) {
         .add_option("INPUT", input,
                     "Mesh (.obj, .ply, .gltf, .glb), scene (.json), or built-in knot, sphere, torus, plane")
         ->capture_default_str();
-    command.add_option("-m,--material", material, "Preset, model, or JSON object with parameters")
-        ->type_name("MATERIAL")
-        ->capture_default_str();
-    command.add_option("--up", mUp, "The mesh's up axis: y or z")
-        ->type_name("AXIS")
-        ->check(CLI::IsMember({"y", "z"}))
-        ->capture_default_str();
+    mMaterialOption =
+        command.add_option("-m,--material", material, "Preset, model, or JSON object with parameters")
+            ->type_name("MATERIAL")
+            ->capture_default_str();
+    mUpOption = command.add_option("--up", mUp, "The mesh's up axis: y or z")
+                    ->type_name("AXIS")
+                    ->check(CLI::IsMember({"y", "z"}))
+                    ->capture_default_str();
     command.add_flag("--ground", ground, "Put a diffuse ground under the object");
-    command.add_option("--ground-material", mGroundMaterial, "Material of the ground")
-        ->type_name("MATERIAL")
-        ->capture_default_str();
-    command.add_option("--ground-tessellation", mGroundOptions.tessellation, "Quads a side of the ground")
-        ->type_name("QUADS")
-        ->capture_default_str();
-    command.add_option("--ground-extent", mGroundOptions.extent, "Side of the ground, in object sizes")
-        ->type_name("X")
-        ->capture_default_str();
+    mGroundDetails.push_back(
+        command.add_option("--ground-material", mGroundMaterial, "Material of the ground")
+            ->type_name("MATERIAL")
+            ->capture_default_str());
+    mGroundDetails.push_back(
+        command
+            .add_option("--ground-tessellation", mGroundOptions.tessellation, "Quads a side of the ground")
+            ->type_name("QUADS")
+            ->check(CLI::Range(1, kMostGroundQuads))
+            ->capture_default_str());
+    mGroundDetails.push_back(
+        command.add_option("--ground-extent", mGroundOptions.extent, "Side of the ground, in object sizes")
+            ->type_name("X")
+            ->check(between(kSmallestGroundExtent, kLargestGroundExtent))
+            ->capture_default_str());
 }
 
 Scene SceneArguments::load() const {
     Scene scene;
-    if (input.ends_with(".json"))
+    const bool isScene = input.ends_with(".json");
+    for (const CLI::Option* option : {mMaterialOption, mUpOption})
+        if (isScene && option->count() > 0)
+            throw UsageError("{}: has no effect on a scene file, whose parts say it themselves",
+                             option->get_name());
+    for (const CLI::Option* option : mGroundDetails)
+        if (!ground && option->count() > 0) throw UsageError("{}: needs --ground", option->get_name());
+    if (isScene)
         scene = readScene(input);
     else
         scene.parts.push_back(loadPart(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, material));
-    if (ground) addGround(scene, mGroundOptions, mGroundMaterial);
+    if (ground) {
+        for (const Part& part : scene.parts)
+            if (part.name == "ground") throw UsageError("--ground: {} has a ground already", input);
+        addGround(scene, mGroundOptions, mGroundMaterial);
+    }
+    checkMaterials(scene);
     return scene;
+}
+
+void SceneArguments::checkMaterials(const Scene& scene) const {
+    for (const Part& part : scene.parts) {
+        try {
+            makeBrdf(part.material);
+        } catch (const UsageError& wrong) {
+            if (!input.ends_with(".json")) throw;
+            throw Error("{}: part \"{}\": {}", input, part.name, wrong.what());
+        }
+    }
 }
 
 void BakeArguments::add(CLI::App& command) {

@@ -17,9 +17,15 @@ struct SceneArguments {
     bool ground = false;
 
     void add(CLI::App& command);
+    // Throws UsageError for options that the input cannot obey, Error for bad files.
     Scene load() const;
 
   private:
+    void checkMaterials(const Scene& scene) const;
+
+    CLI::Option* mMaterialOption = nullptr;
+    CLI::Option* mUpOption = nullptr;
+    std::vector<CLI::Option*> mGroundDetails; // mean nothing without --ground
     std::string mUp = "y";
     std::string mGroundMaterial = "white-diffuse";
     GroundOptions mGroundOptions;

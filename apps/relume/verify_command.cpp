@@ -22,8 +22,8 @@ void run(const Arguments& arguments) {
     const Asset asset = readAsset(arguments.file);
     if (!arguments.light.isEnvironment()) throw UsageError("verify: expected an environment, found a lamp");
     const std::unique_ptr<vk::Device> device = arguments.device.open();
-    const Verification found =
-        verify(*device, asset, prepareForSampling(arguments.light.environment()), arguments.samples);
+    const Verification found = verify(*device, asset, prepareForSampling(arguments.light.environment()),
+                                      radians(arguments.light.rotationDegrees), arguments.samples);
     if (arguments.json) {
         const nlohmann::ordered_json json = {{"samples", found.samples},
                                              {"visibility_mismatch", found.visibilityMismatch},
@@ -50,6 +50,7 @@ void run(const Arguments& arguments) {
             "total error          {:.4f}    stored transport against uncompressed, Embree's visibility\n",
             found.totalError);
     }
+    DeviceArguments::expectNoMessages(*device);
     if (found.relightBits > 0)
         throw Error("{} vertices relight differently on device and CPU", found.relightBits);
 }

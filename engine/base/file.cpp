@@ -13,8 +13,9 @@ namespace relume {
 
 std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit) {
     std::error_code failure;
-    if (std::filesystem::is_directory(path, failure))
-        throw Error("{}: expected a file, found a folder", path.string());
+    const auto status = std::filesystem::status(path, failure);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw Error("{}: expected a regular file, found a folder, pipe or device", path.string());
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) throw Error("{}: cannot be read: {}", path.string(), std::strerror(errno));
     const std::streamoff size = file.tellg();
@@ -30,6 +31,12 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit)
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
+    std::error_code failure;
+    const auto status = std::filesystem::status(mPath, failure);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw Error("{}: cannot be written: it is a folder, pipe or device; name a regular file",
+                    mPath.string());
+    if (std::filesystem::is_symlink(mPath, failure)) mPath = std::filesystem::weakly_canonical(mPath);
     std::string pattern = mPath.string() + ".XXXXXX";
     mDescriptor = mkstemp(pattern.data());
     if (mDescriptor < 0)
@@ -67,6 +74,8 @@ void AtomicFile::commit() {
     close(mDescriptor);
     mDescriptor = -1;
 }
+
+void expectWritable(const std::filesystem::path& path) { const AtomicFile probe(path); }
 
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     AtomicFile file(path);

@@ -17,7 +17,8 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit 
 // `path` only in commit(). Destroyed before commit(), it leaves `path` as it was.
 class AtomicFile {
   public:
-    // Creates the temporary file. Throws Error when the folder cannot be written.
+    // Creates the temporary file, beside the file that a symbolic link leads to. Throws Error when the folder
+    // cannot be written, or `path` is something else than a regular file (a device, a folder).
     explicit AtomicFile(std::filesystem::path path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -37,6 +38,9 @@ class AtomicFile {
     std::filesystem::path mTemporary;
     int mDescriptor = -1;
 };
+
+// Throws Error, before long work, if an AtomicFile could not be made for `path`. Leaves nothing behind.
+void expectWritable(const std::filesystem::path& path);
 
 // Writes `bytes` to `path`, whole or not at all.
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);

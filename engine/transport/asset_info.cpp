@@ -38,12 +38,12 @@ Json describePart(const AssetPart& part) {
             {"vertices", part.mesh.vertexCount()},
             {"triangles", part.mesh.triangleCount()},
             {"terms", part.brdf.terms},
-            {"mapSize", part.brdf.size},
+            {"map_size", part.brdf.size},
             {"mapping", diskMappingName(part.brdf.mapping)},
             {"eigenvalues", eigenvalues},
             {"entries", transport.entries()},
-            {"meanEntriesPerRow", ratio(transport.entries(), transport.rows())},
-            {"bytesPerVertex", ratio(transport.entries() * kEntryBytes, transport.vertices)}};
+            {"mean_entries_per_row", ratio(transport.entries(), transport.rows())},
+            {"bytes_per_vertex", ratio(transport.entries() * kEntryBytes, transport.vertices)}};
 }
 
 std::string describeSamples(int samples) {
@@ -85,9 +85,9 @@ Json describeTotal(const Asset& asset) {
     return {{"vertices", vertices},
             {"triangles", triangles},
             {"entries", entries},
-            {"meanEntriesPerRow", ratio(entries, rows)},
-            {"bytesPerVertex", ratio(entries * kEntryBytes, vertices)},
-            {"transportBytes", entries * kEntryBytes}};
+            {"mean_entries_per_row", ratio(entries, rows)},
+            {"bytes_per_vertex", ratio(entries * kEntryBytes, vertices)},
+            {"transport_bytes", entries * kEntryBytes}};
 }
 
 } // namespace
@@ -95,17 +95,17 @@ Json describeTotal(const Asset& asset) {
 std::string describeAssetJson(const Asset& asset, uint64_t fileBytes) {
     Json parts = Json::array();
     for (const AssetPart& part : asset.parts) parts.push_back(describePart(part));
-    const Json info = {{"formatVersion", kAssetFormatVersion},
-                       {"fileBytes", fileBytes},
-                       {"faceSize", asset.faceSize},
-                       {"visibilitySize", asset.visibilitySize},
+    const Json info = {{"format_version", kAssetFormatVersion},
+                       {"file_bytes", fileBytes},
+                       {"face_size", asset.faceSize},
+                       {"visibility_size", asset.visibilitySize},
                        {"coefficients", asset.coefficients},
-                       {"transportSamples", asset.transportSamples},
-                       {"visibilityOffset", asset.visibilityOffset},
-                       {"truncationError", asset.truncationError},
-                       {"quantisationError", asset.quantisationError},
+                       {"transport_samples", asset.transportSamples},
+                       {"visibility_offset", asset.visibilityOffset},
+                       {"truncation_error", asset.truncationError},
+                       {"quantization_error", asset.quantisationError},
                        {"approximations", describeApproximations(asset)},
-                       {"occluderTriangles", asset.occluder.triangleCount()},
+                       {"occluder_triangles", asset.occluder.triangleCount()},
                        {"total", describeTotal(asset)},
                        {"parts", parts},
                        {"provenance",

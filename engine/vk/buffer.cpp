@@ -6,15 +6,16 @@
 
 namespace relume::vk {
 
-static VkMemoryPropertyFlags memoryProperties(BufferUse use) {
+static uint32_t memoryTypeFor(const Device& device, uint32_t typeBits, BufferUse use) {
+    constexpr VkMemoryPropertyFlags kMapped =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     switch (use) {
     case BufferUse::Device:
-        return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        return device.memoryType(typeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     case BufferUse::Upload:
-        return VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        return device.memoryType(typeBits, kMapped);
     default:
-        return VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
-               VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+        return device.memoryType(typeBits, kMapped, VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
     }
 }
 
@@ -35,7 +36,7 @@ Buffer::Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_
             throw OutOfMemory("{}: {} bytes asked for, {} allows {} at once", name, requirements.size,
                               device.name(), device.info().largestAllocation);
         allocate.allocationSize = requirements.size;
-        allocate.memoryTypeIndex = device.memoryType(requirements.memoryTypeBits, memoryProperties(use));
+        allocate.memoryTypeIndex = memoryTypeFor(device, requirements.memoryTypeBits, use);
         RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));
         RELUME_VK(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0));
         if (use != BufferUse::Device)

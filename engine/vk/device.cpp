@@ -209,10 +209,12 @@ void Device::createDevice() {
     vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
 }
 
-uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties) const {
-    for (uint32_t type = 0; type < mMemory.memoryTypeCount; type++)
-        if ((typeBits >> type & 1) && (mMemory.memoryTypes[type].propertyFlags & properties) == properties)
-            return type;
+uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
+                            VkMemoryPropertyFlags preferred) const {
+    for (const VkMemoryPropertyFlags wanted : {properties | preferred, properties})
+        for (uint32_t type = 0; type < mMemory.memoryTypeCount; type++)
+            if ((typeBits >> type & 1) && (mMemory.memoryTypes[type].propertyFlags & wanted) == wanted)
+                return type;
     throw Error("{}: has no memory with the properties {:#x}", name(), properties);
 }
 

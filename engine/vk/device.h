@@ -54,8 +54,10 @@ class Device {
     // Bytes of the largest buffer that one binding may see, and that one allocation may hold.
     uint64_t largestStorageBuffer() const { return mInfo.largestStorageBuffer; }
 
-    // Index of a memory type with these properties among `typeBits`; throws Error if there is none.
-    uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties) const;
+    // Index of a memory type with these properties among `typeBits`, with `preferred` ones too if it can be;
+    // throws Error if there is none.
+    uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
+                        VkMemoryPropertyFlags preferred = 0) const;
 
     // Gives an object its name in captures and validation messages; does nothing without debug utilities.
     void setName(VkObjectType type, uint64_t handle, std::string_view name) const;

@@ -29,6 +29,10 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
         RELUME_VK(vkCreateImage(device.handle(), &create, nullptr, &mImage));
         VkMemoryRequirements requirements;
         vkGetImageMemoryRequirements(device.handle(), mImage, &requirements);
+        if (requirements.size > device.info().largestAllocation)
+            throw OutOfMemory("{}: {} x {} x {} texels take {} bytes, {} allows {} at once; ask for fewer",
+                              name, options.width, options.height, options.layers, requirements.size,
+                              device.name(), device.info().largestAllocation);
         allocate.allocationSize = requirements.size;
         allocate.memoryTypeIndex =
             device.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);

@@ -23,6 +23,8 @@ Buffer uploadBytes(const Device& device, std::span<const std::byte> bytes, std::
         std::copy(chunk.begin(), chunk.end(), staging.map<std::byte>().begin());
         commands.begin();
         commands.copy(staging, buffer, chunk.size(), 0, start);
+        commands.barrier(Stage::Transfer, Stage::Compute);
+        commands.barrier(Stage::Transfer, Stage::Draw);
         commands.submitAndWait();
     }
     return buffer;
@@ -37,6 +39,7 @@ std::vector<std::byte> downloadBytes(const Device& device, const Buffer& buffer,
     for (uint64_t start = 0; start < bytes; start += staging.bytes()) {
         const uint64_t chunk = std::min(bytes - start, staging.bytes());
         commands.begin();
+        commands.barrier(Stage::Compute, Stage::Transfer);
         commands.copy(buffer, staging, chunk, start);
         commands.barrier(Stage::Transfer, Stage::Host);
         commands.submitAndWait();

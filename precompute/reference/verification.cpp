@@ -161,13 +161,14 @@ std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samp
     return drawn;
 }
 
-uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, const Environment& prepared) {
+uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, const Environment& prepared,
+                                 float rotation) {
     LightPass light(device, asset.faceSize);
     light.setEnvironment(prepared);
     const Relighter relighter(device, asset);
     vk::Commands commands(device, "verify relighting");
     commands.begin();
-    light.record(commands);
+    light.record(commands, rotation);
     relighter.record(commands, light);
     commands.submitAndWait();
     const LightVector vector = light.readVector();
@@ -185,7 +186,8 @@ uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, c
 
 } // namespace
 
-Verification verify(const vk::Device& device, const Asset& asset, const Environment& prepared, int samples) {
+Verification verify(const vk::Device& device, const Asset& asset, const Environment& prepared, float rotation,
+                    int samples) {
     const Mesh* occluder = &asset.occluder;
     const RayTracer tracer({&occluder, 1});
     Sums sums;
@@ -203,7 +205,7 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
     result.waveletError = sums.wavelet.relative();
     result.quantisationError = sums.quantisation.relative();
     result.brdfError = sums.brdf / samples;
-    result.relightBits = countRelightDifferences(device, asset, prepared);
+    result.relightBits = countRelightDifferences(device, asset, prepared, rotation);
     result.totalError = sums.total.relative();
     return result;
 }

@@ -20,7 +20,8 @@ struct Verification {
 };
 
 // Recomputes `samples` random vertices (seeded, so the same ones every time), and relights all vertices under
-// `prepared` (prepareForSampling) with the light threshold's default.
-Verification verify(const vk::Device& device, const Asset& asset, const Environment& prepared, int samples);
+// `prepared` (prepareForSampling), turned by `rotation` radians, with the light threshold's default.
+Verification verify(const vk::Device& device, const Asset& asset, const Environment& prepared, float rotation,
+                    int samples);
 
 } // namespace relume

@@ -70,7 +70,16 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"bake -o x.relume --occluder some", "--occluder"},
              {"bake -o x.relume --material ashikmin-shirley", "ashikhmin-shirley"},
              {"bake -o x.relume --validation all", "core, sync, gpu, best"},
+             {"bake -o x.png", ".relume"},
+             {"bake -o x.relume --up z scene.json", "--up"},
+             {"bake -o x.relume --ground-extent 2", "--ground"},
              {"render x.relume -o x.jpg", ".exr or .png"},
+             {"render x.relume -o x.png --rotate inf", "--rotate"},
+             {"render x.relume -o x.png --orbit 0,nan,1", "--orbit"},
+             {"render x.relume -o x.png --distant-light nan,0", "--distant-light"},
+             {"render x.relume -o x.png --intensity nan", "--intensity"},
+             {"render x.relume -o x.png --fov nan", "--fov"},
+             {"compare a.exr b.exr --threshold nan", "--threshold"},
              {"render x.relume -o x.png --size 0x4", "--size"},
              {"render x.relume -o x.png --tone film", "--tone"},
              {"reference x.relume -o x.exr --rays 3", "--rays"}}) {
@@ -99,6 +108,15 @@ TEST_CASE("cli: bad input is 1, names the file, and leaves what was there alone"
     CHECK_EQ(empty.exitCode, 1);
     CHECK(says(empty.err, "empty.relume"));
     CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o nowhere/x.relume").exitCode, 1);
+    std::filesystem::create_directory(folder.path() / "folder.relume");
+    const Outcome onFolder = runRelume(folder, std::string(kSmallBake) + "-o folder.relume");
+    CHECK_EQ(onFolder.exitCode, 1);
+    CHECK(says(onFolder.err, "folder.relume"));
+    std::ofstream(folder.path() / "scene.json")
+        << R"({"parts": [{"name": "ball", "mesh": "sphere", "material": "cley"}]})";
+    const Outcome material = runRelume(folder, "bake scene.json -o x.relume");
+    CHECK_EQ(material.exitCode, 1);
+    for (const char* part : {"scene.json", "ball", "clay"}) CHECK(says(material.err, part));
 }
 
 TEST_CASE("cli: without a device the exit code is 4") {

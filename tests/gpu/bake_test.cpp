@@ -23,10 +23,11 @@ Scene smallScene(const std::string& material) {
 TEST_CASE("bake: every stage agrees with its CPU twin and Embree") {
     const TestDevice device;
     BakeOptions options;
+    options.terms = 5; // with batches of 64 vertices, more than a row for each lane of row_starts.comp
     const Asset asset = bake(device, smallScene("ashikhmin-shirley"), options);
-    CHECK_EQ(asset.parts[0].brdf.terms, 4);
+    CHECK_EQ(asset.parts[0].brdf.terms, 5);
     CHECK_EQ(asset.parts[1].brdf.terms, 1); // diffuse: one term is exact
-    const Verification found = verify(device, asset, prepareForSampling(makeSky()), 40);
+    const Verification found = verify(device, asset, prepareForSampling(makeSky()), 0.3f, 40);
     CHECK_LE(found.visibilityMismatch, 0.005);
     CHECK_LE(found.transportError, 1e-4);
     CHECK_LE(found.quantisationError, 0.01);
@@ -57,7 +58,7 @@ TEST_CASE("bake: a simplified occluder, a small cube and progress to the end") {
     const Asset asset = bake(device, smallScene("red-plastic"), options, [&](uint64_t done) { last = done; });
     CHECK_LE(asset.occluder.triangleCount(), 220u);
     CHECK_EQ(last, asset.parts[0].mesh.vertexCount() + asset.parts[1].mesh.vertexCount());
-    const Verification found = verify(device, asset, prepareForSampling(makeSky()), 20);
+    const Verification found = verify(device, asset, prepareForSampling(makeSky()), 0, 20);
     CHECK_LE(found.transportError, 1e-4);
     CHECK_EQ(found.relightBits, 0u);
 }

@@ -399,14 +399,14 @@ TEST_CASE("asset info: JSON with the numbers that matter, whatever text the asse
     Asset asset = sampleAsset();
     auto info = nlohmann::json::parse(describeAssetJson(asset, 12345));
     const SparseTransport& transport = asset.parts[0].transport;
-    CHECK(info["fileBytes"] == 12345);
+    CHECK(info["file_bytes"] == 12345);
     CHECK(info["coefficients"] == 24);
-    CHECK(info["occluderTriangles"] == 19);
+    CHECK(info["occluder_triangles"] == 19);
     CHECK(info["parts"][0]["vertices"] == 19);
     CHECK(info["parts"][0]["terms"] == 3);
     CHECK(info["parts"][0]["entries"] == transport.entries());
-    CHECK(info["parts"][0]["meanEntriesPerRow"] == double(transport.entries()) / 57);
-    CHECK(info["parts"][0]["bytesPerVertex"] == 6.0 * double(transport.entries()) / 19);
+    CHECK(info["parts"][0]["mean_entries_per_row"] == double(transport.entries()) / 57);
+    CHECK(info["parts"][0]["bytes_per_vertex"] == 6.0 * double(transport.entries()) / 19);
     CHECK(info["parts"][0]["material"]["model"] == "lambert");
     CHECK(info["total"]["vertices"] == 30);
     CHECK(info["provenance"]["options"]["terms"] == 3);
