@@ -48,9 +48,12 @@ double relativeRmse(const vk::Device& device, const Asset& asset, const LightCub
     options.width = kWidth;
     options.height = kHeight;
     options.brdf = brdf;
-    return compareImages(relit(device, asset, cube, threshold),
-                         renderReference(asset, viewOf(asset), cube, options))
-        .relativeRmse;
+    const double error = compareImages(relit(device, asset, cube, threshold),
+                                       renderReference(asset, viewOf(asset), cube, options))
+                             .relativeRmse;
+    MESSAGE(asset.parts[0].material, ", N = ", asset.coefficients, ", threshold ", threshold,
+            ": relative RMSE ", error);
+    return error;
 }
 
 } // namespace
