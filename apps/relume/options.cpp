@@ -72,11 +72,11 @@ void CameraArguments::add(CLI::App& command) {
                            ->delimiter(',')
                            ->expected(3)
                            ->check(between(-kLargestNumber, kLargestNumber));
-    mTargetOption = command.add_option("--target", mTarget, "Point looked at (default: the object's middle)")
-                        ->type_name("X,Y,Z")
-                        ->delimiter(',')
-                        ->expected(3)
-                        ->check(between(-kLargestNumber, kLargestNumber));
+    command.add_option("--target", mTarget, "Point looked at (default: the object's middle)")
+        ->type_name("X,Y,Z")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(between(-kLargestNumber, kLargestNumber));
     command
         .add_option("--orbit", mOrbit,
                     "Eye about the object: azimuth and elevation in degrees, distance where 1 just fits it")

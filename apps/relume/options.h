@@ -36,7 +36,6 @@ struct CameraArguments {
     std::vector<float> mEye, mTarget, mOrbit;
     float mFovDegrees = 35;
     std::string mSize;
-    CLI::Option* mTargetOption = nullptr;
 };
 
 // --environment, --rotate, --distant-light, --sphere-light, --intensity
