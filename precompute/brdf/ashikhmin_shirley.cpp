@@ -1,4 +1,5 @@
 #include "engine/math/disk_map.h"
+#include "precompute/brdf/microfacet.h"
 #include "precompute/brdf/models.h"
 
 #include <algorithm>
@@ -17,6 +18,10 @@ class AshikhminShirley final : public Brdf {
         // Lifted, so that neither the half vector nor a denominator can vanish.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         return specular(wi, wo) + diffuse(wi, wo);
+    }
+
+    vec3 evaluateBase(vec3 incoming, vec3 outgoing) const override {
+        return diffuse(liftAboveHorizon(incoming), liftAboveHorizon(outgoing));
     }
 
     nlohmann::json describe() const override {

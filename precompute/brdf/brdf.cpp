@@ -2,7 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
-#include "precompute/brdf/models.h"
+#include "precompute/brdf/model_list.h"
 #include "precompute/brdf/presets.h"
 
 #include <algorithm>
@@ -18,18 +18,6 @@ namespace {
 constexpr size_t kMaxTextSize = 1 << 16;
 constexpr int kMaxDepth = 4;
 
-struct Model {
-    const char* name;
-    std::unique_ptr<Brdf> (*make)(MaterialParameters& parameters);
-};
-
-constexpr Model kModels[] = {
-    {"diffuse", makeDiffuse},
-    {"ashikhmin-shirley", makeAshikhminShirley},
-    {"lafortune", makeLafortune},
-    {"plastic", makePlastic},
-};
-
 json parse(const std::string& text) {
     if (text.size() > kMaxTextSize)
         throw UsageError("material of {} bytes: expected a name, or a JSON object of at most {} bytes",
@@ -44,20 +32,6 @@ json parse(const std::string& text) {
     } catch (const json::exception& error) {
         throw UsageError("material is not valid JSON: {}", error.what());
     }
-}
-
-std::unique_ptr<Brdf> makeModel(const std::string& name, const json& object) {
-    for (const Model& model : kModels) {
-        if (name != model.name) continue;
-        MaterialParameters parameters(name, object);
-        auto brdf = model.make(parameters);
-        parameters.rejectUnknownKeys();
-        return brdf;
-    }
-    std::vector<std::string_view> names;
-    for (const Model& model : kModels) names.push_back(model.name);
-    throw UsageError("unknown model \"{}\"; did you mean \"{}\"? Models: {}", name.substr(0, 60),
-                     nearestName(name, names), fmt::join(names, ", "));
 }
 
 std::unique_ptr<Brdf> makeFromJson(const std::string& text) {
@@ -80,8 +54,8 @@ bool looksLikeJson(const std::string& text) {
     std::vector<std::string_view> names;
     for (const PresetDefinition& preset : presetDefinitions()) names.push_back(preset.name);
     const std::string presets = fmt::format("{}", fmt::join(names, ", "));
-    for (const Model& model : kModels)
-        if (std::find(names.begin(), names.end(), model.name) == names.end()) names.push_back(model.name);
+    for (const std::string_view model : modelNames())
+        if (std::find(names.begin(), names.end(), model) == names.end()) names.push_back(model);
     throw UsageError("unknown material \"{}\"; did you mean \"{}\"? Presets: {}; or a JSON object: "
                      R"({{"model": "plastic", …}})",
                      material.substr(0, 60), nearestName(material, names), presets);
@@ -93,15 +67,15 @@ std::unique_ptr<Brdf> makeBrdf(const std::string& material) {
     if (looksLikeJson(material)) return makeFromJson(material);
     for (const PresetDefinition& preset : presetDefinitions())
         if (material == preset.name) return makeFromJson(preset.json);
-    for (const Model& model : kModels)
-        if (material == model.name) return makeModel(material, json::object());
+    for (const std::string_view model : modelNames())
+        if (material == model) return makeModel(material, json::object());
     failUnknownMaterial(material);
 }
 
 std::vector<MaterialPreset> materialPresets() {
     std::vector<MaterialPreset> presets;
     for (const PresetDefinition& preset : presetDefinitions())
-        presets.push_back({preset.name, preset.description});
+        presets.push_back({preset.name, preset.description, json::parse(preset.json)["model"]});
     return presets;
 }
 

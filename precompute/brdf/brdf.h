@@ -18,6 +18,10 @@ class Brdf {
     // z along the normal, both with z > 0. Never negative, always finite.
     virtual vec3 evaluate(vec3 incoming, vec3 outgoing) const = 0;
 
+    // The part of f that a texture of the base colour (the diffuse albedo) multiplies, per channel: at most
+    // f, without rounding, so that the rest is never negative. Zero for a model that has no such part.
+    virtual vec3 evaluateBase(vec3 /*incoming*/, vec3 /*outgoing*/) const { return vec3(0); }
+
     // Whether f(ωi, ωo) = f(ωo, ωi) by construction.
     virtual bool isReciprocal() const { return true; }
 
@@ -30,9 +34,9 @@ class Brdf {
 // valid range of a parameter.
 std::unique_ptr<Brdf> makeBrdf(const std::string& material);
 
-// Names of all presets, with a line of description each.
+// Names of all presets, with a line of description each, and their model.
 struct MaterialPreset {
-    std::string name, description;
+    std::string name, description, model;
 };
 std::vector<MaterialPreset> materialPresets();
 

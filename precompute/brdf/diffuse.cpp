@@ -9,6 +9,7 @@ class Diffuse final : public Brdf {
     explicit Diffuse(vec3 albedo) : mAlbedo(albedo) {}
 
     vec3 evaluate(vec3, vec3) const override { return mAlbedo / kPi; }
+    vec3 evaluateBase(vec3, vec3) const override { return mAlbedo / kPi; }
 
     nlohmann::json describe() const override {
         return {{"model", "diffuse"}, {"albedo", colourToJson(mAlbedo)}};

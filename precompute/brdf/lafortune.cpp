@@ -32,6 +32,8 @@ class Lafortune final : public Brdf {
         return sum;
     }
 
+    vec3 evaluateBase(vec3, vec3) const override { return mDiffuse / kPi; }
+
     nlohmann::json describe() const override {
         nlohmann::json lobes = nlohmann::json::array();
         for (const Lobe& lobe : mLobes)

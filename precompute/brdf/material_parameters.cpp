@@ -25,13 +25,16 @@ bool isNumberInRange(const json& value, ParameterRange range) {
     return number >= double(range.low) && number <= double(range.high);
 }
 
+std::string colourValues(ParameterRange range) {
+    return fmt::format("number from {} to {}, or [red, green, blue] of such", range.low, range.high);
+}
+
 vec3 readColour(const std::string& owner, const std::string& key, const json& value, ParameterRange range) {
     if (isNumberInRange(value, range)) return vec3(value.get<float>());
     const auto inRange = [&](const json& item) { return isNumberInRange(item, range); };
     if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), inRange))
-        throw UsageError("material {}: \"{}\" must be a number from {} to {}, or [red, green, blue] of such, "
-                         "but is {}",
-                         owner, key, range.low, range.high, excerpt(value));
+        throw UsageError("material {}: \"{}\" must be a {}, but is {}", owner, key, colourValues(range),
+                         excerpt(value));
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
@@ -44,39 +47,56 @@ MaterialParameters::MaterialParameters(std::string owner, json object)
                          excerpt(mObject));
 }
 
-const json* MaterialParameters::find(const std::string& key) {
-    mKnownKeys.push_back(key);
+const json* MaterialParameters::find(const std::string& key, std::string values, std::string fallback) {
+    mAsked.push_back({key, std::move(values), std::move(fallback)});
     const auto found = mObject.find(key);
     return found == mObject.end() ? nullptr : &*found;
 }
 
 float MaterialParameters::number(const std::string& key, float fallback, ParameterRange range) {
-    const json* value = find(key);
+    const std::string values = fmt::format("number from {} to {}", range.low, range.high);
+    const json* value = find(key, values, fmt::format("{}", fallback));
     if (!value) return fallback;
     if (!isNumberInRange(*value, range))
-        throw UsageError("material {}: \"{}\" must be a number from {} to {}, but is {}", mOwner, key,
-                         range.low, range.high, excerpt(*value));
+        throw UsageError("material {}: \"{}\" must be a {}, but is {}", mOwner, key, values, excerpt(*value));
     return value->get<float>();
 }
 
 vec3 MaterialParameters::colour(const std::string& key, vec3 fallback, ParameterRange range) {
-    const json* value = find(key);
+    const bool isGrey = fallback.x == fallback.y && fallback.y == fallback.z;
+    const json* value =
+        find(key, colourValues(range), (isGrey ? numberToJson(fallback.x) : colourToJson(fallback)).dump());
     return value ? readColour(mOwner, key, *value, range) : fallback;
 }
 
 vec3 MaterialParameters::requiredColour(const std::string& key, ParameterRange range) {
-    const json* value = find(key);
+    const json* value = find(key, colourValues(range), "");
     if (!value)
         throw UsageError("material {}: \"{}\" is missing; give a number from {} to {}, or [red, green, blue]",
                          mOwner, key, range.low, range.high);
     return readColour(mOwner, key, *value, range);
 }
 
+std::string MaterialParameters::requiredText(const std::string& key) {
+    const json* value = find(key, "text", "");
+    if (!value || !value->is_string())
+        throw UsageError("material {}: \"{}\" must be a text, but {}", mOwner, key,
+                         value ? "is " + excerpt(*value) : std::string("is missing"));
+    return *value;
+}
+
+std::string MaterialParameters::text(const std::string& key, const std::string& fallback) {
+    if (has(key)) return requiredText(key);
+    find(key, "text", json(fallback).dump());
+    return fallback;
+}
+
 std::vector<MaterialParameters> MaterialParameters::list(const std::string& key, size_t limit) {
-    const json* value = find(key);
+    const std::string values = fmt::format("array of at most {} objects", limit);
+    const json* value = find(key, values, "");
     if (!value || !value->is_array() || value->size() > limit)
-        throw UsageError("material {}: \"{}\" must be an array of at most {} objects, but {}", mOwner, key,
-                         limit, value ? "is " + excerpt(*value) : std::string("is missing"));
+        throw UsageError("material {}: \"{}\" must be an {}, but {}", mOwner, key, values,
+                         value ? "is " + excerpt(*value) : std::string("is missing"));
     std::vector<MaterialParameters> items;
     for (size_t i = 0; i < value->size(); i++)
         items.emplace_back(fmt::format("{}, {}[{}]", mOwner, key, i), (*value)[i]);
@@ -84,7 +104,8 @@ std::vector<MaterialParameters> MaterialParameters::list(const std::string& key,
 }
 
 void MaterialParameters::rejectUnknownKeys() const {
-    const std::vector<std::string_view> known(mKnownKeys.begin(), mKnownKeys.end());
+    std::vector<std::string_view> known;
+    for (const MaterialParameter& parameter : mAsked) known.push_back(parameter.name);
     for (const auto& [key, value] : mObject.items())
         if (std::find(known.begin(), known.end(), key) == known.end())
             throw UsageError("material {}: unknown parameter \"{}\"; did you mean \"{}\"?", mOwner,

@@ -1,8 +1,7 @@
 #include "engine/base/error.h"
 #include "engine/math/disk_map.h"
+#include "precompute/brdf/microfacet.h"
 #include "precompute/brdf/models.h"
-
-#include <cmath>
 
 namespace relume {
 
@@ -17,10 +16,13 @@ class Plastic final : public Brdf {
         // Lifted, so that neither the half vector nor a denominator can vanish.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         const auto [half, cosine] = HalfVector(wi, wo);
-        const vec3 fresnel = schlickFresnel(mReflectance, cosine);
-        const vec3 through =
-            (1.0f - schlickFresnel(mReflectance, wi.z)) * (1.0f - schlickFresnel(mReflectance, wo.z));
-        return mDiffuse * through / kPi + fresnel * (distribution(half) * visibility(wi.z, wo.z));
+        const Ggx facets{mRoughness, mRoughness};
+        return coatedBase(mDiffuse, mReflectance, wi, wo) +
+               schlickFresnel(mReflectance, cosine) * (facets.distribution(half) * facets.visibility(wi, wo));
+    }
+
+    vec3 evaluateBase(vec3 incoming, vec3 outgoing) const override {
+        return coatedBase(mDiffuse, mReflectance, liftAboveHorizon(incoming), liftAboveHorizon(outgoing));
     }
 
     nlohmann::json describe() const override {
@@ -31,22 +33,6 @@ class Plastic final : public Brdf {
     }
 
   private:
-    // GGX, Walter et al. 2007, equation 33; written without a difference of nearly equal numbers.
-    float distribution(vec3 half) const {
-        const float squared = mRoughness * mRoughness;
-        const float root = half.x * half.x + half.y * half.y + squared * half.z * half.z;
-        return squared / (kPi * root * root);
-    }
-
-    // G / (4 cosθi cosθo), Heitz 2014, equation 99.
-    float visibility(float cosineIn, float cosineOut) const {
-        const float squared = mRoughness * mRoughness;
-        const auto masked = [&](float cosine) {
-            return std::sqrt(squared + (1 - squared) * cosine * cosine);
-        };
-        return 0.5f / (cosineOut * masked(cosineIn) + cosineIn * masked(cosineOut));
-    }
-
     vec3 mDiffuse, mReflectance;
     float mRoughness;
 };
