@@ -6,21 +6,38 @@
 namespace relume {
 
 vec2 diskMapCoordinates(DiskMapping mapping, vec3 local) {
-    if (mapping == DiskMapping::Orthographic) return {0.5f * local.x + 0.5f, 0.5f * local.y + 0.5f};
-    return {std::atan2(local.y, local.x) / (2.0f * kPi) + 0.5f, std::sqrt(std::max(0.0f, 1.0f - local.z))};
+    switch (mapping) {
+    case DiskMapping::Orthographic:
+        return {0.5f * local.x + 0.5f, 0.5f * local.y + 0.5f};
+    case DiskMapping::Polar:
+        return {std::atan2(local.y, local.x) / (2.0f * kPi) + 0.5f,
+                std::sqrt(std::max(0.0f, 1.0f - local.z))};
+    case DiskMapping::EqualArea:
+        break;
+    }
+    const float scale = 0.5f / std::sqrt(1.0f + std::max(local.z, 0.0f));
+    return {scale * local.x + 0.5f, scale * local.y + 0.5f};
 }
 
 std::optional<vec3> diskMapDirection(DiskMapping mapping, vec2 coordinates) {
-    if (mapping == DiskMapping::Orthographic) {
-        const vec2 disk = 2.0f * coordinates - 1.0f;
-        const float squared = glm::dot(disk, disk);
-        if (squared >= 1.0f) return std::nullopt;
-        return vec3(disk, std::sqrt(1.0f - squared));
+    if (mapping == DiskMapping::Polar) {
+        const float angle = (coordinates.x - 0.5f) * 2.0f * kPi;
+        const float z = 1.0f - coordinates.y * coordinates.y;
+        const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
+        return vec3(radius * std::cos(angle), radius * std::sin(angle), z);
     }
-    const float angle = (coordinates.x - 0.5f) * 2.0f * kPi;
-    const float z = 1.0f - coordinates.y * coordinates.y;
-    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    return vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+    const vec2 disk = 2.0f * coordinates - 1.0f;
+    const float squared = glm::dot(disk, disk);
+    if (squared >= 1.0f) return std::nullopt;
+    if (mapping == DiskMapping::Orthographic) return vec3(disk, std::sqrt(1.0f - squared));
+    return vec3(disk * std::sqrt(2.0f - squared), 1.0f - squared);
+}
+
+float diskMapSolidAngle(DiskMapping mapping, vec2 coordinates) {
+    if (mapping == DiskMapping::Polar) return 4.0f * kPi * coordinates.y;
+    if (mapping == DiskMapping::EqualArea) return 8.0f;
+    const vec2 disk = 2.0f * coordinates - 1.0f;
+    return 4.0f / std::sqrt(1.0f - glm::dot(disk, disk));
 }
 
 vec3 liftAboveHorizon(vec3 local) {
@@ -28,11 +45,19 @@ vec3 liftAboveHorizon(vec3 local) {
 }
 
 std::string_view diskMappingName(DiskMapping mapping) {
-    return mapping == DiskMapping::Orthographic ? "orthographic" : "polar";
+    switch (mapping) {
+    case DiskMapping::Orthographic:
+        return "orthographic";
+    case DiskMapping::Polar:
+        return "polar";
+    case DiskMapping::EqualArea:
+        break;
+    }
+    return "equal-area";
 }
 
 std::optional<DiskMapping> diskMappingFromName(std::string_view name) {
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar})
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea})
         if (name == diskMappingName(mapping)) return mapping;
     return std::nullopt;
 }

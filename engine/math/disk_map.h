@@ -13,6 +13,7 @@ namespace relume {
 enum class DiskMapping : uint32_t {
     Orthographic = 0, // (x, y) = ((d·s + 1) / 2, (d·t + 1) / 2)
     Polar = 1,        // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - d·n))
+    EqualArea = 2,    // (x, y) = ((d·s, d·t) / sqrt(1 + d·n) + 1) / 2: Lambert's azimuthal projection
 };
 
 // Map coordinates in [0, 1]² of a unit direction in its local frame, z ≥ 0.
@@ -21,12 +22,15 @@ vec2 diskMapCoordinates(DiskMapping mapping, vec3 local);
 // The unit direction at map coordinates, or nothing where the map has none (outside the disk).
 std::optional<vec3> diskMapDirection(DiskMapping mapping, vec2 coordinates);
 
+// Solid angle per unit of map area at coordinates inside the map's domain, in sr.
+float diskMapSolidAngle(DiskMapping mapping, vec2 coordinates);
+
 // A direction with z at least kGrazingCosine: one at or below the horizon, as interpolated normals
 // give at silhouettes, is lifted to just above it and normalised. Every view lookup goes through it.
 constexpr float kGrazingCosine = 1e-3f;
 vec3 liftAboveHorizon(vec3 local);
 
-// "orthographic" and "polar".
+// "orthographic", "polar" and "equal-area".
 std::string_view diskMappingName(DiskMapping mapping);
 std::optional<DiskMapping> diskMappingFromName(std::string_view name);
 

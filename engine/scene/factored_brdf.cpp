@@ -19,13 +19,11 @@ vec3 lookupMap(const vec3* map, int size, DiskMapping mapping, vec3 local) {
     return glm::mix(top, bottom, weight.y);
 }
 
-vec3 evaluate(const FactoredBrdf& brdf, vec3 incoming, vec3 outgoing) {
+vec3 evaluate(const FactoredBrdf& brdf, vec3 incoming, vec3 outgoing, int layer) {
     vec3 sum(0);
-    for (int term = 0; term < brdf.terms; term++) {
-        const size_t start = size_t(term) * brdf.mapTexels();
-        sum += lookupMap(&brdf.lightMaps[start], brdf.size, brdf.mapping, incoming) *
-               lookupMap(&brdf.viewMaps[start], brdf.size, brdf.mapping, outgoing);
-    }
+    for (int term = 0; term < brdf.terms; term++)
+        sum += lookupMap(brdf.lightMap(term), brdf.size, brdf.mapping, incoming) *
+               lookupMap(brdf.viewMap(layer, term), brdf.size, brdf.mapping, outgoing);
     return sum;
 }
 

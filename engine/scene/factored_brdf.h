@@ -1,4 +1,4 @@
-// A BRDF as a sum of K products of a light map and a view map.
+// BRDFs as sums of K products of a light map and a view map.
 #pragma once
 
 #include "engine/math/disk_map.h"
@@ -10,24 +10,32 @@ namespace relume {
 
 constexpr int kMaxTerms = 32; // K
 
-// f(ωi, ωo) ≈ Σk lightMap_k(ωi) viewMap_k(ωo), per colour channel; ωi and ωo in the local frame.
-// Maps are `size` × `size` texels, row by row, term after term, already extended beyond the disk's rim
-// so that bilinear lookups near it need no special case.
+// f_j(ωi, ωo) ≈ Σk lightMap_k(ωi) viewMap_jk(ωo), per colour channel; ωi and ωo in the local frame. The
+// layers j are BRDFs, or parts of one, that share their light maps: what is baked with them serves all. Maps
+// are `size` × `size` texels, row by row, term after term, layer after layer, already extended beyond the
+// disk's rim so that bilinear lookups near it need no special case.
 struct FactoredBrdf {
     int size = 0;  // S, texels a side
     int terms = 0; // K
+    int layers = 1;
     DiskMapping mapping = DiskMapping::Orthographic;
-    std::vector<vec3> lightMaps;                   // terms × size × size
-    std::vector<vec3> viewMaps;                    // terms × size × size
-    std::vector<std::array<float, 3>> eigenvalues; // per term: one per channel, signed, by falling size
+    std::vector<vec3> lightMaps; // terms × size × size
+    std::vector<vec3> viewMaps;  // layers × terms × size × size
+    // Per term, of the matrix that was factored, one per channel, by falling size: eigenvalues, signed, of a
+    // single reciprocal BRDF under symmetric weights; singular values otherwise.
+    std::vector<std::array<float, 3>> eigenvalues;
 
     size_t mapTexels() const { return size_t(size) * size_t(size); }
+    const vec3* lightMap(int term) const { return &lightMaps[size_t(term) * mapTexels()]; }
+    const vec3* viewMap(int layer, int term) const {
+        return &viewMaps[size_t(layer * terms + term) * mapTexels()];
+    }
 };
 
 // Bilinear lookup of one map of size × size texels, clamped at its border (polar maps wrap in x).
 vec3 lookupMap(const vec3* map, int size, DiskMapping mapping, vec3 local);
 
-// The K-term sum at a pair of local directions; not clamped, so it can be negative.
-vec3 evaluate(const FactoredBrdf& brdf, vec3 incoming, vec3 outgoing);
+// The K-term sum of a layer at a pair of local directions; not clamped, so it can be negative.
+vec3 evaluate(const FactoredBrdf& brdf, vec3 incoming, vec3 outgoing, int layer = 0);
 
 } // namespace relume

@@ -3,6 +3,9 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "precompute/brdf/eigenpairs.h"
+#include "precompute/brdf/factorization_error.h"
+#include "precompute/brdf/light_metric.h"
+#include "precompute/brdf/low_rank.h"
 
 #include <algorithm>
 #include <climits>
@@ -12,18 +15,22 @@
 
 namespace relume {
 
+using Eigen::Index;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
 namespace {
 
 constexpr float kReciprocalAsymmetry = 1e-3f; // rounding and tabulated fits stay below
-constexpr float kDroppedTerm = 1e-6f;         // relative to the first
+constexpr float kDroppedTerm = 1e-5f;         // relative to the first
 
-// M ≈ Σk light_k view_kᵀ of one channel.
+constexpr std::string_view kNames[] = {"paper", "cosine", "environment", "nonnegative"};
+
+// M_j ≈ Σk light_k view_jkᵀ of one channel.
 struct ChannelFactors {
-    VectorXf values;      // eigenvalues, or singular values, by falling magnitude
-    MatrixXf light, view; // n × values
+    VectorXf values;
+    MatrixXf light;             // n × values
+    std::vector<MatrixXf> view; // per layer, n × values
 
     // How many are worth keeping.
     int terms() const {
@@ -32,37 +39,86 @@ struct ChannelFactors {
     }
 };
 
-ChannelFactors factorizeSymmetric(const MatrixXf& matrix, int terms) {
-    const MatrixXf symmetric = (matrix + matrix.transpose()) / 2; // rounding errors of the model removed
+// Square roots of the weights of errors of f: ‖light · error · diag(view)‖ is what a factorization makes
+// least.
+struct Weights {
+    MatrixXf light;     // n × n, upper triangular; empty where it is diagonal
+    VectorXf lightRoot; // its diagonal then
+    VectorXf view;
+
+    MatrixXf apply(const MatrixXf& matrix) const {
+        if (light.size() == 0) return lightRoot.asDiagonal() * matrix * view.asDiagonal();
+        const MatrixXf seen = matrix * view.asDiagonal();
+        return light.triangularView<Eigen::Upper>() * seen;
+    }
+};
+
+Weights weightsOf(const BrdfTable& table, Factorization method) {
+    const auto n = Index(table.directions.size());
+    if (method == Factorization::Environment) return {lightMetric(table), {}, viewMetric(table)};
+    VectorXf root = VectorXf::Ones(n);
+    if (method != Factorization::Paper)
+        for (Index i = 0; i < n; i++)
+            root[i] = table.directions[size_t(i)].z * std::sqrt(table.solidAngles[size_t(i)]);
+    return {{}, root, root};
+}
+
+// The map of largest magnitude is positive where it is largest: the same sign whatever the rounding.
+void settleSigns(ChannelFactors& factors) {
+    for (Index k = 0; k < factors.light.cols(); k++) {
+        const auto map = factors.light.col(k);
+        const float threshold = 0.999f * map.cwiseAbs().maxCoeff();
+        const auto first =
+            std::find_if(map.begin(), map.end(), [&](float v) { return std::abs(v) >= threshold; });
+        if (first == map.end() || *first >= 0) continue;
+        factors.light.col(k) *= -1;
+        for (MatrixXf& view : factors.view) view.col(k) *= -1;
+    }
+}
+
+ChannelFactors factorizeSymmetric(const MatrixXf& matrix, const VectorXf& root, int terms) {
+    const MatrixXf weighted = root.asDiagonal() * matrix * root.asDiagonal();
+    const MatrixXf symmetric = (weighted + weighted.transpose()) / 2; // rounding errors of the model removed
     const Eigenpairs pairs = largestEigenpairs(symmetric, terms);
     ChannelFactors factors;
     factors.values = pairs.values;
-    factors.light = pairs.vectors * pairs.values.cwiseAbs().cwiseSqrt().asDiagonal();
-    factors.view = factors.light * pairs.values.cwiseSign().asDiagonal();
+    factors.light =
+        root.cwiseInverse().asDiagonal() * pairs.vectors * pairs.values.cwiseAbs().cwiseSqrt().asDiagonal();
+    factors.view = {factors.light * pairs.values.cwiseSign().asDiagonal()};
     return factors;
 }
 
-// Singular triplets σ, u, v of M are the eigenpairs ±σ, (u, ±v) / √2 of the symmetric [0 M; Mᵀ 0]: the same
-// iteration finds them without squaring M, which would lose the small ones.
-ChannelFactors factorizeUnsymmetric(const MatrixXf& matrix, int terms) {
-    const Eigen::Index n = matrix.rows();
-    const auto apply = [&](const MatrixXf& block) {
-        MatrixXf product(2 * n, block.cols());
-        product.topRows(n).noalias() = matrix * block.bottomRows(n);
-        product.bottomRows(n).noalias() = matrix.transpose() * block.topRows(n);
-        return product;
-    };
-    const Eigenpairs pairs = largestEigenpairs(apply, int(2 * n), 2 * terms);
-    ChannelFactors factors{VectorXf::Zero(terms), MatrixXf::Zero(n, terms), MatrixXf::Zero(n, terms)};
-    int term = 0;
-    for (int k = 0; k < 2 * terms && term < terms; k++) {
-        if (pairs.values[k] <= 0) continue;
-        factors.values[term] = pairs.values[k];
-        const VectorXf scaled = std::sqrt(2 * pairs.values[k]) * pairs.vectors.col(k);
-        factors.light.col(term) = scaled.head(n);
-        factors.view.col(term) = scaled.tail(n);
-        term++;
+ChannelFactors factorizeGeneral(const std::vector<const MatrixXf*>& matrices, const Weights& weights,
+                                Factorization method, int terms) {
+    std::vector<MatrixXf> blocks;
+    std::vector<float> sizes;
+    for (const MatrixXf* matrix : matrices) {
+        blocks.push_back(weights.apply(*matrix));
+        const float norm = blocks.back().norm();
+        sizes.push_back(norm > 0 ? norm : 1); // black
+        blocks.back() /= sizes.back();
     }
+    const bool nonNegative = method == Factorization::NonNegative;
+    const LowRank found = nonNegative ? nonNegativeLowRank(blocks, terms) : lowRank(blocks, terms);
+
+    ChannelFactors factors;
+    factors.values = found.values;
+    if (matrices.size() == 1) factors.values *= sizes[0];
+    const VectorXf root = found.values.cwiseSqrt();
+    const VectorXf inverse = root.unaryExpr([](float v) { return v > 0 ? 1 / v : 0.0f; });
+    if (nonNegative)
+        factors.light = weights.lightRoot.cwiseInverse().asDiagonal() * found.left * root.asDiagonal();
+    else
+        // The light factors for these view factors, without dividing by the light's weights.
+        factors.light = MatrixXf::Zero(found.left.rows(), terms);
+    for (size_t j = 0; j < matrices.size(); j++) {
+        if (!nonNegative)
+            factors.light.noalias() += *matrices[j] * (weights.view.asDiagonal() * found.right[j] *
+                                                       (inverse / sizes[j]).asDiagonal());
+        factors.view.push_back(weights.view.cwiseInverse().asDiagonal() * found.right[j] *
+                               (root * sizes[j]).asDiagonal());
+    }
+    settleSigns(factors);
     return factors;
 }
 
@@ -86,63 +142,124 @@ std::vector<int> nearestDirections(const BrdfTable& table) {
 
 void writeChannel(const ChannelFactors& factors, const std::vector<int>& nearest, int channel,
                   FactoredBrdf& brdf) {
-    for (int term = 0; term < factors.terms(); term++) {
+    const auto write = [&](std::vector<vec3>& maps, int first, const MatrixXf& values, int term) {
+        vec3* map = &maps[size_t(first + term) * brdf.mapTexels()];
+        for (size_t texel = 0; texel < nearest.size(); texel++)
+            map[texel][channel] = values(nearest[texel], term);
+    };
+    for (int term = 0; term < std::min(factors.terms(), brdf.terms); term++) {
         brdf.eigenvalues[size_t(term)][size_t(channel)] = factors.values[term];
-        const size_t start = size_t(term) * brdf.mapTexels();
-        for (size_t texel = 0; texel < nearest.size(); texel++) {
-            brdf.lightMaps[start + texel][channel] = factors.light(nearest[texel], term);
-            brdf.viewMaps[start + texel][channel] = factors.view(nearest[texel], term);
-        }
+        write(brdf.lightMaps, 0, factors.light, term);
+        for (int layer = 0; layer < brdf.layers; layer++)
+            write(brdf.viewMaps, layer * brdf.terms, factors.view[size_t(layer)], term);
     }
 }
 
-// For each channel the first channel with the same values: itself unless it repeats an earlier one.
-std::array<int, 3> firstEqualChannels(const BrdfTable& table) {
-    std::array<int, 3> first{};
-    for (int c = 0; c < 3; c++)
-        while (first[size_t(c)] < c && table.channels[size_t(first[size_t(c)])] != table.channels[size_t(c)])
-            first[size_t(c)]++;
+// For each channel the first channel with the same values in all tables: itself unless it repeats an earlier
+// one.
+std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
+    const auto equal = [&](size_t a, size_t b) {
+        return std::all_of(tables.begin(), tables.end(),
+                           [&](const BrdfTable& table) { return table.channels[a] == table.channels[b]; });
+    };
+    std::array<size_t, 3> first{};
+    for (size_t c = 0; c < 3; c++)
+        while (first[c] < c && !equal(first[c], c)) first[c]++;
     return first;
 }
 
-std::array<ChannelFactors, 3> factorizeChannels(const BrdfTable& table, int terms) {
-    const bool symmetric = table.asymmetry <= kReciprocalAsymmetry;
-    if (!symmetric)
-        spdlog::warn("BRDF is not reciprocal (asymmetry {:.2g}): factored by SVD, with light and view maps "
-                     "of their own",
-                     table.asymmetry);
-    const std::array<int, 3> first = firstEqualChannels(table);
+std::array<ChannelFactors, 3> factorizeChannels(std::span<const BrdfTable> tables, Factorization method,
+                                                int terms) {
+    const Weights weights = weightsOf(tables[0], method);
+    const bool isSymmetric = tables.size() == 1 && tables[0].asymmetry <= kReciprocalAsymmetry &&
+                             (method == Factorization::Paper || method == Factorization::Cosine);
+    const std::array<size_t, 3> first = firstEqualChannels(tables);
     std::array<ChannelFactors, 3> factors;
     tbb::parallel_for(size_t(0), size_t(3), [&](size_t c) {
-        if (first[c] != int(c)) return;
-        const MatrixXf& matrix = table.channels[c];
-        factors[c] = symmetric ? factorizeSymmetric(matrix, terms) : factorizeUnsymmetric(matrix, terms);
+        if (first[c] != c) return;
+        std::vector<const MatrixXf*> matrices;
+        for (const BrdfTable& table : tables) matrices.push_back(&table.channels[c]);
+        factors[c] = isSymmetric ? factorizeSymmetric(*matrices[0], weights.view, terms)
+                                 : factorizeGeneral(matrices, weights, method, terms);
     });
     for (size_t c = 0; c < 3; c++)
-        if (first[c] != int(c)) factors[c] = factors[size_t(first[c])];
+        if (first[c] != c) factors[c] = factors[first[c]];
     return factors;
+}
+
+FactoredBrdf assemble(std::span<const BrdfTable> tables, const std::array<ChannelFactors, 3>& channels,
+                      int terms) {
+    FactoredBrdf brdf;
+    brdf.size = tables[0].size;
+    brdf.mapping = tables[0].mapping;
+    brdf.layers = int(tables.size());
+    brdf.terms = terms;
+    brdf.lightMaps.assign(size_t(terms) * brdf.mapTexels(), vec3(0));
+    brdf.viewMaps.assign(size_t(brdf.layers * terms) * brdf.mapTexels(), vec3(0));
+    brdf.eigenvalues.assign(size_t(terms), {0, 0, 0});
+    const std::vector<int> nearest = nearestDirections(tables[0]);
+    for (int c = 0; c < 3; c++) writeChannel(channels[size_t(c)], nearest, c, brdf);
+    return brdf;
+}
+
+// The least number of terms whose error is at or below `wanted`, for every layer.
+int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf& brdf) {
+    std::vector<float> worst(size_t(brdf.terms), 0);
+    for (int layer = 0; layer < brdf.layers; layer++) {
+        const std::vector<float> errors = expectedErrors(tables[size_t(layer)], brdf, layer);
+        for (size_t k = 0; k < worst.size(); k++) worst[k] = std::max(worst[k], errors[k]);
+    }
+    const auto enough =
+        std::find_if(worst.begin(), worst.end(), [&](float error) { return error <= wanted; });
+    if (enough != worst.end()) return int(enough - worst.begin()) + 1;
+    spdlog::warn("an error of {} asks for more than {} BRDF terms, which leave {:.3g}; going on with these",
+                 wanted, brdf.terms, worst.back());
+    return brdf.terms;
 }
 
 } // namespace
 
-FactoredBrdf factorize(const BrdfTable& table, const FactorizationOptions& options) {
+std::string_view factorizationName(Factorization method) { return kNames[size_t(method)]; }
+
+std::optional<Factorization> factorizationFromName(std::string_view name) {
+    const auto found = std::find(std::begin(kNames), std::end(kNames), name);
+    if (found == std::end(kNames)) return std::nullopt;
+    return Factorization(found - std::begin(kNames));
+}
+
+TexelValue texelValueOf(Factorization method) {
+    return method == Factorization::Paper ? TexelValue::Centre : TexelValue::Mean;
+}
+
+FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {
     if (options.terms < 1 || options.terms > kMaxTerms)
         throw UsageError("{} BRDF terms: choose from 1 to {}", options.terms, kMaxTerms);
-    RELUME_CHECK(!table.directions.empty());
-    const int wanted = std::min(options.terms, int(table.directions.size()));
-    const std::array<ChannelFactors, 3> channels = factorizeChannels(table, wanted);
+    if (options.wantedError && options.method == Factorization::NonNegative)
+        throw UsageError(
+            "terms chosen by error need terms that are good one by one, which those of factorization "
+            "\"nonnegative\" are not: give their number");
+    RELUME_CHECK(!tables.empty());
+    for (const BrdfTable& table : tables) {
+        RELUME_CHECK(!table.directions.empty());
+        RELUME_CHECK(table.size == tables[0].size && table.mapping == tables[0].mapping);
+        if (table.asymmetry > kReciprocalAsymmetry)
+            spdlog::warn(
+                "BRDF is not reciprocal (asymmetry {:.2g}): factored by SVD, with light and view maps "
+                "of their own",
+                table.asymmetry);
+    }
+    const int wanted = std::min(options.terms, int(tables[0].directions.size()));
+    const std::array<ChannelFactors, 3> channels = factorizeChannels(tables, options.method, wanted);
+    int terms = 1; // a black BRDF has one, of zeros
+    for (const ChannelFactors& factors : channels) terms = std::max(terms, factors.terms());
+    FactoredBrdf brdf = assemble(tables, channels, terms);
+    if (!options.wantedError) return brdf;
+    const int enough = termsFor(*options.wantedError, tables, brdf);
+    return enough == terms ? brdf : assemble(tables, channels, enough);
+}
 
-    FactoredBrdf brdf;
-    brdf.size = table.size;
-    brdf.mapping = table.mapping;
-    brdf.terms = 1; // a black BRDF has one, of zeros
-    for (const ChannelFactors& factors : channels) brdf.terms = std::max(brdf.terms, factors.terms());
-    brdf.lightMaps.assign(size_t(brdf.terms) * brdf.mapTexels(), vec3(0));
-    brdf.viewMaps.assign(size_t(brdf.terms) * brdf.mapTexels(), vec3(0));
-    brdf.eigenvalues.assign(size_t(brdf.terms), {0, 0, 0});
-    const std::vector<int> nearest = nearestDirections(table);
-    for (int c = 0; c < 3; c++) writeChannel(channels[size_t(c)], nearest, c, brdf);
-    return brdf;
+FactoredBrdf factorize(const BrdfTable& table, const FactorizationOptions& options) {
+    return factorize(std::span(&table, 1), options);
 }
 
 } // namespace relume

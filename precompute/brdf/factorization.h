@@ -1,23 +1,50 @@
-// From a tabulated BRDF to its K largest terms (all-frequency relighting, 2004, section 3 and appendix).
+// From tabulated BRDFs to their K largest terms. docs/factorization.md compares the ways to do it.
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
 #include "precompute/brdf/tabulation.h"
 
+#include <optional>
+#include <span>
+#include <string_view>
+
 namespace relume {
+
+enum class Factorization {
+    // Eigenpairs of the table of f as it is (all-frequency relighting, 2004, section 3 and appendix).
+    Paper,
+    // Of f times cosθ √solid angle on either side: least squares of f cosθi cosθo over both hemispheres.
+    Cosine,
+    // Singular triplets of f weighted by what environments and pixels ask for (light_metric.h): least squares
+    // of
+    // reflected radiance as it is seen.
+    Environment,
+    // As Cosine, with maps that are nowhere negative: sums cannot undershoot, for a larger error.
+    NonNegative,
+};
+
+// "paper", "cosine", "environment" and "nonnegative".
+std::string_view factorizationName(Factorization method);
+std::optional<Factorization> factorizationFromName(std::string_view name);
+
+// What tables to factor: the paper's hold f at texel centres, all others its means.
+TexelValue texelValueOf(Factorization method);
 
 struct FactorizationOptions {
     int terms = 4; // K, 1 to kMaxTerms
+    Factorization method = Factorization::Environment;
+    // Instead of `terms` the least number of them, up to `terms`, whose expectedErrors() of every layer are
+    // at or below this; where all of them are not enough, all, and the log says so. Not for NonNegative,
+    // whose terms are only good together.
+    std::optional<float> wantedError;
 };
 
-// Eigenpairs of largest |λ|, per channel. The light map is √|λ| v, the view map √|λ| v times the sign of
-// λ. An unsymmetric table (not reciprocal) is factored by SVD instead, said so in the log. Terms below
-// 1e-6 of the first are dropped, so a diffuse BRDF has one. Deterministic.
+// Factors the tables jointly: a layer each, one set of light maps. Every table counts alike, whatever its
+// size. A single reciprocal BRDF in Paper's or Cosine's way is factored by eigenpairs of largest |λ| per
+// channel: its light map is √|λ| v over the weights, the view map that times the sign of λ. All else is by
+// singular triplets. Terms below 1e-5 of the first are dropped, so a diffuse BRDF has one. All tables have
+// the same size and mapping. Deterministic.
+FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options);
 FactoredBrdf factorize(const BrdfTable& table, const FactorizationOptions& options);
-
-// sqrt(Σ (f̃ - f)² cos²θi cos²θo / Σ f² cos²θi cos²θo) over `pairs` random pairs of directions, uniform on
-// the hemisphere, mean over channels: the cos-weighted relative RMS of K terms as bilinear lookups return
-// them.
-float factorizationError(const Brdf& brdf, const FactoredBrdf& factored, int pairs = 80000);
 
 } // namespace relume

@@ -1,41 +1,121 @@
-#include "engine/base/check.h"
-#include "precompute/brdf/factorization.h"
+#include "precompute/brdf/factorization_error.h"
 
+#include "engine/base/check.h"
+#include "precompute/brdf/light_metric.h"
+#include "precompute/brdf/random_directions.h"
+
+#include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace relume {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::MatrixXf;
+using Eigen::VectorXd;
+using Eigen::VectorXf;
+
 namespace {
 
-// In [0, 1), from bits, so that every standard library gives the same.
-float uniform(std::mt19937& random) { return float(random() >> 8) * 0x1p-24f; }
+struct ChannelMaps {
+    MatrixXf light, view; // n × terms, at the table's texels
+};
 
-vec3 uniformHemisphere(std::mt19937& random) {
-    const float z = 1.0f - uniform(random); // in (0, 1]
-    const float angle = 2 * kPi * uniform(random);
-    const float radius = std::sqrt(1 - z * z);
-    return {radius * std::cos(angle), radius * std::sin(angle), z};
+ChannelMaps mapsOf(const BrdfTable& table, const FactoredBrdf& factored, int layer, int channel) {
+    const auto n = Index(table.texels.size());
+    ChannelMaps maps{MatrixXf(n, factored.terms), MatrixXf(n, factored.terms)};
+    for (int term = 0; term < factored.terms; term++)
+        for (Index i = 0; i < n; i++) {
+            const ivec2 texel = table.texels[size_t(i)];
+            const int place = texel.y * factored.size + texel.x;
+            maps.light(i, term) = factored.lightMap(term)[place][channel];
+            maps.view(i, term) = factored.viewMap(layer, term)[place][channel];
+        }
+    return maps;
+}
+
+// ‖target - Σ left_k right_kᵀ‖² after each term, without forming a sum: from its products with the factors.
+VectorXd squaredResiduals(const MatrixXf& target, const ChannelMaps& maps) {
+    const MatrixXd left = maps.light.cast<double>(), right = maps.view.cast<double>();
+    const MatrixXd grams = (left.transpose() * left).cwiseProduct(right.transpose() * right);
+    const VectorXd products = left.cwiseProduct((target * maps.view).cast<double>()).colwise().sum();
+    VectorXd residuals(left.cols());
+    double residual = target.cast<double>().squaredNorm();
+    for (Index k = 0; k < left.cols(); k++) {
+        residual += grams(k, k) + 2 * grams.col(k).head(k).sum() - 2 * products[k];
+        residuals[k] = std::max(residual, 0.0);
+    }
+    return residuals;
+}
+
+std::vector<float> relative(const VectorXd& residuals, double total) {
+    std::vector<float> errors;
+    for (const double residual : residuals)
+        errors.push_back(total > 0 ? float(std::sqrt(residual / total)) : 0);
+    return errors;
 }
 
 } // namespace
 
-float factorizationError(const Brdf& brdf, const FactoredBrdf& factored, int pairs) {
-    RELUME_CHECK_LE(1, pairs);
-    std::mt19937 random(80000);
-    glm::dvec3 difference(0), total(0);
-    for (int pair = 0; pair < pairs; pair++) {
-        const vec3 incoming = uniformHemisphere(random), outgoing = uniformHemisphere(random);
-        const double weight = double(incoming.z) * double(outgoing.z);
-        const glm::dvec3 exact(brdf.evaluate(incoming, outgoing));
-        const glm::dvec3 error = glm::dvec3(evaluate(factored, incoming, outgoing)) - exact;
-        difference += error * error * weight * weight;
-        total += exact * exact * weight * weight;
+std::vector<float> frobeniusResiduals(const BrdfTable& table, const FactoredBrdf& factored, int layer) {
+    std::vector<float> mean(size_t(factored.terms), 0);
+    for (int c = 0; c < 3; c++) {
+        const MatrixXf& target = table.channels[size_t(c)];
+        const std::vector<float> errors = relative(
+            squaredResiduals(target, mapsOf(table, factored, layer, c)), target.cast<double>().squaredNorm());
+        for (size_t k = 0; k < mean.size(); k++) mean[k] += errors[k] / 3;
     }
-    double sum = 0;
-    for (int c = 0; c < 3; c++)
-        if (total[c] > 0) sum += std::sqrt(difference[c] / total[c]); // a black channel has no error
-    return float(sum / 3);
+    return mean;
+}
+
+std::vector<float> expectedErrors(const BrdfTable& table, const FactoredBrdf& factored, int layer) {
+    const MatrixXf lights = lightMetric(table);
+    const VectorXf views = viewMetric(table);
+    VectorXd residuals = VectorXd::Zero(factored.terms);
+    double total = 0;
+    for (int c = 0; c < 3; c++) {
+        const MatrixXf seen = table.channels[size_t(c)] * views.asDiagonal();
+        const MatrixXf target = lights.triangularView<Eigen::Upper>() * seen;
+        ChannelMaps maps = mapsOf(table, factored, layer, c);
+        maps.light = (lights.triangularView<Eigen::Upper>() * maps.light).eval();
+        maps.view = (views.asDiagonal() * maps.view).eval();
+        residuals += squaredResiduals(target, maps);
+        total += target.cast<double>().squaredNorm();
+    }
+    return relative(residuals, total);
+}
+
+RmsErrors rmsErrors(const Brdf& brdf, const FactoredBrdf& factored, int layer, int layers, int pairs) {
+    RELUME_CHECK_LE(1, pairs);
+    RandomDirections random(80000);
+    const auto terms = size_t(factored.terms);
+    std::vector<glm::dvec3> differences(terms, glm::dvec3(0));
+    glm::dvec3 total(0);
+    for (int pair = 0; pair < pairs; pair++) {
+        const vec3 incoming = random.uniformHemisphere(), outgoing = random.uniformHemisphere();
+        const float weight = incoming.z * outgoing.z;
+        const glm::dvec3 exact(weight * brdf.evaluate(incoming, outgoing));
+        total += exact * exact;
+        vec3 sum(0);
+        for (int term = 0; term < factored.terms; term++) {
+            const vec3 light = lookupMap(factored.lightMap(term), factored.size, factored.mapping, incoming);
+            for (int l = layer; l < layer + layers; l++)
+                sum +=
+                    light * lookupMap(factored.viewMap(l, term), factored.size, factored.mapping, outgoing);
+            const glm::dvec3 error = glm::dvec3(weight * sum) - exact;
+            differences[size_t(term)] += error * error;
+        }
+    }
+    RmsErrors errors;
+    for (const glm::dvec3& difference : differences) {
+        double relativeSum = 0;
+        for (int c = 0; c < 3; c++)
+            if (total[c] > 0) relativeSum += std::sqrt(difference[c] / total[c]); // a black channel has none
+        const glm::dvec3 rms = glm::sqrt(difference / double(pairs));
+        errors.absolute.push_back(float((rms.x + rms.y + rms.z) / 3));
+        errors.relative.push_back(float(relativeSum / 3));
+    }
+    return errors;
 }
 
 } // namespace relume

@@ -20,21 +20,82 @@ void listDirections(BrdfTable& table) {
             if (!direction) continue;
             table.texels.push_back({x, y});
             table.directions.push_back(*direction);
+            table.solidAngles.push_back(diskMapSolidAngle(table.mapping, centre) /
+                                        float(table.size * table.size));
         }
 }
 
-// Every value of one outgoing direction: a column, contiguous in Eigen's order.
-void tabulateColumn(const Brdf& brdf, BrdfTable& table, int outgoing) {
-    const vec3 wo = table.directions[size_t(outgoing)];
-    for (int i = 0; i < int(table.directions.size()); i++) {
-        const vec3 value = brdf.evaluate(table.directions[size_t(i)], wo);
-        for (int c = 0; c < 3; c++) {
-            RELUME_CHECK_LE(0.0f, value[c]); // fails for NaN too
-            RELUME_CHECK_LT(value[c], std::numeric_limits<float>::infinity());
-            table.channels[size_t(c)](i, outgoing) = value[c];
+// Which places of two texels are paired for a mean: a rank-1 lattice (Roberts' R4), shifted at random per
+// pair of texels.
+constexpr int kMeanSamples = 4;
+constexpr glm::dvec4 kLattice(0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101);
+
+// The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+uint64_t mix(uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+class Tabulator {
+  public:
+    Tabulator(const Brdf& brdf, BrdfPart part, TexelValue value, BrdfTable& table)
+        : mBrdf(brdf), mPart(part), mValue(value), mTable(table) {}
+
+    // Every value of one outgoing direction: a column, contiguous in Eigen's order.
+    void tabulateColumn(int outgoing) const {
+        for (int i = 0; i < int(mTable.directions.size()); i++) {
+            const vec3 value = mValue == TexelValue::Mean ? mean(i, outgoing)
+                                                          : evaluate(mTable.directions[size_t(i)],
+                                                                     mTable.directions[size_t(outgoing)]);
+            for (int c = 0; c < 3; c++) {
+                RELUME_CHECK_LE(0.0f, value[c]); // fails for NaN too
+                RELUME_CHECK_LT(value[c], std::numeric_limits<float>::infinity());
+                mTable.channels[size_t(c)](i, outgoing) = value[c];
+            }
         }
     }
-}
+
+  private:
+    vec3 evaluate(vec3 incoming, vec3 outgoing) const {
+        if (mPart == BrdfPart::Base) return mBrdf.evaluateBase(incoming, outgoing);
+        const vec3 all = mBrdf.evaluate(incoming, outgoing);
+        // Rounding must not leave less than nothing.
+        return mPart == BrdfPart::All ? all : glm::max(all - mBrdf.evaluateBase(incoming, outgoing), vec3(0));
+    }
+
+    vec3 mean(int incoming, int outgoing) const {
+        // The places are those of the swapped pair, swapped: the table of a reciprocal f stays symmetric.
+        const auto [first, second] = std::minmax(incoming, outgoing);
+        const uint64_t bits = mix(uint64_t(first) << 32 | uint64_t(second));
+        glm::dvec4 place(bits & 0xffff, bits >> 16 & 0xffff, bits >> 32 & 0xffff, bits >> 48);
+        place /= 65536.0;
+        glm::dvec3 sum(0);
+        double weights = 0;
+        for (int sample = 0; sample < kMeanSamples; sample++, place = glm::fract(place + kLattice)) {
+            vec3 wi = directionIn(first, vec2(place.x, place.y)),
+                 wo = directionIn(second, vec2(place.z, place.w));
+            if (incoming != first) std::swap(wi, wo);
+            const double weight = double(wi.z) * double(wo.z);
+            sum += weight * glm::dvec3(evaluate(wi, wo));
+            weights += weight;
+        }
+        return vec3(sum / weights);
+    }
+
+    // Of a place in a texel's unit square; its centre's where the place is outside the disk or all but
+    // grazing.
+    vec3 directionIn(int texel, vec2 place) const {
+        const auto direction = diskMapDirection(mTable.mapping, (vec2(mTable.texels[size_t(texel)]) + place) /
+                                                                    float(mTable.size));
+        return direction && direction->z > kGrazingCosine ? *direction : mTable.directions[size_t(texel)];
+    }
+
+    const Brdf& mBrdf;
+    BrdfPart mPart;
+    TexelValue mValue;
+    BrdfTable& mTable;
+};
 
 // ‖M - Mᵀ‖ / ‖M‖, summed in double precision column by column.
 float asymmetryOf(const Eigen::MatrixXf& matrix) {
@@ -48,7 +109,7 @@ float asymmetryOf(const Eigen::MatrixXf& matrix) {
 
 } // namespace
 
-BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping) {
+BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value, BrdfPart part) {
     if (size < kMinMapSize || size > kMaxMapSize)
         throw UsageError("a BRDF map of {} texels a side: choose from {} to {}", size, kMinMapSize,
                          kMaxMapSize);
@@ -58,7 +119,8 @@ BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping) {
     listDirections(table);
     const int count = int(table.directions.size());
     for (Eigen::MatrixXf& channel : table.channels) channel.resize(count, count);
-    tbb::parallel_for(0, count, [&](int outgoing) { tabulateColumn(brdf, table, outgoing); });
+    const Tabulator tabulator(brdf, part, value, table);
+    tbb::parallel_for(0, count, [&](int outgoing) { tabulator.tabulateColumn(outgoing); });
     for (const Eigen::MatrixXf& channel : table.channels)
         table.asymmetry = std::max(table.asymmetry, asymmetryOf(channel));
     return table;

@@ -4,7 +4,7 @@
 #include "engine/render/relighter.h"
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
-#include "precompute/brdf/factorization.h"
+#include "precompute/brdf/factorization_error.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"
 #include "precompute/visibility/raster_visibility.h"
@@ -196,7 +196,7 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
         const DeviceStages stages(device, asset, part, vertices);
         for (size_t point = 0; point < vertices.size(); point++)
             checkVertex(asset, partIndex, vertices[point], tracer, stages, point, sums);
-        sums.brdf += factorizationError(*makeBrdf(part.material), part.brdf) * double(vertices.size());
+        sums.brdf += double(rmsErrors(*makeBrdf(part.material), part.brdf).relative.back()) * double(vertices.size());
     }
     Verification result;
     result.samples = uint64_t(samples);

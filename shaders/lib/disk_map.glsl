@@ -5,9 +5,11 @@
 
 const uint kOrthographicMapping = 0;
 const uint kPolarMapping = 1;
+const uint kEqualAreaMapping = 2;
 
 vec2 diskMapCoordinates(uint mapping, vec3 local) {
     if (mapping == kOrthographicMapping) return 0.5 * local.xy + 0.5;
+    if (mapping == kEqualAreaMapping) return local.xy * (0.5 / sqrt(1 + max(local.z, 0))) + 0.5;
     const float angle = dot(local.xy, local.xy) > 0 ? atan(local.y, local.x) : 0;
     return vec2(angle / (2 * 3.14159265358979) + 0.5, sqrt(max(0, 1 - local.z)));
 }

@@ -1,6 +1,7 @@
 // From tables to light and view maps: what the terms reproduce, and what the maps hold.
 #include "engine/base/error.h"
 #include "precompute/brdf/factorization.h"
+#include "precompute/brdf/factorization_error.h"
 
 #include <Eigen/SVD>
 #include <cmath>
@@ -48,7 +49,7 @@ TEST_CASE("factorization: a diffuse BRDF has one term and no error, up to the ri
         const FactoredBrdf factored = factorize(tabulate(*brdf, 16, mapping), {32});
         CHECK(factored.terms == 1);
         CHECK(factored.mapping == mapping);
-        CHECK(factorizationError(*brdf, factored, 10000) < 1e-5f);
+        CHECK(rmsErrors(*brdf, factored, 0, 1, 10000).relative.back() < 1e-5f);
         const vec3 grazing = evaluate(factored, liftAboveHorizon({0.7f, 0.7f, 0}), {0, 0, 1});
         CHECK(glm::length(grazing * kPi - vec3(0.2f, 0.5f, 0.8f)) < 1e-5f);
     }
@@ -58,7 +59,7 @@ TEST_CASE("factorization: all terms together are the table") {
     for (const char* material : {"ashikhmin-shirley", "clay", "red-plastic"}) {
         const BrdfTable table = tableOf(material, 6);
         REQUIRE(table.directions.size() <= 32);
-        const FactoredBrdf brdf = factorize(table, {32});
+        const FactoredBrdf brdf = factorize(table, {32, Factorization::Paper});
         for (int c = 0; c < 3; c++) {
             const MatrixXf& exact = table.channels[size_t(c)];
             CHECK((reconstruct(brdf, table, c) - exact).norm() < 1e-4f * exact.norm());
@@ -68,7 +69,7 @@ TEST_CASE("factorization: all terms together are the table") {
 
 TEST_CASE("factorization: what K terms miss is the rest of the spectrum") {
     const BrdfTable table = tableOf("skin", 16);
-    const FactoredBrdf brdf = factorize(table, {8});
+    const FactoredBrdf brdf = factorize(table, {8, Factorization::Paper});
     for (int c = 0; c < 3; c++) {
         const MatrixXf& exact = table.channels[size_t(c)];
         double kept = 0;
@@ -79,7 +80,7 @@ TEST_CASE("factorization: what K terms miss is the rest of the spectrum") {
 }
 
 TEST_CASE("factorization: light maps keep their sign, view maps take that of the eigenvalue") {
-    const FactoredBrdf brdf = factorize(tableOf("clay", 16), {12});
+    const FactoredBrdf brdf = factorize(tableOf("clay", 16), {12, Factorization::Paper});
     CHECK(brdf.terms == 12);
     bool someNegative = false;
     for (int term = 0; term < brdf.terms; term++)
@@ -105,7 +106,7 @@ TEST_CASE("factorization: light maps keep their sign, view maps take that of the
 TEST_CASE("factorization: texels outside the disk copy the nearest inside") {
     const int size = 12;
     const BrdfTable table = tableOf("ashikhmin-shirley", size);
-    const FactoredBrdf brdf = factorize(table, {2});
+    const FactoredBrdf brdf = factorize(table, {2, Factorization::Paper});
     std::vector<bool> inside(size * size, false);
     for (const ivec2& texel : table.texels) inside[size_t(texel.y * size + texel.x)] = true;
     for (int y = 0; y < size; y++)
@@ -134,9 +135,9 @@ TEST_CASE("factorization: an unsymmetric table is factored by its singular value
     const MatrixXf matrix = MatrixXf::NullaryExpr(12, 12, [&] { return uniform(random); });
     const BrdfTable table = tableWith(matrix);
     const Eigen::JacobiSVD<MatrixXf> library(matrix);
-    const FactoredBrdf all = factorize(table, {12});
+    const FactoredBrdf all = factorize(table, {12, Factorization::Paper});
     CHECK((reconstruct(all, table, 1) - matrix).norm() < 1e-4f * matrix.norm());
-    const FactoredBrdf brdf = factorize(table, {4});
+    const FactoredBrdf brdf = factorize(table, {4, Factorization::Paper});
     REQUIRE(brdf.terms == 4);
     for (int term = 0; term < 4; term++)
         CHECK(brdf.eigenvalues[size_t(term)][0] ==
@@ -149,7 +150,7 @@ TEST_CASE("factorization: an unsymmetric table of one term has one, rows lit and
     const Eigen::VectorXf light = Eigen::VectorXf::LinSpaced(12, 1, 2),
                           view = Eigen::VectorXf::Constant(12, 3);
     const BrdfTable table = tableWith(light * view.transpose());
-    const FactoredBrdf brdf = factorize(table, {8});
+    const FactoredBrdf brdf = factorize(table, {8, Factorization::Paper});
     CHECK(brdf.terms == 1);
     CHECK((reconstruct(brdf, table, 0) - table.channels[0]).norm() < 1e-4f * table.channels[0].norm());
 }
@@ -159,14 +160,14 @@ TEST_CASE("factorization: more terms, less error") {
     const BrdfTable table = tabulate(*brdf, 24, DiskMapping::Orthographic);
     float last = 1;
     for (int terms : {1, 4, 16, 32}) {
-        const float error = factorizationError(*brdf, factorize(table, {terms}), 20000);
+        const float error = rmsErrors(*brdf, factorize(table, {terms}), 0, 1, 20000).relative.back();
         CHECK(error < last);
         last = error;
     }
     CHECK(last < 0.5f);
     const auto skin = makeBrdf("skin");
-    CHECK(factorizationError(*skin, factorize(tabulate(*skin, 48, DiskMapping::Orthographic), {16}), 20000) <
-          0.07f);
+    CHECK(rmsErrors(*skin, factorize(tabulate(*skin, 48, DiskMapping::Orthographic), {16}), 0, 1, 20000)
+              .relative.back() < 0.07f);
 }
 
 TEST_CASE("factorization: the same bytes every time, and equal channels equal") {

@@ -1,0 +1,94 @@
+#include "precompute/brdf/low_rank.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace relume {
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+using Eigen::VectorXf;
+
+namespace {
+
+constexpr int kSweeps = 60; // the error falls by less than a thousandth over the last twenty
+
+using Blocks = std::vector<MatrixXf>;
+
+double squaredNorm(const Blocks& blocks, Index column) {
+    double sum = 0;
+    for (const MatrixXf& block : blocks) sum += double(block.col(column).squaredNorm());
+    return sum;
+}
+
+// The positive or the negative halves of a singular pair, whichever product is larger; zeros would stay zero
+// for ever and become small values instead.
+void startFromHalf(LowRank& start, Index k) {
+    const auto half = [](const auto& vector, float sign) { return (sign * vector).cwiseMax(0.0f).eval(); };
+    const auto size = [&](float sign) {
+        double right = 0;
+        for (const MatrixXf& block : start.right) right += double(half(block.col(k), sign).squaredNorm());
+        return double(half(start.left.col(k), sign).squaredNorm()) * right;
+    };
+    const float sign = size(1) >= size(-1) ? 1.0f : -1.0f;
+    const auto replace = [&](auto&& vector) {
+        vector = half(vector, sign);
+        vector = vector.cwiseMax(0.01f * vector.mean()).eval();
+    };
+    replace(start.left.col(k));
+    for (MatrixXf& block : start.right) replace(block.col(k));
+    start.left.col(k) *= start.values[k];
+}
+
+// One sweep over the columns of `factor`, each its own least-squares optimum for `target` ≈ factor · otherᵀ,
+// given product = target · other and gram = otherᵀ · other.
+void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
+    for (Index k = 0; k < factor.cols(); k++) {
+        if (!(gram(k, k) > 0)) continue;
+        const VectorXf step = (product.col(k) - factor * gram.col(k)) / gram(k, k);
+        factor.col(k) = (factor.col(k) + step).cwiseMax(0.0f);
+    }
+}
+
+// Unit columns, ordered by the sizes of their products.
+void normalise(LowRank& factors) {
+    const Index terms = factors.left.cols();
+    for (Index k = 0; k < terms; k++) {
+        const double left = double(factors.left.col(k).norm()),
+                     right = std::sqrt(squaredNorm(factors.right, k));
+        factors.values[k] = float(left * right);
+        if (left > 0) factors.left.col(k) /= float(left);
+        for (MatrixXf& block : factors.right)
+            if (right > 0) block.col(k) /= float(right);
+    }
+    std::vector<Index> order(size_t(terms), 0);
+    std::iota(order.begin(), order.end(), Index(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return factors.values[a] > factors.values[b]; });
+    factors.values = factors.values(order).eval();
+    factors.left = factors.left(Eigen::all, order).eval();
+    for (MatrixXf& block : factors.right) block = block(Eigen::all, order).eval();
+}
+
+} // namespace
+
+LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
+    LowRank factors = lowRank(blocks, terms);
+    for (Index k = 0; k < terms; k++) startFromHalf(factors, k);
+    for (int round = 0; round < kSweeps; round++) {
+        const MatrixXf leftGram = factors.left.transpose() * factors.left;
+        MatrixXf product = MatrixXf::Zero(factors.left.rows(), terms),
+                 rightGram = MatrixXf::Zero(terms, terms);
+        for (size_t j = 0; j < blocks.size(); j++) {
+            sweep(factors.right[j], blocks[j].transpose() * factors.left, leftGram);
+            product.noalias() += blocks[j] * factors.right[j];
+            rightGram.noalias() += factors.right[j].transpose() * factors.right[j];
+        }
+        sweep(factors.left, product, rightGram);
+    }
+    normalise(factors);
+    return factors;
+}
+
+} // namespace relume
