@@ -4,11 +4,14 @@
 #pragma once
 
 #include "engine/scene/mesh.h"
+#include "engine/scene/texture.h"
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace relume {
 
@@ -21,8 +24,27 @@ Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name, MeshAt
 Mesh decodePly(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted);
 
 // glTF 2.0, text or binary: the triangles of the default scene (or the first), node transforms applied;
-// skins and morph targets stay at rest. External buffers are read from `folder` and below only.
+// skins and morph targets stay at rest. External buffers and images are read from `folder` and below only.
 Mesh decodeGltf(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                 const std::string& name, MeshAttributes wanted);
+
+// The triangles of a glTF file that share a material.
+struct GltfPart {
+    std::string name; // the material's, or "material N"; no two are equal
+    Mesh mesh;        // with uvs if there is a texture
+    std::string
+        material; // {"model": "gltf", "base_color": [r, g, b], "metallic", "roughness"}, linear, in [0, 1]
+    std::optional<Texture> baseColor; // sRGB, multiplies base_color
+};
+
+struct GltfParts {
+    std::vector<GltfPart> parts;   // by the material's number
+    std::vector<InputFile> images; // files that were read
+};
+
+// The same, in parts of one material each, cleaned up. A texture of metalness and roughness is averaged; what
+// else is not supported is ignored, and the log says so.
+GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesystem::path& folder,
+                          const std::string& name);
 
 } // namespace relume
