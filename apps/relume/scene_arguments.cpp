@@ -18,7 +18,7 @@ void SceneArguments::add(CLI::App& command) {
     mMaterialOption =
         command.add_option("-m,--material", material, "Preset, model, or JSON object with parameters")
             ->type_name("MATERIAL")
-            ->capture_default_str();
+            ->default_str(fmt::format("the file's own (glTF), else {}", kDefaultMaterial));
     mUpOption = command.add_option("--up", mUp, "The mesh's up axis: y or z")
                     ->type_name("AXIS")
                     ->check(CLI::IsMember({"y", "z"}))
@@ -53,7 +53,7 @@ Scene SceneArguments::load() const {
     if (isScene)
         scene = readScene(input);
     else
-        scene.parts.push_back(loadPart(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, material));
+        scene.parts = loadParts(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, chosenMaterial());
     if (ground) {
         for (const Part& part : scene.parts)
             if (part.name == "ground") throw UsageError("--ground: {} has a ground already", input);
@@ -61,6 +61,11 @@ Scene SceneArguments::load() const {
     }
     checkMaterials(scene);
     return scene;
+}
+
+std::optional<std::string> SceneArguments::chosenMaterial() const {
+    if (material || hasOwnMaterials(input)) return material;
+    return kDefaultMaterial;
 }
 
 void SceneArguments::checkMaterials(const Scene& scene) const {

@@ -7,13 +7,17 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace relume {
+
+// What a mesh without materials of its own is made of, where none is named.
+constexpr const char* kDefaultMaterial = "ashikhmin-shirley";
 
 // MESH|SCENE.json, --material, --up, --ground…
 struct SceneArguments {
     std::string input = "knot";
-    std::string material = "ashikhmin-shirley";
+    std::optional<std::string> material; // none: the mesh's own, else kDefaultMaterial
     bool ground = false;
 
     void add(CLI::App& command);
@@ -22,6 +26,8 @@ struct SceneArguments {
 
   private:
     void checkMaterials(const Scene& scene) const;
+    // None: the mesh's own.
+    std::optional<std::string> chosenMaterial() const;
 
     CLI::Option* mMaterialOption = nullptr;
     CLI::Option* mUpOption = nullptr;

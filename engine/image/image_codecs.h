@@ -1,4 +1,4 @@
-// Decoders and encoders behind image_file.h: bytes in memory to and from pixels. Internal to engine/image.
+// Decoders and encoders behind image_file.h: bytes in memory to and from pixels. Internal to the engine.
 #pragma once
 
 #include "engine/image/image_file.h"

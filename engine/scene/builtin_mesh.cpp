@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace relume {
@@ -24,6 +25,66 @@ void joinClosedGrid(Mesh& mesh, int rows, int columns) {
         }
 }
 
+// Lifts a triangle's texture coordinates, which repeat after 1, so that none is more than half a turn behind
+// the foremost.
+void closeUp(vec2 (&corners)[3]) {
+    for (int axis = 0; axis < 2; axis++) {
+        const float foremost = std::max({corners[0][axis], corners[1][axis], corners[2][axis]});
+        for (vec2& corner : corners)
+            if (corner[axis] < foremost - 0.5f) corner[axis] += 1;
+    }
+}
+
+// Gives the mesh texture coordinates uvAt(triangle, corner) in [0, 1), and doubles the vertices in which
+// triangles of both sides of a seam meet.
+template <typename UvAt>
+void unwrap(Mesh& mesh, const UvAt& uvAt) {
+    std::map<std::tuple<uint32_t, float, float>, uint32_t> vertices;
+    std::vector<uint32_t> order;
+    std::vector<vec2> uvs;
+    for (uvec3& triangle : mesh.triangles) {
+        vec2 corners[3];
+        for (int i = 0; i < 3; i++) corners[i] = uvAt(triangle, i);
+        closeUp(corners);
+        for (int i = 0; i < 3; i++) {
+            const auto [entry, isNew] =
+                vertices.try_emplace({triangle[i], corners[i].x, corners[i].y}, uint32_t(order.size()));
+            if (isNew) {
+                order.push_back(triangle[i]);
+                uvs.push_back(corners[i]);
+            }
+            triangle[i] = entry->second;
+        }
+    }
+    reorderVertices(mesh, order);
+    mesh.uvs = std::move(uvs);
+}
+
+// The same of a closed grid: u along its rows' numbers, v against its columns'.
+void unwrapGrid(Mesh& mesh, int rows, int columns) {
+    unwrap(mesh, [=](const uvec3& triangle, int corner) {
+        const int row = int(triangle[corner]) / columns, column = int(triangle[corner]) % columns;
+        return vec2(float(row) / float(rows), float((columns - column) % columns) / float(columns));
+    });
+}
+
+bool isPole(vec3 position) { return std::max(std::abs(position.x), std::abs(position.z)) < 1e-6f; }
+
+// A place on the unit sphere in a latlong, u in [0, 1).
+vec2 latlong(vec3 position) {
+    const float u = 0.5f + std::atan2(position.x, position.z) / (2 * kPi);
+    return {u < 1 ? u : 0.0f, std::acos(glm::clamp(position.y, -1.0f, 1.0f)) / kPi};
+}
+
+// At a pole every longitude is as good: that of the middle of the triangle's other corners.
+vec2 sphereUv(const Mesh& sphere, const uvec3& triangle, int corner) {
+    const vec3 position = sphere.positions[triangle[corner]];
+    if (!isPole(position)) return latlong(position);
+    const vec3 middle =
+        sphere.positions[triangle[(corner + 1) % 3]] + sphere.positions[triangle[(corner + 2) % 3]];
+    return {latlong(middle).x, position.y > 0 ? 0 : 1};
+}
+
 // A point of the (2, 3) torus knot, axis Y, and the frame of its tube's cross-section.
 struct KnotPoint {
     vec3 centre, tangent, outward; // outward: the torus' normal, which is perpendicular to the curve
@@ -41,7 +102,7 @@ KnotPoint knotPoint(float t) {
 
 } // namespace
 
-Mesh makeSphere(int levels) {
+Mesh makeSphere(int levels, bool hasUvs) {
     RELUME_CHECK(levels >= 0 && levels <= 10);
     const float g = 0.5f * (1 + std::sqrt(5.0f));
     Mesh mesh;
@@ -68,10 +129,12 @@ Mesh makeSphere(int levels) {
         mesh.triangles = std::move(finer);
     }
     mesh.normals = mesh.positions;
+    if (hasUvs)
+        unwrap(mesh, [&](const uvec3& triangle, int corner) { return sphereUv(mesh, triangle, corner); });
     return mesh;
 }
 
-Mesh makeTorus(float majorRadius, float minorRadius, int around, int across) {
+Mesh makeTorus(float majorRadius, float minorRadius, int around, int across, bool hasUvs) {
     RELUME_CHECK(majorRadius > minorRadius && minorRadius > 0 && around >= 3 && across >= 3);
     Mesh mesh;
     for (int i = 0; i < around; i++) {
@@ -85,10 +148,11 @@ Mesh makeTorus(float majorRadius, float minorRadius, int around, int across) {
         }
     }
     joinClosedGrid(mesh, around, across);
+    if (hasUvs) unwrapGrid(mesh, around, across);
     return mesh;
 }
 
-Mesh makeKnot(int vertices) {
+Mesh makeKnot(int vertices, bool hasUvs) {
     RELUME_CHECK(vertices >= 200 && vertices <= 100'000'000);
     float length = 0;
     const int steps = 600;
@@ -115,17 +179,20 @@ Mesh makeKnot(int vertices) {
         }
     }
     joinClosedGrid(mesh, along, across);
+    if (hasUvs) unwrapGrid(mesh, along, across);
     return mesh;
 }
 
-Mesh makePlane(float size, int quads) {
+Mesh makePlane(float size, int quads, bool hasUvs) {
     RELUME_CHECK(size > 0 && quads >= 1 && quads <= 10'000);
     Mesh mesh;
     const int side = quads + 1;
     for (int row = 0; row < side; row++)
-        for (int column = 0; column < side; column++)
-            mesh.positions.push_back(
-                size * vec3(float(column) / float(quads) - 0.5f, 0, float(row) / float(quads) - 0.5f));
+        for (int column = 0; column < side; column++) {
+            const vec2 uv(float(column) / float(quads), float(row) / float(quads));
+            mesh.positions.push_back(size * vec3(uv.x - 0.5f, 0, uv.y - 0.5f));
+            if (hasUvs) mesh.uvs.push_back(uv);
+        }
     mesh.normals.assign(mesh.positions.size(), vec3(0, 1, 0));
     for (int row = 0; row < quads; row++)
         for (int column = 0; column < quads; column++) {

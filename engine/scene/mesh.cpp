@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace relume {
 namespace {
@@ -12,6 +13,24 @@ using dvec3 = glm::dvec3;
 
 // Angle between two edges, in radians; 0 where one of them has no length.
 double cornerAngle(dvec3 a, dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+
+template <typename T>
+void reorder(std::vector<T>& values, std::span<const uint32_t> order) {
+    if (values.empty()) return;
+    std::vector<T> reordered;
+    reordered.reserve(order.size());
+    for (const uint32_t index : order) reordered.push_back(values[index]);
+    values = std::move(reordered);
+}
+
+// Appends one attribute of `otherCount` vertices to that of `count`, or drops it if either has none.
+template <typename T>
+void appendAttribute(std::vector<T>& values, size_t count, const std::vector<T>& others, size_t otherCount) {
+    if (values.size() == count && others.size() == otherCount)
+        values.insert(values.end(), others.begin(), others.end());
+    else
+        values.clear();
+}
 
 } // namespace
 
@@ -47,16 +66,21 @@ void makeNormals(Mesh& mesh) {
     }
 }
 
+void reorderVertices(Mesh& mesh, std::span<const uint32_t> order) {
+    reorder(mesh.positions, order);
+    reorder(mesh.normals, order);
+    reorder(mesh.uvs, order);
+    reorder(mesh.colors, order);
+}
+
 void append(Mesh& mesh, const Mesh& other) {
-    RELUME_CHECK_LE(mesh.vertexCount() + other.vertexCount(), size_t(std::numeric_limits<uint32_t>::max()));
-    const bool hasNormals =
-        mesh.normals.size() == mesh.vertexCount() && other.normals.size() == other.vertexCount();
-    const uvec3 first(uint32_t(mesh.vertexCount()));
+    const size_t count = mesh.vertexCount(), otherCount = other.vertexCount();
+    RELUME_CHECK_LE(count + otherCount, size_t(std::numeric_limits<uint32_t>::max()));
+    const uvec3 first{uint32_t(count)};
+    appendAttribute(mesh.normals, count, other.normals, otherCount);
+    appendAttribute(mesh.uvs, count, other.uvs, otherCount);
+    appendAttribute(mesh.colors, count, other.colors, otherCount);
     mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-    if (hasNormals)
-        mesh.normals.insert(mesh.normals.end(), other.normals.begin(), other.normals.end());
-    else
-        mesh.normals.clear();
     mesh.triangles.reserve(mesh.triangleCount() + other.triangleCount());
     for (const uvec3& triangle : other.triangles) mesh.triangles.push_back(triangle + first);
 }

@@ -4,17 +4,26 @@
 #include "engine/math/vector.h"
 
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace relume {
 
 struct Mesh {
     std::vector<vec3> positions;
-    std::vector<vec3> normals;    // One per position, unit length; may be empty for an occluder.
-    std::vector<uvec3> triangles; // Counter-clockwise seen from outside; indices into positions.
+    std::vector<vec3> normals;     // One per position, unit length; may be empty for an occluder.
+    std::vector<uvec3> triangles;  // Counter-clockwise seen from outside; indices into positions.
+    std::vector<vec2> uvs = {};    // Empty or one per position: (0, 0) is an image's top left, v goes down.
+    std::vector<vec4> colors = {}; // Empty or one per position: linear, in [0, 1].
 
     size_t vertexCount() const { return positions.size(); }
     size_t triangleCount() const { return triangles.size(); }
+};
+
+// Attributes beyond position and normal that a reader keeps. Each splits vertices along its seams, and every
+// vertex costs time in a bake: so none unless something uses it.
+struct MeshAttributes {
+    bool uvs = false, colors = false;
 };
 
 // An axis-aligned box; empty until a point is added.
@@ -35,7 +44,10 @@ Bounds boundsOf(const Mesh& mesh);
 // Fills `normals` by summing face normals weighted with the corner's angle (Thürmer and Wüthrich 1998).
 void makeNormals(Mesh& mesh);
 
-// Appends `other`'s vertices and triangles; normals are kept only if both meshes have them.
+// Makes vertex order[i] vertex i, with all its attributes. Triangles are the caller's to renumber.
+void reorderVertices(Mesh& mesh, std::span<const uint32_t> order);
+
+// Appends `other`'s vertices and triangles; normals, uvs and colors are kept only if both meshes have them.
 void append(Mesh& mesh, const Mesh& other);
 
 } // namespace relume

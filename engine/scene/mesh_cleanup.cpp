@@ -3,6 +3,8 @@
 #include "engine/base/error.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <spdlog/spdlog.h>
 #include <tuple>
@@ -15,7 +17,24 @@ constexpr uint32_t kUnused = 0xffffffff;
 // Squares and products of four lengths must stay inside single precision.
 constexpr float kLargestCoordinate = 1e9f, kSmallestExtent = 1e-9f;
 
-bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+template <typename Vector>
+bool isFinite(const Vector& v) {
+    for (int i = 0; i < v.length(); i++)
+        if (!std::isfinite(v[i])) return false;
+    return true;
+}
+
+// An attribute that not every vertex has is as good as none.
+template <typename Vector>
+void checkAttribute(std::vector<Vector>& values, const Mesh& mesh, const char* what,
+                    const std::string& name) {
+    if (values.size() != mesh.vertexCount()) values.clear();
+    for (size_t i = 0; i < values.size(); i++)
+        if (!isFinite(values[i]))
+            throw Error("{}: vertex {} (counted from 0) has {} that are not finite: repair or drop them "
+                        "before export",
+                        name, i, what);
+}
 
 void checkMesh(const Mesh& mesh, const std::string& name) {
     if (mesh.triangles.empty()) throw Error("{}: holds no triangles: expected a surface to bake", name);
@@ -61,9 +80,13 @@ void weld(Mesh& mesh) {
     // Adding zero turns the negative zero, which is equal but has other bits, into the positive one.
     for (vec3& position : mesh.positions) position += 0.0f;
     for (vec3& normal : mesh.normals) normal += 0.0f;
+    for (vec2& uv : mesh.uvs) uv += 0.0f;
+    for (vec4& color : mesh.colors) color += 0.0f;
     const auto key = [&](uint32_t i) {
         const vec3 p = mesh.positions[i], n = mesh.normals.empty() ? vec3(0) : mesh.normals[i];
-        return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z);
+        const vec2 t = mesh.uvs.empty() ? vec2(0) : mesh.uvs[i];
+        const vec4 c = mesh.colors.empty() ? vec4(0) : mesh.colors[i];
+        return std::array{p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, c.x, c.y, c.z, c.w};
     };
     // Sorting, unlike hashing, has no worst case that a hostile file could ask for.
     std::vector<uint32_t> order(mesh.vertexCount());
@@ -85,18 +108,15 @@ bool isDegenerate(const Mesh& mesh, uvec3 triangle) {
 
 // Drops vertices that no triangle uses, keeping the order of the others.
 void dropUnused(Mesh& mesh) {
-    std::vector<uint32_t> renumbered(mesh.vertexCount(), kUnused);
+    std::vector<uint32_t> renumbered(mesh.vertexCount(), kUnused), order;
     for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; corner++) renumbered[triangle[corner]] = 0;
-    uint32_t count = 0;
-    for (size_t i = 0; i < mesh.vertexCount(); i++) {
+    for (uint32_t i = 0; i < renumbered.size(); i++) {
         if (renumbered[i] == kUnused) continue;
-        mesh.positions[count] = mesh.positions[i];
-        if (!mesh.normals.empty()) mesh.normals[count] = mesh.normals[i];
-        renumbered[i] = count++;
+        renumbered[i] = uint32_t(order.size());
+        order.push_back(i);
     }
-    mesh.positions.resize(count);
-    if (!mesh.normals.empty()) mesh.normals.resize(count);
+    reorderVertices(mesh, order);
     for (uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; corner++) triangle[corner] = renumbered[triangle[corner]];
 }
@@ -106,6 +126,9 @@ void dropUnused(Mesh& mesh) {
 Mesh cleanUp(Mesh mesh, const std::string& name) {
     checkMesh(mesh, name);
     normaliseNormals(mesh, name);
+    checkAttribute(mesh.uvs, mesh, "texture coordinates", name);
+    checkAttribute(mesh.colors, mesh, "colours", name);
+    for (vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
     weld(mesh);
     const size_t degenerate =
         std::erase_if(mesh.triangles, [&](const uvec3& triangle) { return isDegenerate(mesh, triangle); });

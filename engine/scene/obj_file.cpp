@@ -53,6 +53,12 @@ void checkLine(std::string_view keyword, std::string_view rest, const std::strin
             throw Error("{}: line {}: a face has {} corners, expected at most {}: triangulate the mesh "
                         "before export",
                         name, number, corners, kMostCorners);
+    } else if (keyword == "vt") {
+        // The second coordinate may be missing: it is 0 then.
+        const std::string_view u = takeWord(rest), v = takeWord(rest);
+        if (!isNumber(u) || !(v.empty() || isNumber(v)))
+            throw Error("{}: line {}: expected two finite numbers after \"vt\", found \"{} {}\"", name,
+                        number, u.substr(0, 40), v.substr(0, 40));
     } else {
         for (int i = 0; i < 3; i++)
             if (const std::string_view word = takeWord(rest); !isNumber(word))
@@ -63,26 +69,36 @@ void checkLine(std::string_view keyword, std::string_view rest, const std::strin
 
 // Keeps the lines that describe the surface and empties all others, so that line numbers stay: the library
 // reads other files on "mtllib" and believes the sizes that "t" lines claim.
-std::string surfaceLines(std::string_view text, const std::string& name) {
+std::string surfaceLines(std::string_view text, const std::string& name, bool areUvsWanted) {
     std::string kept;
     kept.reserve(text.size() + 1);
     for (size_t number = 1; !text.empty(); number++) {
         const std::string_view line = takeLine(text);
         std::string_view rest = line;
         const std::string_view keyword = takeWord(rest);
-        if (keyword == "v" || keyword == "vn" || keyword == "f") checkLine(keyword, rest, name, number);
+        if (keyword == "v" || keyword == "vn" || keyword == "f" || (keyword == "vt" && areUvsWanted))
+            checkLine(keyword, rest, name, number);
         if (keyword == "v" || keyword == "vn" || keyword == "vt" || keyword == "f") kept += line;
         kept += '\n';
     }
     return kept;
 }
 
-// The faces' corners, whose position and normal have numbers of their own, as vertices of their own.
+// Whether every corner of every face has a number of this kind.
+bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::*number) {
+    for (const tinyobj::shape_t& shape : shapes)
+        for (const tinyobj::index_t& corner : shape.mesh.indices)
+            if (corner.*number < 0) return false;
+    return true;
+}
+
+// The faces' corners, whose position, normal and texture coordinates have numbers of their own, as vertices
+// of their own.
 class Corners {
   public:
-    Corners(const tinyobj::attrib_t& attributes, bool hasNormals, const std::string& name)
-        : mAttributes(attributes), mHasNormals(hasNormals), mName(name) {
-        if (!hasNormals)
+    Corners(const tinyobj::attrib_t& attributes, bool hasNormals, bool hasUvs, const std::string& name)
+        : mAttributes(attributes), mHasNormals(hasNormals), mHasUvs(hasUvs), mName(name) {
+        if (!isSplit())
             for (size_t i = 0; i < attributes.vertices.size() / 3; i++)
                 mMesh.positions.push_back(position(int(i)));
     }
@@ -93,13 +109,14 @@ class Corners {
         for (const tinyobj::index_t& corner : face) mFace.push_back(position(corner.vertex_index));
         triangulate(mFace, mTriangles, mName);
         const uint32_t first = uint32_t(mMesh.positions.size());
-        if (mHasNormals)
+        if (isSplit())
             for (const tinyobj::index_t& corner : face) {
                 mMesh.positions.push_back(position(corner.vertex_index));
-                mMesh.normals.push_back(normal(corner.normal_index));
+                if (mHasNormals) mMesh.normals.push_back(normal(corner.normal_index));
+                if (mHasUvs) mMesh.uvs.push_back(uv(corner.texcoord_index));
             }
         const auto vertex = [&](uint32_t i) {
-            return mHasNormals ? first + i : uint32_t(face[i].vertex_index);
+            return isSplit() ? first + i : uint32_t(face[i].vertex_index);
         };
         for (const uvec3& t : mTriangles) mMesh.triangles.push_back({vertex(t.x), vertex(t.y), vertex(t.z)});
         if (mMesh.positions.size() > kMostMeshVertices)
@@ -109,17 +126,28 @@ class Corners {
     Mesh take() { return std::move(mMesh); }
 
   private:
-    vec3 element(const std::vector<tinyobj::real_t>& values, int index, const char* what) const {
-        if (index < 0 || size_t(index) >= values.size() / 3)
+    template <typename Vector>
+    Vector element(const std::vector<tinyobj::real_t>& values, int index, const char* what) const {
+        constexpr size_t kWidth = size_t(Vector::length());
+        if (index < 0 || size_t(index) >= values.size() / kWidth)
             throw Error("{}: a face refers to {} {}, but there are only {}: the file is corrupt", mName, what,
-                        int64_t(index) + 1, values.size() / 3);
-        return {values[3 * size_t(index)], values[3 * size_t(index) + 1], values[3 * size_t(index) + 2]};
+                        int64_t(index) + 1, values.size() / kWidth);
+        Vector vector;
+        for (size_t i = 0; i < kWidth; i++) vector[int(i)] = values[kWidth * size_t(index) + i];
+        return vector;
     }
-    vec3 position(int index) const { return element(mAttributes.vertices, index, "vertex"); }
-    vec3 normal(int index) const { return element(mAttributes.normals, index, "normal"); }
+    vec3 position(int index) const { return element<vec3>(mAttributes.vertices, index, "vertex"); }
+    vec3 normal(int index) const { return element<vec3>(mAttributes.normals, index, "normal"); }
+    // OBJ counts v up from an image's lower edge.
+    vec2 uv(int index) const {
+        const vec2 up = element<vec2>(mAttributes.texcoords, index, "texture coordinates");
+        return {up.x, 1 - up.y};
+    }
+
+    bool isSplit() const { return mHasNormals || mHasUvs; }
 
     const tinyobj::attrib_t& mAttributes;
-    bool mHasNormals;
+    bool mHasNormals, mHasUvs;
     const std::string& mName;
     Mesh mMesh;
     std::vector<vec3> mFace;
@@ -128,8 +156,9 @@ class Corners {
 
 } // namespace
 
-Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name) {
-    std::istringstream text(surfaceLines({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name));
+Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted) {
+    std::istringstream text(
+        surfaceLines({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, wanted.uvs));
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::string warning, failure;
@@ -137,10 +166,10 @@ Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name) {
         throw Error("{}: is not a valid OBJ file: {}", name,
                     failure.substr(0, failure.find_last_not_of('\n') + 1));
 
-    bool hasNormals = !attributes.normals.empty();
-    for (const tinyobj::shape_t& shape : shapes)
-        for (const tinyobj::index_t& corner : shape.mesh.indices) hasNormals &= corner.normal_index >= 0;
-    Corners corners(attributes, hasNormals, name);
+    const bool hasNormals = !attributes.normals.empty() && haveAll(shapes, &tinyobj::index_t::normal_index);
+    const bool hasUvs =
+        wanted.uvs && !attributes.texcoords.empty() && haveAll(shapes, &tinyobj::index_t::texcoord_index);
+    Corners corners(attributes, hasNormals, hasUvs, name);
     for (const tinyobj::shape_t& shape : shapes) {
         size_t start = 0;
         for (const size_t count : shape.mesh.num_face_vertices) {

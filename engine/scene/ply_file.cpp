@@ -93,9 +93,56 @@ class Values {
     const std::string& mName;
 };
 
+// Where the properties of an element "vertex" are.
+class VertexColumns {
+  public:
+    explicit VertexColumns(const PlyElement& element) : mElement(element) {}
+
+    // The columns of these properties, or nothing if one is missing.
+    std::optional<std::vector<size_t>> find(std::initializer_list<std::string_view> names) const {
+        std::vector<size_t> columns;
+        for (const std::string_view name : names) {
+            const std::optional<size_t> column = find(name);
+            if (!column) return std::nullopt;
+            columns.push_back(*column);
+        }
+        return columns;
+    }
+
+    // Programs do not agree on how to call texture coordinates.
+    std::optional<std::vector<size_t>> findUvs() const {
+        auto columns = find({"s", "t"});
+        if (!columns) columns = find({"u", "v"});
+        if (!columns) columns = find({"texture_u", "texture_v"});
+        return columns;
+    }
+
+    // Colours are whole numbers of the type's range, or floating.
+    std::optional<std::vector<size_t>> findColors() const {
+        auto columns = find({"red", "green", "blue", "alpha"});
+        if (!columns) columns = find({"red", "green", "blue"});
+        return columns;
+    }
+
+  private:
+    std::optional<size_t> find(std::string_view name) const {
+        for (size_t i = 0; i < mElement.properties.size(); i++)
+            if (mElement.properties[i].name == name && !mElement.properties[i].countType) return i;
+        return std::nullopt;
+    }
+
+    const PlyElement& mElement;
+};
+
+// What a colour of this type is divided by to lie in [0, 1].
+float fullColor(const PlyScalarType& type) {
+    return type.kind == 'f' ? 1 : float(std::exp2(8.0 * double(type.size) - (type.kind == 'i')) - 1);
+}
+
 class BodyReader {
   public:
-    BodyReader(Values values, const std::string& name) : mValues(values), mName(name) {}
+    BodyReader(Values values, const std::string& name, MeshAttributes wanted)
+        : mValues(values), mName(name), mWanted(wanted) {}
 
     void read(const PlyElement& element) {
         if (element.properties.empty() && element.count > 0)
@@ -150,21 +197,27 @@ class BodyReader {
     }
 
     void readVertices(const PlyElement& element) {
-        static constexpr std::array<std::string_view, 6> kNames = {"x", "y", "z", "nx", "ny", "nz"};
-        std::array<std::optional<size_t>, 6> columns;
-        for (size_t i = 0; i < element.properties.size(); i++)
-            for (size_t j = 0; j < kNames.size(); j++)
-                if (element.properties[i].name == kNames[j] && !element.properties[i].countType)
-                    columns[j] = i;
-        if (!columns[0] || !columns[1] || !columns[2])
-            throw Error("{}: element \"vertex\" needs the properties x, y and z", mName);
-        const bool hasNormals = columns[3] && columns[4] && columns[5];
+        const VertexColumns columns(element);
+        const auto position = columns.find({"x", "y", "z"}), normal = columns.find({"nx", "ny", "nz"});
+        const auto uv = mWanted.uvs ? columns.findUvs() : std::nullopt;
+        const auto color = mWanted.colors ? columns.findColors() : std::nullopt;
+        if (!position) throw Error("{}: element \"vertex\" needs the properties x, y and z", mName);
 
         std::vector<float> row(element.properties.size());
+        const auto vectorAt = [&](const std::vector<size_t>& at) {
+            return vec3(row[at[0]], row[at[1]], row[at[2]]);
+        };
         for (uint64_t i = 0; i < element.count; i++) {
             for (size_t j = 0; j < row.size(); j++) row[j] = float(takeProperty(element.properties[j]));
-            mMesh.positions.push_back({row[*columns[0]], row[*columns[1]], row[*columns[2]]});
-            if (hasNormals) mMesh.normals.push_back({row[*columns[3]], row[*columns[4]], row[*columns[5]]});
+            mMesh.positions.push_back(vectorAt(*position));
+            if (normal) mMesh.normals.push_back(vectorAt(*normal));
+            // PLY counts v up from an image's lower edge.
+            if (uv) mMesh.uvs.push_back({row[(*uv)[0]], 1 - row[(*uv)[1]]});
+            if (!color) continue;
+            mMesh.colors.push_back(vec4(0));
+            for (size_t c = 0; c < color->size(); c++)
+                mMesh.colors.back()[int(c)] =
+                    row[(*color)[c]] / fullColor(*element.properties[(*color)[c]].type);
         }
     }
 
@@ -187,6 +240,7 @@ class BodyReader {
 
     Values mValues;
     const std::string& mName;
+    MeshAttributes mWanted;
     Mesh mMesh;
     std::vector<uint32_t> mFaceSizes, mCorners; // Faces may come before the vertices they refer to.
     std::vector<double> mItems;
@@ -194,10 +248,10 @@ class BodyReader {
 
 } // namespace
 
-Mesh decodePly(std::span<const std::byte> bytes, const std::string& name) {
+Mesh decodePly(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const PlyHeader header = readPlyHeader(text, name);
-    BodyReader body(Values(bytes.subspan(header.size), header.encoding, name), name);
+    BodyReader body(Values(bytes.subspan(header.size), header.encoding, name), name, wanted);
     for (const PlyElement& element : header.elements) body.read(element);
     return body.take();
 }

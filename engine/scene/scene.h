@@ -3,8 +3,10 @@
 
 #include "engine/scene/ground.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/texture.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +18,23 @@ enum class UpAxis { Y, Z };
 struct Part {
     std::string name;
     Mesh mesh;
-    std::string material;   // A preset's name, or a JSON object {"model": …, parameters…}, as text.
+    std::string material;   // A preset's name, or a JSON object with a model or a set of them, as text.
     std::string source;     // The file it came from, or "built-in NAME"; for provenance.
     std::string sourceHash; // hashText of that file's bytes; empty for built-in meshes.
+    std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs; multiplies the material's base colour.
+    std::optional<Texture> materialMap =
+        std::nullopt;                         // By mesh.uvs: weights of the set's first four materials.
+    bool paintedByColors = false;             // Whether mesh.colors are these weights instead.
+    std::vector<InputFile> textureFiles = {}; // What the textures came from, unless `source` holds them.
+};
+
+// What a part is painted with.
+struct PartPaint {
+    std::filesystem::path baseColor, materialMap; // Image files; empty for none.
+    bool isByColors = false;                      // Vertex colours instead of a material map.
+
+    bool usesUvs() const { return !baseColor.empty() || !materialMap.empty(); }
+    bool isAny() const { return usesUvs() || isByColors; }
 };
 
 struct Scene {
@@ -30,9 +46,15 @@ Bounds boundsOf(const Scene& scene);
 // Whether `name` is "sphere", "torus", "knot" or "plane".
 bool isBuiltinMesh(const std::string& name);
 
-// The part made of a mesh file or of a built-in mesh, with its source and hash filled in. Throws Error as
-// readMesh does.
-Part loadPart(const std::string& mesh, UpAxis up, const std::string& material);
+// Whether a mesh has materials of its own: a glTF file, that is.
+bool hasOwnMaterials(const std::string& mesh);
+
+// The parts made of a mesh file or of a built-in mesh, with source and hashes filled in: one of this material
+// and paint; or, if there is no material, one for each of the mesh's own. Throws Error as readMesh and
+// readTexture do, when the mesh lacks the texture coordinates or colours that the paint needs, when it has no
+// materials of its own but must, and for paint on these.
+std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optional<std::string>& material,
+                            const PartPaint& paint = {});
 
 // Adds a ground, sized by what is in the scene so far, which must not be empty. Throws UsageError for options
 // out of range.

@@ -4,9 +4,11 @@
 #include "engine/base/nearest_name.h"
 #include "engine/scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -16,6 +18,7 @@ using Json = nlohmann::json;
 
 constexpr size_t kLargestSceneFile = size_t(16) << 20;
 constexpr float kLargestCoordinate = 1e9f; // as in mesh files
+constexpr const char* kMaterial = "a preset's name or an object {\"model\": …}";
 
 Json parse(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path, kLargestSceneFile);
@@ -77,11 +80,11 @@ class Node {
     }
 
     // A preset's name, or an object as text.
-    std::string material(const std::string& fallback) const {
+    std::optional<std::string> material() const {
         const Json* value = find("material");
         if (value && value->is_object()) return value->dump(-1, ' ', false, Json::error_handler_t::replace);
-        if (value && !value->is_string()) fail("material", "a preset's name or an object {\"model\": …}");
-        return text("material", fallback);
+        if (value && !value->is_string()) fail("material", kMaterial);
+        return value ? std::optional(text("material", "")) : std::nullopt;
     }
 
   private:
@@ -114,14 +117,30 @@ void transform(Mesh& mesh, vec3 translation, vec3 degrees, float scale, const st
     for (vec3& normal : mesh.normals) normal = glm::normalize(rotation * normal);
 }
 
-Part readPart(const Json& json, const std::string& place, const std::filesystem::path& folder) {
-    static constexpr std::string_view kKeys[] = {"name",   "mesh",  "up",      "translate",
-                                                 "rotate", "scale", "material"};
+PartPaint readPaint(const Node& node, const std::filesystem::path& folder) {
+    PartPaint paint;
+    if (node.find("base_color")) paint.baseColor = folder / node.text("base_color", "");
+    const std::string map = node.text("material_map", "");
+    paint.isByColors = map == "colors";
+    if (!map.empty() && !paint.isByColors) paint.materialMap = folder / map;
+    return paint;
+}
+
+// The parts' names: the mesh's or the one given, which several parts share as a first half.
+void renameParts(std::vector<Part>& parts, const std::string& name) {
+    if (name.empty()) return;
+    for (Part& part : parts) part.name = parts.size() == 1 ? name : name + ": " + part.name;
+}
+
+std::vector<Part> readParts(const Json& json, const std::string& place, const std::filesystem::path& folder) {
+    static constexpr std::string_view kKeys[] = {"name",  "mesh",     "up",         "translate",   "rotate",
+                                                 "scale", "material", "base_color", "material_map"};
     const Node node(json, place, kKeys);
     const std::string mesh = node.text("mesh", "");
     if (mesh.empty()) node.fail("mesh", "a mesh file, or one of sphere, torus, knot, plane");
-    const std::string material = node.material("");
-    if (material.empty()) node.fail("material", "a preset's name or an object {\"model\": …}");
+    const std::optional<std::string> material = node.material();
+    const PartPaint paint = readPaint(node, folder);
+    if (!material && (paint.isAny() || !hasOwnMaterials(mesh))) node.fail("material", kMaterial);
     const std::string up = node.text("up", "y");
     if (up != "y" && up != "z") node.fail("up", "\"y\" or \"z\"");
     const vec3 translation = node.vector("translate", kLargestCoordinate),
@@ -129,10 +148,10 @@ Part readPart(const Json& json, const std::string& place, const std::filesystem:
     const float scale = node.number("scale", 1, 1e-9f, 1e9f);
 
     const std::string source = isBuiltinMesh(mesh) ? mesh : (folder / mesh).string();
-    Part part = loadPart(source, up == "z" ? UpAxis::Z : UpAxis::Y, material);
-    part.name = node.text("name", part.name);
-    transform(part.mesh, translation, degrees, scale, place);
-    return part;
+    std::vector<Part> parts = loadParts(source, up == "z" ? UpAxis::Z : UpAxis::Y, material, paint);
+    renameParts(parts, node.text("name", ""));
+    for (Part& part : parts) transform(part.mesh, translation, degrees, scale, place);
+    return parts;
 }
 
 void readGround(const Json& json, const std::string& place, Scene& scene) {
@@ -145,7 +164,7 @@ void readGround(const Json& json, const std::string& place, Scene& scene) {
     if (quads != std::floor(quads)) node.fail("tessellation", "a whole number");
     options.tessellation = int(quads);
     options.extent = node.number("extent", options.extent, kSmallestGroundExtent, kLargestGroundExtent);
-    addGround(scene, options, node.material("white-diffuse"));
+    addGround(scene, options, node.material().value_or("white-diffuse"));
 }
 
 } // namespace
@@ -159,8 +178,8 @@ Scene readScene(const std::filesystem::path& path) {
     if (!parts || !parts->is_array() || parts->empty()) root.fail("parts", "a list of one part or more");
     Scene scene;
     for (size_t i = 0; i < parts->size(); i++)
-        scene.parts.push_back(
-            readPart((*parts)[i], fmt::format("{}: parts[{}]", name, i), path.parent_path()));
+        std::ranges::move(readParts((*parts)[i], fmt::format("{}: parts[{}]", name, i), path.parent_path()),
+                          std::back_inserter(scene.parts));
     if (const Json* ground = root.find("ground")) readGround(*ground, name + ": ground", scene);
     return scene;
 }

@@ -118,8 +118,11 @@ nlohmann::json describe(const BakeOptions& options) {
 
 nlohmann::json describeInputs(const Scene& scene) {
     auto inputs = nlohmann::json::array();
-    for (const Part& part : scene.parts)
+    for (const Part& part : scene.parts) {
         inputs.push_back({{"name", part.name}, {"file", part.source}, {"hash", part.sourceHash}});
+        for (const InputFile& texture : part.textureFiles)
+            inputs.push_back({{"name", part.name}, {"file", texture.file}, {"hash", texture.hash}});
+    }
     return inputs;
 }
 

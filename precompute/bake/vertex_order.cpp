@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 namespace relume {
 namespace {
@@ -64,15 +63,13 @@ uvec3 rotated(uvec3 t) {
 void orderVertices(Mesh& mesh) {
     RELUME_CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.vertexCount());
     const std::vector<Key> keys = sortedKeys(mesh);
-    const Mesh old = std::exchange(mesh, {});
-    std::vector<uint32_t> renumbered(keys.size());
+    std::vector<uint32_t> order(keys.size()), renumbered(keys.size());
     for (size_t i = 0; i < keys.size(); i++) {
+        order[i] = keys[i].index;
         renumbered[keys[i].index] = uint32_t(i);
-        mesh.positions.push_back(old.positions[keys[i].index]);
-        if (!old.normals.empty()) mesh.normals.push_back(old.normals[keys[i].index]);
     }
-    for (const uvec3& t : old.triangles)
-        mesh.triangles.push_back(rotated({renumbered[t.x], renumbered[t.y], renumbered[t.z]}));
+    reorderVertices(mesh, order);
+    for (uvec3& t : mesh.triangles) t = rotated({renumbered[t.x], renumbered[t.y], renumbered[t.z]});
     std::sort(mesh.triangles.begin(), mesh.triangles.end(), [](const uvec3& a, const uvec3& b) {
         return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
     });

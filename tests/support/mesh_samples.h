@@ -88,13 +88,9 @@ inline std::string sampleGltf(const Mesh& mesh, const std::string& uri) {
     return document(mesh, R"({"mesh":0})", uri);
 }
 
-// A binary document; the first `from` in its JSON is replaced by `to`.
-inline std::string sampleGlb(const Mesh& mesh, const std::string& nodes = R"({"mesh":0})",
-                             const std::string& from = "", const std::string& to = "") {
-    std::string json = document(mesh, nodes, "");
-    if (!from.empty()) json.replace(json.find(from), from.size(), to);
+// A binary document of this JSON and buffer.
+inline std::string glbOf(std::string json, const std::string& buffer) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::string buffer = sampleBuffer(mesh);
     std::string bytes = "glTF";
     put(bytes, uint32_t(2));
     put(bytes, uint32_t(12 + 8 + json.size() + 8 + buffer.size()));
@@ -103,6 +99,14 @@ inline std::string sampleGlb(const Mesh& mesh, const std::string& nodes = R"({"m
     put(bytes, uint32_t(buffer.size()));
     bytes += std::string("BIN\0", 4) + buffer;
     return bytes;
+}
+
+// A binary document; the first `from` in its JSON is replaced by `to`.
+inline std::string sampleGlb(const Mesh& mesh, const std::string& nodes = R"({"mesh":0})",
+                             const std::string& from = "", const std::string& to = "") {
+    std::string json = document(mesh, nodes, "");
+    if (!from.empty()) json.replace(json.find(from), from.size(), to);
+    return glbOf(json, sampleBuffer(mesh));
 }
 
 } // namespace relume::test

@@ -1,5 +1,6 @@
 #include "engine/scene/builtin_mesh.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <map>
 
@@ -94,6 +95,27 @@ TEST_CASE("built-in plane: flat, up, exact size") {
     CHECK(worstAgreement(plane) == doctest::Approx(1));
 }
 
+TEST_CASE("built-in meshes: texture coordinates cover the image once, unmirrored, seams closed") {
+    for (const Mesh& mesh : {makeSphere(4, true), makeTorus(0.7f, 0.3f, 40, 16, true), makeKnot(3000, true),
+                             makePlane(2, 10, true)}) {
+        REQUIRE(mesh.uvs.size() == mesh.vertexCount());
+        REQUIRE(mesh.normals.size() == mesh.vertexCount());
+        double area = 0;
+        for (const uvec3& t : mesh.triangles) {
+            const vec2 a = mesh.uvs[t.x], ab = mesh.uvs[t.y] - a, ac = mesh.uvs[t.z] - a;
+            CHECK(std::max({std::abs(ab.x), std::abs(ab.y), std::abs(ac.x), std::abs(ac.y)}) < 0.5f);
+            area -= 0.5 * (ab.x * ac.y - ab.y * ac.x); // v goes down
+        }
+        CHECK(area == doctest::Approx(1).epsilon(0.02));
+    }
+    const Mesh sphere = makeSphere(3, true);
+    CHECK(sphere.vertexCount() < makeSphere(3).vertexCount() + 50);
+    for (size_t i = 0; i < sphere.vertexCount(); i++)
+        if (glm::distance(sphere.positions[i], vec3(0, 0, 1)) < 1e-3f)
+            CHECK(glm::distance(sphere.uvs[i], vec2(0.5f)) < 1e-3f);
+    CHECK(makeSphere(3).uvs.empty());
+}
+
 TEST_CASE("mesh: normals made from faces agree with a sphere's own") {
     Mesh sphere = makeSphere(4);
     const std::vector<vec3> exact = sphere.normals;
@@ -124,4 +146,9 @@ TEST_CASE("mesh: appending keeps normals only when both have them") {
     append(both, bare);
     CHECK(both.vertexCount() == 20);
     CHECK(both.normals.empty());
+    Mesh painted = makePlane(1, 1, true);
+    append(painted, makePlane(1, 2, true));
+    CHECK(painted.uvs.size() == 13);
+    append(painted, makePlane(1, 1));
+    CHECK(painted.uvs.empty());
 }

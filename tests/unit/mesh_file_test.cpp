@@ -15,14 +15,17 @@ using namespace relume::test;
 
 namespace {
 
-Mesh decode(const std::string& text, const std::string& name, UpAxis up = UpAxis::Y) {
-    return decodeMesh(std::as_bytes(std::span(text)), name, up);
+Mesh decode(const std::string& text, const std::string& name, UpAxis up = UpAxis::Y,
+            MeshAttributes wanted = {}) {
+    return decodeMesh(std::as_bytes(std::span(text)), name, up, wanted);
 }
 
+constexpr MeshAttributes kAll{true, true};
+
 // The text of the Error that decoding throws, or "" if it does not.
-std::string failureOf(const std::string& text, const std::string& name) {
+std::string failureOf(const std::string& text, const std::string& name, MeshAttributes wanted = {}) {
     try {
-        decode(text, name);
+        decode(text, name, UpAxis::Y, wanted);
     } catch (const Error& error) {
         return error.what();
     }
@@ -82,6 +85,79 @@ TEST_CASE("mesh files: normals keep creases apart; incomplete or broken ones are
     const Mesh zero = decode(corners + "vn 0 0 0\nvn 5 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", "a.obj");
     CHECK(zero.vertexCount() == 4);
     CHECK(zero.normals[0] == partial.normals[0]);
+}
+
+TEST_CASE("OBJ: texture coordinates from the top left, where wanted, split vertices along seams") {
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.25 9\n"
+                             "f 1/1 2/2 3/3\nf 2/2 4/4 3/1\n";
+    CHECK(decode(text, "a.obj").vertexCount() == 4);
+    CHECK(decode(text, "a.obj").uvs.empty());
+    const Mesh mesh = decode(text, "a.obj", UpAxis::Y, kAll);
+    REQUIRE(mesh.vertexCount() == 5); // vertex 3 has two, vertex 2 has one
+    REQUIRE(mesh.uvs.size() == 5);
+    CHECK(mesh.colors.empty());
+    CHECK(mesh.uvs[mesh.triangles[0].x] == vec2(0, 1));
+    CHECK(mesh.uvs[mesh.triangles[0].z] == vec2(0, 0));
+    CHECK(mesh.uvs[mesh.triangles[1].y] == vec2(0.5f, 0.75f));
+    CHECK(mesh.uvs[mesh.triangles[1].z] == vec2(0, 1));
+    CHECK(decode(text + "f 1 2 4\n", "a.obj", UpAxis::Y, kAll).uvs.empty());
+    CHECK(failureOf("vt x 0\n" + text, "a.obj", kAll).find("line 1") != std::string::npos);
+    CHECK(failureOf("vt 0 1e999\n" + text, "a.obj", kAll).find("line 1") != std::string::npos);
+    CHECK(failureOf(text + "f 1/9 2/2 3/3\n", "a.obj", kAll).find("coordinates 9") != std::string::npos);
+}
+
+TEST_CASE("PLY: texture coordinates and colours under their several names") {
+    for (const auto& [u, v] :
+         {std::pair("s", "t"), std::pair("u", "v"), std::pair("texture_u", "texture_v")}) {
+        const std::string text =
+            fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float {}\nproperty float x\n"
+                        "property float y\nproperty float z\nproperty float {}\nproperty uchar blue\n"
+                        "property uchar green\nproperty uchar red\nelement face 1\n"
+                        "property list uchar int vertex_indices\nend_header\n"
+                        "0 0 0 0 0 255 0 51\n1 1 0 0 0 0 0 0\n0.25 0 1 0 1 0 255 0\n3 0 1 2\n",
+                        u, v);
+        CHECK(decode(text, "a.ply").uvs.empty());
+        CHECK(decode(text, "a.ply").colors.empty());
+        const Mesh mesh = decode(text, "a.ply", UpAxis::Y, kAll);
+        REQUIRE(mesh.uvs.size() == 3);
+        REQUIRE(mesh.colors.size() == 3);
+        CHECK(mesh.uvs[0] == vec2(0, 1));
+        CHECK(mesh.uvs[2] == vec2(0.25f, 0));
+        CHECK(glm::distance(mesh.colors[0], vec4(0.2f, 0, 1, 0)) < 1e-6f);
+        CHECK(mesh.colors[2] == vec4(0, 1, 0, 0));
+    }
+    const std::string floats =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float red\nproperty float green\nproperty float blue\n"
+        "property float alpha\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0 0.5 7 -1 1\n1 0 0 0 0 0 0\n0 1 0 {} 0 0 0\n3 0 1 2\n";
+    const Mesh clamped = decode(fmt::format(fmt::runtime(floats), "0"), "a.ply", UpAxis::Y, kAll);
+    REQUIRE(clamped.colors.size() == 3);
+    CHECK(clamped.colors[0] == vec4(0.5f, 1, 0, 1));
+    CHECK(failureOf(fmt::format(fmt::runtime(floats), "nan"), "a.ply", kAll).find("finite") !=
+          std::string::npos);
+    CHECK(failureOf(fmt::format(fmt::runtime(floats), "nan"), "a.ply") == "");
+}
+
+TEST_CASE("clean-up: vertices are one only if all that is there of them agrees") {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    CHECK(cleanUp(mesh, "test").vertexCount() == 4);
+    Mesh unwrapped = mesh;
+    unwrapped.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, -0.0f}, {1, 1}, {0, 0.5f}};
+    const Mesh seam = cleanUp(unwrapped, "test");
+    CHECK(seam.vertexCount() == 5);
+    CHECK(seam.uvs[seam.triangles[1].z] == vec2(0, 0.5f));
+    Mesh painted = mesh;
+    painted.colors.assign(6, vec4(2));
+    painted.colors[3] = vec4(0);
+    CHECK(cleanUp(painted, "test").vertexCount() == 5);
+    CHECK(cleanUp(painted, "test").colors[0] == vec4(1));
+    unwrapped.uvs.pop_back();
+    CHECK(cleanUp(unwrapped, "test").uvs.empty());
+    unwrapped.uvs.push_back(vec2(0, std::numeric_limits<float>::infinity()));
+    CHECK_THROWS_AS(cleanUp(unwrapped, "test"), Error);
 }
 
 TEST_CASE("polygons: areas add up and no triangle is turned over") {
@@ -227,6 +303,33 @@ TEST_CASE("glTF: documents that lie") {
     CHECK(changed("\"buffer\":0", "\"buffer\":-3").find("buffer -3") != std::string::npos);
     CHECK(changed("VEC3", "VEC2").find("VEC3") != std::string::npos);
     CHECK(changed("5125", "5126").find("unsigned") != std::string::npos);
+}
+
+TEST_CASE("glTF: vertex colours of any type; three channels leave the fourth weight 0") {
+    const auto colorsOf = [](int type, const char* width, const char* more, const std::string& data) {
+        std::string buffer;
+        for (const float value : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) put(buffer, value);
+        const std::string json = fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],)"
+            R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"COLOR_0":1}}}}]}}],"accessors":[)"
+            R"({{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},)"
+            R"({{"bufferView":1,"componentType":{},"count":3,"type":"{}"{}}}],"bufferViews":[)"
+            R"({{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{}}}],)"
+            R"("buffers":[{{"byteLength":{}}}]}})",
+            type, width, more, data.size(), 36 + data.size());
+        return decode(glbOf(json, buffer + data), "a.glb", UpAxis::Y, kAll).colors;
+    };
+    const std::string bytes("\xff\x33\0\0\0\xff\0\0\0\0\xff\xff", 12);
+    const std::vector<vec4> four = colorsOf(5121, "VEC4", R"(,"normalized":true)", bytes);
+    REQUIRE(four.size() == 3);
+    CHECK(glm::distance(four[0], vec4(1, 0.2f, 0, 0)) < 1e-6f);
+    CHECK(four[2] == vec4(0, 0, 1, 1));
+    std::string floats;
+    for (const float value : {0.5f, 0.25f, 2.0f, 0.0f, 0.0f, 0.0f, 1.0f, -1.0f, 0.0f}) put(floats, value);
+    const std::vector<vec4> three = colorsOf(5126, "VEC3", "", floats);
+    REQUIRE(three.size() == 3);
+    CHECK(three[0] == vec4(0.5f, 0.25f, 1, 0));
+    CHECK(three[2] == vec4(1, 0, 0, 0));
 }
 
 TEST_CASE("glTF: buffers come from the file's own folder only") {

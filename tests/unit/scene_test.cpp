@@ -6,6 +6,7 @@
 #include "engine/scene/builtin_mesh.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/textured_glb.h"
 
 #include <doctest/doctest.h>
 
@@ -102,6 +103,98 @@ TEST_CASE("scene: errors name the place, the key and the remedy") {
     CHECK(failureOf(start + R"({"size": 2}})").find("unknown key \"size\"") != std::string::npos);
     CHECK(failureOf(start + "3}").find("object") != std::string::npos);
     CHECK(failureOf(start + "true}") == "");
+}
+
+TEST_CASE("scene: parts painted by textures or by vertex colours") {
+    const TemporaryFolder folder;
+    const std::string base = samplePng(TexturedGlb::kRed), weights = samplePng(TexturedGlb::kBlue);
+    folder.write("base.png", base);
+    folder.write("weights.png", weights);
+    folder.write("painted.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n");
+    const Scene scene = readScene(folder.write("scene.json", R"({"parts": [
+        {"mesh": "plane", "material": {"set": ["clay", "red"]}, "base_color": "base.png", "material_map": "weights.png"},
+        {"mesh": "painted.ply", "material": {"set": ["clay", "red"]}, "material_map": "colors"},
+        {"mesh": "sphere", "material": "clay"}]})"));
+    REQUIRE(scene.parts.size() == 3);
+    const Part &textured = scene.parts[0], &painted = scene.parts[1], &plain = scene.parts[2];
+    CHECK(textured.material == R"({"set":["clay","red"]})");
+    REQUIRE(textured.baseColor);
+    REQUIRE(textured.materialMap);
+    CHECK(textured.baseColor->srgb);
+    CHECK(!textured.materialMap->srgb);
+    CHECK(textured.materialMap->texels == TexturedGlb::kBlue.texels);
+    CHECK(textured.mesh.uvs.size() == textured.mesh.vertexCount());
+    CHECK(!textured.paintedByColors);
+    REQUIRE(textured.textureFiles.size() == 2);
+    CHECK(textured.textureFiles[1].file == (folder.path() / "weights.png").string());
+    CHECK(textured.textureFiles[1].hash == hashText(std::as_bytes(std::span(weights))));
+    CHECK(painted.paintedByColors);
+    CHECK(painted.mesh.colors[1] == vec4(0, 1, 0, 0));
+    CHECK(painted.mesh.uvs.empty());
+    CHECK(!plain.baseColor);
+    CHECK(!plain.materialMap);
+    CHECK(plain.mesh.uvs.empty());
+}
+
+TEST_CASE("scene: a glTF file without a named material keeps its own") {
+    const TemporaryFolder folder;
+    folder.write("a.glb", TexturedGlb().bytes());
+    folder.write("base.png", samplePng(TexturedGlb::kBlue));
+    const Scene own = readScene(folder.write(
+        "own.json",
+        R"({"parts": [{"mesh": "a.glb", "up": "z", "translate": [5, 0, 0]}, {"mesh": "a.glb", "name": "box"}]})"));
+    REQUIRE(own.parts.size() == 4);
+    CHECK(own.parts[0].name == "red");
+    CHECK(own.parts[0].source == (folder.path() / "a.glb").string());
+    CHECK(!own.parts[1].sourceHash.empty());
+    CHECK(boundsOf(own.parts[1].mesh).low == vec3(5, 1, -1));
+    CHECK(own.parts[1].baseColor);
+    CHECK(own.parts[2].name == "box: red");
+    CHECK(own.parts[3].name == "box: material 1");
+    const Scene named = readScene(folder.write(
+        "named.json",
+        R"({"parts": [{"mesh": "a.glb", "material": "clay"}, {"mesh": "a.glb", "material": "clay", "base_color": "base.png"}]})"));
+    REQUIRE(named.parts.size() == 2);
+    CHECK(named.parts[0].name == "a");
+    CHECK(named.parts[0].mesh.vertexCount() == 8);
+    CHECK(!named.parts[0].baseColor);
+    CHECK(named.parts[1].mesh.vertexCount() == 12);
+    CHECK(named.parts[1].baseColor->texels == TexturedGlb::kBlue.texels);
+}
+
+TEST_CASE("scene: paint that does not fit its mesh") {
+    const TemporaryFolder folder;
+    folder.write("bare.obj", sampleObj(makeSphere(0)));
+    folder.write("a.glb", TexturedGlb().bytes());
+    folder.write("base.png", samplePng(TexturedGlb::kRed));
+    folder.write("broken.png", samplePng(TexturedGlb::kRed).substr(0, 40));
+    const auto failure = [&](const std::string& part) {
+        try {
+            readScene(folder.write("scene.json", R"({"parts": [{)" + part + "}]}"));
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto says = [](const std::string& text, const char* part) {
+        return text.find(part) != std::string::npos;
+    };
+    const std::string bare = R"("mesh": "bare.obj", "material": "clay", )",
+                      plane = R"("mesh": "plane", "material": "clay", )";
+    CHECK(says(failure(bare + R"("base_color": "base.png")"), "bare.obj: has no texture coordinates"));
+    CHECK(says(failure(bare + R"("material_map": "base.png")"), "unwrap"));
+    CHECK(says(failure(bare + R"("material_map": "colors")"), "no vertex colours"));
+    CHECK(says(failure(plane + R"("base_color": "missing.png")"), "missing.png"));
+    CHECK(says(failure(plane + R"("base_color": "broken.png")"), "broken.png"));
+    CHECK(says(failure(plane + R"("base_color": 7)"), "base_color"));
+    CHECK(says(failure(plane + R"("material_maps": "base.png")"), "did you mean \"material_map\""));
+    CHECK(says(failure(R"("mesh": "a.glb", "base_color": "base.png")"), "material"));
+    CHECK(says(failure(R"("mesh": "bare.obj")"), "material"));
+    CHECK(failure(plane + R"("base_color": "base.png")") == "");
 }
 
 TEST_CASE("nearest name: the fewest edits") {

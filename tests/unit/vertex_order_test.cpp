@@ -73,10 +73,14 @@ TEST_CASE("vertex order: the curve's first corners, and the normal where positio
     cube.positions = {{1, 1, 1}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 1}};
     cube.normals = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     cube.triangles = {{3, 2, 1}, {4, 5, 0}};
+    cube.uvs = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}};
+    cube.colors = {vec4(0), vec4(1), vec4(2), vec4(3), vec4(4), vec4(5)};
     orderVertices(cube);
     CHECK(cube.positions ==
           std::vector<vec3>{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
     CHECK(cube.normals[0] == vec3(1, 0, 0));
     CHECK(cube.normals[1] == vec3(-1, 0, 0));
+    CHECK(cube.uvs == std::vector<vec2>{{4, 0}, {3, 0}, {2, 0}, {1, 0}, {5, 0}, {0, 0}});
+    CHECK(cube.colors[4] == vec4(5));
     CHECK(cube.triangles == std::vector<uvec3>{{0, 4, 5}, {1, 2, 3}});
 }

@@ -1,0 +1,29 @@
+// The triangles of a glTF scene.
+#pragma once
+
+#include "engine/scene/mesh.h"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <tiny_gltf.h>
+
+namespace relume {
+
+// What to keep of the vertices of one material, besides positions and normals.
+struct GltfWish {
+    MeshAttributes attributes;
+    int uvSet = 0;              // the N of TEXCOORD_N
+    mat3 uvTransform = mat3(1); // of (u, v, 1)
+};
+
+// The wish for a material number, -1 where a primitive has none.
+using GltfWishes = std::function<GltfWish(int material)>;
+
+// The default scene (or the first) as one mesh for each material number, node transforms applied, unchecked
+// but for indices. A mesh has a normal of length zero where the file has none, and fewer uvs or colors than
+// vertices where a primitive lacks what is wished for. Throws Error, in which `name` stands for the file.
+std::map<int, Mesh> readGltfGeometry(const tinygltf::Model& model, const GltfWishes& wishes,
+                                     const std::string& name);
+
+} // namespace relume

@@ -1,0 +1,48 @@
+// Images on surfaces: eight bits a channel, as a device samples them.
+#pragma once
+
+#include "engine/math/vector.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace relume {
+
+constexpr int kLongestTextureSide = 8192;
+constexpr size_t kLargestTextureFile = size_t(1) << 29; // bytes
+
+struct Texture {
+    int width = 0, height = 0;
+    std::vector<uint32_t> texels; // RGBA, R in the lowest eight bits; row by row from the top
+    bool srgb = false;            // whether R, G and B are encoded; A never is
+
+    size_t texelCount() const { return texels.size(); }
+};
+
+// A file that something was made of: for provenance.
+struct InputFile {
+    std::string file;
+    std::string hash; // hashText of its bytes
+};
+
+// One texel, linear, in [0, 1].
+vec4 fetch(const Texture& texture, int x, int y);
+
+// What Vulkan's linear filter gives with repeating addresses: (0, 0) is the top left corner of the image, v
+// goes down, sRGB is decoded before interpolation. Infinite or NaN coordinates count as 0.
+vec4 sample(const Texture& texture, vec2 uv);
+
+// The mean of all texels, linear.
+vec4 meanOf(const Texture& texture);
+
+// Reads PNG or JPEG by content. Throws Error for anything truncated, corrupt, empty or absurd (more than
+// kLongestTextureSide a side, more than the bytes can hold).
+Texture readTexture(const std::filesystem::path& path, bool srgb);
+
+// The same from a file's bytes; `name` stands for the file in errors.
+Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name, bool srgb);
+
+} // namespace relume

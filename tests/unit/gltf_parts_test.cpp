@@ -1,0 +1,188 @@
+#include "engine/scene/mesh_formats.h"
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/scene/mesh_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/textured_glb.h"
+
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+GltfParts decode(const std::string& bytes, const std::filesystem::path& folder = "") {
+    return decodeGltfParts(std::as_bytes(std::span(bytes)), folder, "a.glb");
+}
+
+std::string failureOf(const TexturedGlb& glb, const std::filesystem::path& folder = "") {
+    try {
+        decode(glb.bytes(), folder);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("glTF parts: two textured materials come in apart, each with its own") {
+    const GltfParts file = decode(TexturedGlb().bytes());
+    REQUIRE(file.parts.size() == 2);
+    const GltfPart &red = file.parts[0], &blue = file.parts[1];
+    CHECK(red.name == "red");
+    CHECK(red.material == R"({"model":"gltf","base_color":[0.5,0.25,1.0],"metallic":0.0,"roughness":0.75})");
+    REQUIRE(red.baseColor);
+    CHECK(red.baseColor->srgb);
+    CHECK(red.baseColor->texels == TexturedGlb::kRed.texels);
+    CHECK(blue.name == "material 1");
+    CHECK(blue.material == R"({"model":"gltf","base_color":[1.0,1.0,1.0],"metallic":1.0,"roughness":1.0})");
+    REQUIRE(blue.baseColor);
+    CHECK(blue.baseColor->texels == TexturedGlb::kBlue.texels);
+    CHECK(file.images.empty());
+    // Both quads have a seam through their middle: four corners, of which two are double.
+    for (const GltfPart& part : file.parts) {
+        CHECK(part.mesh.triangleCount() == 2);
+        REQUIRE(part.mesh.vertexCount() == 6);
+        REQUIRE(part.mesh.uvs.size() == 6);
+        CHECK(part.mesh.normals[0] == vec3(0, 0, 1));
+    }
+    CHECK(red.mesh.uvs[red.mesh.triangles[1].y] == vec2(0.75f, 0.5f));
+    CHECK(blue.mesh.positions[blue.mesh.triangles[0].x].z == 1);
+    // The same file as one mesh, whose seams nothing needs.
+    const std::string bytes = TexturedGlb().bytes();
+    const Mesh whole = decodeMesh(std::as_bytes(std::span(bytes)), "a.glb", UpAxis::Y);
+    CHECK(whole.vertexCount() == 8);
+    CHECK(whole.uvs.empty());
+    const Mesh seams = decodeMesh(std::as_bytes(std::span(bytes)), "a.glb", UpAxis::Y, {true, true});
+    CHECK(seams.uvs.size() == 12);
+    CHECK(seams.colors.empty());
+}
+
+TEST_CASE("glTF parts: images as data, as files, and from nowhere else") {
+    TexturedGlb data;
+    data.images = R"([{"uri":"data:image/png;base64,)" + encodeBase64(samplePng(TexturedGlb::kBlue)) +
+                  R"("},{"bufferView":5}])";
+    CHECK(decode(data.bytes()).parts[0].baseColor->texels == TexturedGlb::kBlue.texels);
+
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "inner/maps");
+    const std::string png = samplePng(TexturedGlb::kRed);
+    folder.write("inner/maps/red wood.png", png);
+    folder.write("outside.png", png);
+    folder.write("inner/broken.png", png.substr(0, png.size() - 9));
+    const auto withImage = [](const std::string& uri) {
+        TexturedGlb glb;
+        glb.images = R"([{"uri":")" + uri + R"("},{"bufferView":5}])";
+        return glb;
+    };
+    const std::filesystem::path inner = folder.path() / "inner";
+    const GltfParts file = decode(withImage("maps/red%20wood.png").bytes(), inner);
+    CHECK(file.parts[0].baseColor->texels == TexturedGlb::kRed.texels);
+    REQUIRE(file.images.size() == 1);
+    CHECK(says(file.images[0].file, "red wood.png"));
+    CHECK(file.images[0].hash == hashText(std::as_bytes(std::span(png))));
+    CHECK(says(failureOf(withImage("../outside.png"), inner), "folder"));
+    CHECK(says(failureOf(withImage("%2e%2e/outside.png"), inner), "folder"));
+    CHECK(says(failureOf(withImage((folder.path() / "outside.png").string()), inner), "folder"));
+    CHECK(says(failureOf(withImage("missing.png"), inner), "missing.png"));
+    CHECK(says(failureOf(withImage("maps"), inner), "no file"));
+    CHECK(says(failureOf(withImage(""), inner), "images[0]"));
+    CHECK(says(failureOf(withImage("broken.png"), inner), "images[0]"));
+    CHECK(says(failureOf(withImage("data:image/png;base64,AAAA"), inner), "PNG or JPEG"));
+}
+
+TEST_CASE("glTF parts: metalness and roughness are averaged, texture coordinates transformed") {
+    TexturedGlb glb;
+    // The red image's texels have G of 0 and 255 and B of 0 in equal shares.
+    glb.materials = R"([{"pbrMetallicRoughness":{"metallicFactor":0.5,"roughnessFactor":0.5,
+        "metallicRoughnessTexture":{"index":0},"baseColorTexture":{"index":1,"extensions":{
+        "KHR_texture_transform":{"offset":[1,2],"rotation":1.5707963267948966,"scale":[4,2]}}}}},
+        {"name":"material 0"}])";
+    const GltfParts file = decode(glb.bytes());
+    REQUIRE(file.parts.size() == 2);
+    CHECK(file.parts[0].material.find("\"metallic\":0.0,\"roughness\":0.25") != std::string::npos);
+    // (0.75, 0.5) is scaled to (3, 1), turned counter-clockwise, u to the lesser v, and moved.
+    const Mesh& mesh = file.parts[0].mesh;
+    CHECK(glm::distance(mesh.uvs[mesh.triangles[1].y], vec2(1 + 1, 2 - 3)) < 1e-5f);
+    CHECK(file.parts[1].name == "material 0 (1)");
+    CHECK(file.parts[1].mesh.uvs.empty());
+    CHECK(file.parts[1].mesh.vertexCount() == 4);
+}
+
+TEST_CASE("glTF parts: what is not supported is ignored; factors are clamped") {
+    TexturedGlb glb;
+    glb.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[2,-1,0.5,0.25],"metallicFactor":7},
+        "normalTexture":{"index":77},"emissiveFactor":[1,0,0],"alphaMode":"BLEND",
+        "extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":[[[]]]}},"extras":[[[]]]},
+        {"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":3}}}])";
+    const GltfParts file = decode(glb.bytes());
+    REQUIRE(file.parts.size() == 2);
+    CHECK(file.parts[0].material ==
+          R"({"model":"gltf","base_color":[1.0,0.0,0.5],"metallic":1.0,"roughness":1.0})");
+    CHECK(!file.parts[1].baseColor); // there is no TEXCOORD_3
+    glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":3}])";
+    const GltfParts bare = decode(glb.bytes());
+    REQUIRE(bare.parts.size() == 1);
+    CHECK(bare.parts[0].name == "default material");
+}
+
+TEST_CASE("glTF parts: materials that lie") {
+    const auto withMaterial = [](const std::string& material) {
+        TexturedGlb glb;
+        glb.materials = "[" + material + ",{}]";
+        return failureOf(glb);
+    };
+    const auto withSurface = [&](const std::string& surface) {
+        return withMaterial(R"({"pbrMetallicRoughness":)" + surface + "}");
+    };
+    CHECK(withSurface("{}") == "");
+    CHECK(says(withMaterial("7"), "materials[0]"));
+    CHECK(says(withMaterial(R"({"name":7})"), "name"));
+    CHECK(says(withSurface("[]"), "pbrMetallicRoughness"));
+    CHECK(says(withSurface(R"({"baseColorFactor":[1,1,1]})"), "4 numbers"));
+    CHECK(says(withSurface(R"({"roughnessFactor":"1"})"), "roughnessFactor"));
+    CHECK(says(withSurface(R"({"baseColorTexture":{"index":9}})"), "number 9 of its textures"));
+    CHECK(says(withSurface(R"({"baseColorTexture":{"index":-1}})"), "index"));
+    CHECK(says(withSurface(R"({"baseColorTexture":{"index":99999999999}})"), "index"));
+    CHECK(withSurface(R"({"baseColorTexture":{}})") == "");
+    TexturedGlb glb;
+    glb.textures = R"([{"source":4},{"source":0}])";
+    CHECK(says(failureOf(glb), "number 4 of its images"));
+    glb.textures = R"([{"extensions":{"KHR_texture_basisu":{"source":0}}},{"source":0}])";
+    CHECK(says(failureOf(glb), "PNG or JPEG"));
+    glb.textures = R"([{"source":0,"sampler":3},{"source":0}])";
+    CHECK(says(failureOf(glb), "samplers"));
+    glb = {};
+    glb.images = R"([{"bufferView":77},{"bufferView":5}])";
+    CHECK(says(failureOf(glb), "buffer view 77"));
+    glb.images = R"([{"bufferView":0},{"bufferView":5}])";
+    CHECK(says(failureOf(glb), "PNG or JPEG"));
+    glb = {};
+    glb.materials = "[{}]";
+    CHECK(says(failureOf(glb), "number 1 of its materials"));
+}
+
+TEST_CASE("glTF parts: truncated anywhere or with any bit flipped, parts or an Error") {
+    const std::string bytes = TexturedGlb().bytes();
+    std::mt19937 random(3);
+    const auto tryDecode = [](const std::string& damaged) {
+        try {
+            decode(damaged);
+        } catch (const Error&) {
+        }
+    };
+    for (size_t size = 0; size < bytes.size(); size += 7) tryDecode(bytes.substr(0, size));
+    for (int i = 0; i < 1000; i++) {
+        std::string damaged = bytes;
+        for (int flips = 1 + i % 3; flips > 0; flips--)
+            damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
+        tryDecode(damaged);
+    }
+    CHECK(decode(bytes).parts.size() == 2);
+}
