@@ -3,7 +3,6 @@
 #include "apps/relume/scene_arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "precompute/brdf/brdf.h"
 
 #include <spdlog/spdlog.h>
 
@@ -64,14 +63,10 @@ void addBakeCommand(CLI::App& program) {
     arguments->device.add(*command);
     command->add_option("--timings", arguments->timings, "Write stage timings as JSON")->type_name("FILE");
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
-    std::string presets;
-    for (const MaterialPreset& preset : materialPresets())
-        presets += fmt::format("\n  {:20} {}", preset.name, preset.description);
     command->footer(
         "With no INPUT it bakes a built-in torus knot: relume bake -o knot.relume\n"
         "A material with parameters: -m '{\"model\": \"ashikhmin-shirley\", \"nu\": 50, \"nv\": 50}'\n"
-        "Preset materials:" +
-        presets);
+        "`relume materials` lists presets and models.");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -11,6 +11,7 @@ void addReferenceCommand(CLI::App& program);
 void addCompareCommand(CLI::App& program);
 void addVerifyCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
+void addMaterialsCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     addCompareCommand(program);
     addVerifyCommand(program);
     addInfoCommand(program);
+    addMaterialsCommand(program);
     addDevicesCommand(program);
     addBenchCommand(program);
     return run(program, argc, argv);

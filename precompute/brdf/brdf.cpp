@@ -1,7 +1,9 @@
 #include "precompute/brdf/brdf.h"
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/nearest_name.h"
+#include "precompute/brdf/measured.h"
 #include "precompute/brdf/model_list.h"
 #include "precompute/brdf/presets.h"
 
@@ -17,6 +19,7 @@ namespace {
 // A material is a few lines: anything longer or deeper is a mistake.
 constexpr size_t kMaxTextSize = 1 << 16;
 constexpr int kMaxDepth = 4;
+constexpr size_t kMaxPathLength = 4096;
 
 json parse(const std::string& text) {
     if (text.size() > kMaxTextSize)
@@ -34,15 +37,39 @@ json parse(const std::string& text) {
     }
 }
 
-std::unique_ptr<Brdf> makeFromJson(const std::string& text) {
+std::unique_ptr<Brdf> makeFromJson(const std::string& text, const std::filesystem::path& folder) {
     json object = parse(text);
+    if (object.is_object() && object.contains("measured")) {
+        MaterialParameters parameters("measured", std::move(object));
+        return makeMeasured(parameters, folder);
+    }
     const auto model = object.is_object() ? object.find("model") : object.end();
     if (model == object.end() || !model->is_string())
         throw UsageError(
-            R"(material in JSON must be an object with a model's name: {{"model": "plastic", …}})");
+            "material in JSON must be an object with a model's name, {{\"model\": \"plastic\", …}}, "
+            "or with measured data, {{\"measured\": \"steel.binary\"}}");
     const std::string name = *model;
     object.erase("model");
     return makeModel(name, object);
+}
+
+std::unique_ptr<Brdf> makeFromJsonFile(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = readFile(path, kMaxTextSize);
+    try {
+        return makeFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.parent_path());
+    } catch (const UsageError& wrong) {
+        throw Error("{}: {}", path.generic_string(), wrong.what());
+    }
+}
+
+// A material given as a path; none if it does not look like one.
+std::unique_ptr<Brdf> makeFromFile(const std::string& material, const std::filesystem::path& folder) {
+    if (material.size() > kMaxPathLength || material.find('\0') != std::string::npos) return nullptr;
+    const std::filesystem::path path = material;
+    if (path.extension() == ".json") return makeFromJsonFile(folder / path);
+    if (path.extension() != ".binary" && path.extension() != ".brdf") return nullptr;
+    MaterialParameters parameters("measured", {{"measured", material}});
+    return makeMeasured(parameters, folder);
 }
 
 bool looksLikeJson(const std::string& text) {
@@ -57,18 +84,19 @@ bool looksLikeJson(const std::string& text) {
     for (const std::string_view model : modelNames())
         if (std::find(names.begin(), names.end(), model) == names.end()) names.push_back(model);
     throw UsageError("unknown material \"{}\"; did you mean \"{}\"? Presets: {}; or a JSON object: "
-                     R"({{"model": "plastic", …}})",
+                     R"({{"model": "plastic", …}}; or a file ending in .json, .binary or .brdf)",
                      material.substr(0, 60), nearestName(material, names), presets);
 }
 
 } // namespace
 
-std::unique_ptr<Brdf> makeBrdf(const std::string& material) {
-    if (looksLikeJson(material)) return makeFromJson(material);
+std::unique_ptr<Brdf> makeBrdf(const std::string& material, const std::filesystem::path& folder) {
+    if (looksLikeJson(material)) return makeFromJson(material, folder);
     for (const PresetDefinition& preset : presetDefinitions())
-        if (material == preset.name) return makeFromJson(preset.json);
+        if (material == preset.name) return makeFromJson(preset.json, folder);
     for (const std::string_view model : modelNames())
         if (material == model) return makeModel(material, json::object());
+    if (auto brdf = makeFromFile(material, folder)) return brdf;
     failUnknownMaterial(material);
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/math/vector.h"
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -25,14 +26,17 @@ class Brdf {
     // Whether f(ωi, ωo) = f(ωo, ωi) by construction.
     virtual bool isReciprocal() const { return true; }
 
-    // {"model": NAME, every parameter…}: makeBrdf of it gives the same BRDF.
+    // {"model": NAME, every parameter…}, or of measured data {"measured": PATH, "scale": s, "hash": h}:
+    // makeBrdf of it gives the same BRDF.
     virtual nlohmann::json describe() const = 0;
 };
 
-// From a preset's name ("clay"), a model's name ("ashikhmin-shirley"), or a JSON object as text
-// ({"model": "ashikhmin-shirley", "nu": 10}). Throws UsageError naming the nearest valid name, or the
-// valid range of a parameter.
-std::unique_ptr<Brdf> makeBrdf(const std::string& material);
+// From a preset's name ("clay"), a model's name ("ashikhmin-shirley"), a JSON object as text ({"model":
+// "ashikhmin-shirley", "nu": 10} or {"measured": "steel.binary"}), the path of a file of such JSON (.json),
+// or that of measured data (.binary, .brdf). A relative path starts at `folder`, one in a .json file at that
+// file's folder. Throws UsageError naming the nearest valid name, or the valid range of a parameter; Error
+// for a file that cannot be used.
+std::unique_ptr<Brdf> makeBrdf(const std::string& material, const std::filesystem::path& folder = {});
 
 // Names of all presets, with a line of description each, and their model.
 struct MaterialPreset {

@@ -48,7 +48,7 @@ TEST_CASE("cli: help and version go to stdout and end well") {
     const Outcome help = runRelume(folder, "--help");
     CHECK_EQ(help.exitCode, 0);
     for (const char* command :
-         {"bake", "render", "reference", "compare", "verify", "info", "devices", "bench"}) {
+         {"bake", "render", "reference", "compare", "verify", "info", "materials", "devices", "bench"}) {
         CHECK(says(help.out, command));
         const Outcome own = runRelume(folder, std::string(command) + " --help");
         CHECK_EQ(own.exitCode, 0);
@@ -127,6 +127,32 @@ TEST_CASE("cli: without a device the exit code is 4") {
     CHECK(says(bake.err, "Vulkan"));
     CHECK_EQ(runRelume(folder, "devices", noDriver).exitCode, 4);
     CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o x.relume --device no-such-device").exitCode, 4);
+}
+
+TEST_CASE("cli: materials lists presets and models, as text and as JSON") {
+    const TemporaryFolder folder;
+    const Outcome text = runRelume(folder, "materials");
+    CHECK_EQ(text.exitCode, 0);
+    for (const char* part : {"red-plastic", "oren-nayar", "roughness_u", "from 0.02 to 1", "measured"})
+        CHECK(says(text.out, part));
+    const Outcome outcome = runRelume(folder, "materials --json");
+    REQUIRE_EQ(outcome.exitCode, 0);
+    const auto materials = nlohmann::json::parse(outcome.out);
+    CHECK_GT(materials["presets"].size(), 25u);
+    CHECK_EQ(materials["models"][0]["parameters"][0]["name"], "albedo");
+}
+
+TEST_CASE("cli: a material that cannot be used is named before the work") {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "cut.binary") << "x";
+    for (const auto& [material, part] :
+         std::vector<std::pair<std::string, std::string>>{{"missing.binary", "missing.binary"},
+                                                          {"cut.binary", "cut.binary"},
+                                                          {"missing.json", "missing.json"}}) {
+        const Outcome outcome = runRelume(folder, std::string(kSmallBake) + "-o x.relume -m " + material);
+        CHECK_EQ(outcome.exitCode, 1);
+        CHECK(says(outcome.err, part));
+    }
 }
 
 TEST_CASE("cli: devices lists what a choice needs") {

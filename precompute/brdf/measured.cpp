@@ -1,0 +1,78 @@
+#include "precompute/brdf/measured.h"
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "precompute/brdf/cornell.h"
+#include "precompute/brdf/merl.h"
+
+#include <utility>
+
+namespace relume {
+
+namespace {
+
+constexpr size_t kMaxFileSize = size_t(64) << 20;
+constexpr size_t kMaxPathLength = 4096;
+
+class Measured final : public Brdf {
+  public:
+    Measured(IsotropicTable table, float scale, std::string path, std::string hash)
+        : mTable(std::move(table)), mScale(scale), mPath(std::move(path)), mHash(std::move(hash)) {}
+
+    vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
+        return mTable.interpolate(incoming, outgoing) * mScale;
+    }
+
+    nlohmann::json describe() const override {
+        return {{"measured", mPath}, {"scale", numberToJson(mScale)}, {"hash", mHash}};
+    }
+
+  private:
+    IsotropicTable mTable;
+    float mScale;
+    std::string mPath, mHash;
+};
+
+// The path as text, if a description can hold it.
+std::filesystem::path readPath(MaterialParameters& parameters) {
+    const std::string text = parameters.requiredText("measured");
+    if (text.empty() || text.size() > kMaxPathLength || text.find('\0') != std::string::npos)
+        throw UsageError("material: \"measured\" must be a path of 1 to {} characters", kMaxPathLength);
+    try {
+        (void)nlohmann::json(text).dump();
+    } catch (const nlohmann::json::exception&) {
+        throw UsageError("material: \"measured\" must be a path in UTF-8");
+    }
+    return text;
+}
+
+IsotropicTable parse(const std::vector<std::byte>& bytes, const std::filesystem::path& path) {
+    const std::string name = path.generic_string();
+    if (path.extension() == ".binary" || looksLikeMerl(bytes)) return parseMerl(bytes, name);
+    return parseCornell({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
+}
+
+} // namespace
+
+std::unique_ptr<Brdf> makeMeasured(MaterialParameters& parameters, const std::filesystem::path& folder) {
+    const std::filesystem::path path = (folder / readPath(parameters)).lexically_normal();
+    const float scale = parameters.number("scale", 1, {0, 1000});
+    const std::string expected = parameters.text("hash", "");
+    parameters.rejectUnknownKeys();
+    std::error_code failure;
+    if (!std::filesystem::exists(path, failure))
+        throw Error(
+            "{}: measured material not found; give the path of a MERL (.binary) or Cornell (.brdf) file",
+            path.generic_string());
+    const std::vector<std::byte> bytes = readFile(path, kMaxFileSize);
+    const std::string hash = hashText(bytes);
+    if (!expected.empty() && hash != expected)
+        throw Error(
+            "{}: is not the file that the material was made from: its hash is {}, not {}; restore that "
+            "file, or leave \"hash\" out to use this one",
+            path.generic_string(), hash, expected.substr(0, 60));
+    return std::make_unique<Measured>(parse(bytes, path), scale, path.generic_string(), hash);
+}
+
+} // namespace relume
