@@ -54,6 +54,10 @@ std::unique_ptr<Brdf> makeFromJson(const std::string& text, const std::filesyste
 }
 
 std::unique_ptr<Brdf> makeFromJsonFile(const std::filesystem::path& path) {
+    std::error_code failure;
+    if (!std::filesystem::exists(path, failure))
+        throw Error("{}: material file not found; give the path of a file that holds a material in JSON",
+                    path.generic_string());
     const std::vector<std::byte> bytes = readFile(path, kMaxTextSize);
     try {
         return makeFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.parent_path());

@@ -46,7 +46,7 @@ std::unique_ptr<Brdf> makeGgx(MaterialParameters& parameters);
 
 // {"base_color": c, "metallic": m, "roughness": r}: glTF 2.0, appendix B, with α = max(r², .02): a narrower
 // lobe falls between the texels of any map. f = (1 - m) (base + coat) + m metal. Where the appendix' sample
-// code weights the base by 1 - F(h·ωo), by which a white one reflects up to 1.9 times what it receives at
+// code weights the base by 1 - F(h·ωo), by which a smooth white one reflects 1.6 times what it receives at
 // grazing angles, this is c (1 - F0) (1 - (1 - cosθi)⁵) (1 - (1 - cosθo)⁵) / π. Default: base_color .8,
 // metallic 0, roughness .5.
 std::unique_ptr<Brdf> makeGltf(MaterialParameters& parameters);

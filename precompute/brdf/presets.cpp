@@ -5,10 +5,12 @@ namespace relume {
 namespace {
 
 // Metals' F0 are Adobe's, in linear Rec. 709 ("Metal material references" of the Standard Material: Ag, Al,
-// Au, Cr, Cu), iron's is that of Google's Filament ("Material properties"). Their roughness is such that a
-// map of 48 by 48 texels resolves the lobe. Colours of paints, woods and stones are by eye. Clay and skin:
-// fits of Lafortune's model (Lafortune et al. 1997) to measurements at Cornell, attributed to Westin; the
-// values as in pbrt, version 1.
+// Au, Cr, Cu), iron's is that of Google's Filament ("Material properties"). Highlights are as wide as maps of
+// 48 by 48 texels and some terms can hold; the narrowest, chrome's, wants 16 terms or more. Colours of
+// paints, woods and stones are by eye.
+//
+// Clay and skin: fits of Lafortune's model (Lafortune et al. 1997) to measurements at Cornell, attributed to
+// Westin; the values as in pbrt, version 1.
 constexpr PresetDefinition kPresets[] = {
     {"grey-diffuse", "Lambertian, albedo 0.5", R"({"model": "diffuse", "albedo": 0.5})"},
     {"white-diffuse", "Lambertian, albedo 0.8, for grounds", R"({"model": "diffuse", "albedo": 0.8})"},
@@ -41,41 +43,41 @@ constexpr PresetDefinition kPresets[] = {
     {"brown-plastic", "light brown under a satin coat of index 1.5",
      R"({"model": "plastic", "diffuse": [0.45, 0.29, 0.16], "f0": 0.04, "roughness": 0.4})"},
     {"black-plastic", "black under a glossy coat of index 1.5",
-     R"({"model": "plastic", "diffuse": 0.01, "f0": 0.04, "roughness": 0.2})"},
+     R"({"model": "plastic", "diffuse": 0.01, "f0": 0.04, "roughness": 0.25})"},
     {"white-plastic", "white under a glossy coat of index 1.5",
      R"({"model": "plastic", "diffuse": 0.8, "f0": 0.04, "roughness": 0.25})"},
     {"rubber", "dark rubber, a wide dull highlight",
      R"({"model": "cook-torrance", "diffuse": 0.03, "f0": 0.035, "roughness": 0.5})"},
     {"porcelain", "white glazed ceramic",
-     R"({"model": "plastic", "diffuse": [0.82, 0.81, 0.78], "index": 1.55, "roughness": 0.12})"},
+     R"({"model": "plastic", "diffuse": [0.82, 0.81, 0.78], "index": 1.55, "roughness": 0.2})"},
     {"jade", "green polished stone, without its translucency",
-     R"({"model": "plastic", "diffuse": [0.12, 0.36, 0.17], "index": 1.65, "roughness": 0.15})"},
+     R"({"model": "plastic", "diffuse": [0.12, 0.36, 0.17], "index": 1.65, "roughness": 0.22})"},
     {"varnished-wood", "brown wood under a clear varnish",
-     R"({"model": "plastic", "diffuse": [0.32, 0.15, 0.06], "index": 1.52, "roughness": 0.18})"},
+     R"({"model": "plastic", "diffuse": [0.32, 0.15, 0.06], "index": 1.52, "roughness": 0.22})"},
     {"lacquer", "deep red lacquer",
-     R"({"model": "plastic", "diffuse": [0.3, 0.012, 0.008], "index": 1.55, "roughness": 0.14})"},
+     R"({"model": "plastic", "diffuse": [0.3, 0.012, 0.008], "index": 1.55, "roughness": 0.22})"},
     {"pearl", "off-white with a bright soft sheen",
-     R"({"model": "ashikhmin-shirley", "kd": [0.75, 0.7, 0.66], "ks": [0.3, 0.29, 0.28], "nu": 60, "nv": 60})"},
+     R"({"model": "ashikhmin-shirley", "kd": [0.75, 0.7, 0.66], "ks": [0.3, 0.29, 0.28], "nu": 30, "nv": 30})"},
     {"gold", "gold, softly polished",
-     R"({"model": "ggx", "f0": [1.0, 0.7099, 0.3148], "roughness_u": 0.18, "roughness_v": 0.18})"},
+     R"({"model": "ggx", "f0": [1.0, 0.7099, 0.3148], "roughness_u": 0.3, "roughness_v": 0.3})"},
     {"silver", "silver, softly polished",
-     R"({"model": "ggx", "f0": [0.9868, 0.983, 0.9667], "roughness_u": 0.16, "roughness_v": 0.16})"},
+     R"({"model": "ggx", "f0": [0.9868, 0.983, 0.9667], "roughness_u": 0.25, "roughness_v": 0.25})"},
     {"copper", "copper, softly polished",
-     R"({"model": "ggx", "f0": [1.0, 0.6504, 0.5274], "roughness_u": 0.2, "roughness_v": 0.2})"},
+     R"({"model": "ggx", "f0": [1.0, 0.6504, 0.5274], "roughness_u": 0.3, "roughness_v": 0.3})"},
     {"aluminium", "aluminium, satin finish",
-     R"({"model": "ggx", "f0": [0.9157, 0.9226, 0.9236], "roughness_u": 0.25, "roughness_v": 0.25})"},
-    {"chrome", "chromium, as polished as maps of 48 by 48 texels resolve",
-     R"({"model": "ggx", "f0": [0.5496, 0.5561, 0.5531], "roughness_u": 0.12, "roughness_v": 0.12})"},
+     R"({"model": "ggx", "f0": [0.9157, 0.9226, 0.9236], "roughness_u": 0.35, "roughness_v": 0.35})"},
+    {"chrome", "chromium, less polished than in life; wants 16 terms or more",
+     R"({"model": "ggx", "f0": [0.5496, 0.5561, 0.5531], "roughness_u": 0.2, "roughness_v": 0.2})"},
     {"brushed-steel", "steel brushed along t, its highlight drawn out along s",
-     R"({"model": "ggx", "f0": [0.527, 0.509, 0.491], "roughness_u": 0.4, "roughness_v": 0.12})"},
+     R"({"model": "ggx", "f0": [0.527, 0.509, 0.491], "roughness_u": 0.5, "roughness_v": 0.2})"},
     {"brushed-copper", "copper brushed along t, its highlight drawn out along s",
-     R"({"model": "ggx", "f0": [1.0, 0.6504, 0.5274], "roughness_u": 0.45, "roughness_v": 0.14})"},
+     R"({"model": "ggx", "f0": [1.0, 0.6504, 0.5274], "roughness_u": 0.55, "roughness_v": 0.22})"},
     {"satin", "silk-like cloth, a highlight across its threads",
      R"({"model": "ashikhmin-shirley", "kd": [0.35, 0.08, 0.16], "ks": [0.35, 0.25, 0.28], "nu": 6, "nv": 60})"},
     {"car-paint-red", "red car paint with a metallic sheen",
-     R"({"model": "ashikhmin-shirley", "kd": [0.42, 0.02, 0.02], "ks": [0.22, 0.06, 0.05], "nu": 120, "nv": 120})"},
+     R"({"model": "ashikhmin-shirley", "kd": [0.42, 0.02, 0.02], "ks": [0.22, 0.06, 0.05], "nu": 30, "nv": 30})"},
     {"car-paint-blue", "blue car paint with a metallic sheen",
-     R"({"model": "ashikhmin-shirley", "kd": [0.02, 0.06, 0.38], "ks": [0.06, 0.09, 0.22], "nu": 120, "nv": 120})"},
+     R"({"model": "ashikhmin-shirley", "kd": [0.02, 0.06, 0.38], "ks": [0.06, 0.09, 0.22], "nu": 30, "nv": 30})"},
     {"paint-gloss", "white gloss paint",
      R"({"model": "gltf", "base_color": [0.8, 0.79, 0.76], "metallic": 0, "roughness": 0.4})"},
     {"paint-matte", "white matte paint",

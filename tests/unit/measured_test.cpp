@@ -285,7 +285,7 @@ TEST_CASE("measured: damaged MERL files are refused") {
 TEST_CASE("measured: paths that lead nowhere are named") {
     const test::TemporaryFolder folder;
     CHECK(contains(errorOf("missing.binary", folder.path()), "missing.binary: measured material not found"));
-    CHECK(contains(errorOf("missing.json", folder.path()), "missing.json"));
+    CHECK(contains(errorOf("missing.json", folder.path()), "missing.json: material file not found"));
     std::filesystem::create_directory(folder.path() / "folder.brdf");
     CHECK(contains(errorOf("folder.brdf", folder.path()), "folder.brdf"));
     std::filesystem::create_directory(folder.path() / "folder.json");
