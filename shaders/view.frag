@@ -1,6 +1,6 @@
 #version 460
-// Reflected radiance: view maps, looked up in the local view direction, times the interpolated tuple.
-// C++ twin, up to the tuple: lookupMap() in engine/scene/factored_brdf.h. The sampler does the bilinear lookup, in
+// Reflected radiance: view maps of the worn layers, looked up in the local view direction, times the interpolated
+// tuple. C++ twins: lookupMap() in engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The sampler does the bilinear lookup, in
 // three quarters of the time of four fetches on lavapipe; devices may round its weights to 8 bits, which the eye
 // forgives and a bake would not.
 #extension GL_GOOGLE_include_directive : require
@@ -12,22 +12,45 @@
 layout(constant_id = 0) const uint kTerms = 4;     // of this draw
 layout(constant_id = 1) const bool kClamps = true; // this draw has all terms of its part
 layout(push_constant, scalar) uniform Push { ViewPush push; };
-layout(binding = 4) uniform sampler2DArray viewMaps;
+layout(binding = 4) uniform sampler2DArray viewMaps; // layer after layer of K maps
+layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
+layout(binding = 6) uniform sampler2DArray baseColor;
+layout(binding = 7) uniform sampler2DArray materialMap;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 tuple[kTerms];
-layout(location = 0) out vec4 color;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 color;
+layout(location = 4) in vec3 tuple[kTerms];
+layout(location = 0) out vec4 radiance;
+
+vec4 paintWeights() {
+    if (push.paint == kUnpainted) return vec4(0);
+    vec4 paint = push.paint == kPaintedByMap ? texture(materialMap, vec3(uv, 0)) : color;
+    for (uint m = push.materials; m < 4; m++) paint[m] = 0;
+    const float sum = paint.x + paint.y + paint.z + paint.w;
+    return sum > 0 ? paint / sum : vec4(1, 0, 0, 0);
+}
 
 void main() {
     // Opposite normals can cancel out on a fold; any direction does there.
     const mat3 frame = tangentFrame(dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal));
     const vec3 local = liftAboveHorizon(frame * normalize(push.eye - position));
     const vec2 place = diskMapCoordinates(push.mapping, local);
-    vec3 radiance = vec3(0);
-    for (uint k = 0; k < kTerms; k++)
-        radiance += texture(viewMaps, vec3(place, push.firstTerm + k)).rgb * tuple[k];
+    const vec4 paint = paintWeights();
+    const vec3 base = texture(baseColor, vec3(uv, 0)).rgb;
+    vec3 sum = vec3(0);
+    for (uint i = 0; i < push.layers; i++) {
+        const ViewLayer layer = layers[i];
+        vec3 weight = vec3(layer.weight);
+        if (layer.channel >= 0) weight *= paint[layer.channel];
+        if (layer.isTextured != 0) weight *= base;
+        vec3 reflected = vec3(0);
+        for (uint k = 0; k < kTerms; k++)
+            reflected += texture(viewMaps, vec3(place, layer.firstMap + push.firstTerm + k)).rgb * tuple[k];
+        sum += weight * reflected;
+    }
     // A truncated sum of products can be negative.
-    if (kClamps) radiance = max(radiance, 0);
-    color = vec4(radiance, 1);
+    if (kClamps) sum = max(sum, 0);
+    radiance = vec4(sum, 1);
 }

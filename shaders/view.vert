@@ -16,12 +16,16 @@ layout(binding = 3, scalar) readonly buffer Scale { LightScale light; };
 invariant gl_Position;
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
-layout(location = 2) out vec3 tuple[kTerms];
+layout(location = 2) out vec2 uv;
+layout(location = 3) out vec4 color;
+layout(location = 4) out vec3 tuple[kTerms];
 
 void main() {
     const ViewVertex vertex = vertices[gl_VertexIndex];
     position = vertex.position;
     normal = vertex.normal;
+    uv = vertex.uv;
+    color = vertex.color;
     gl_Position = push.clipFromWorld * vec4(vertex.position, 1);
 
     const uint firstRow = gl_VertexIndex * push.terms + push.firstTerm;

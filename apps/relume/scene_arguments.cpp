@@ -3,7 +3,7 @@
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
-#include "precompute/brdf/brdf.h"
+#include "precompute/brdf/material_list.h"
 
 #include <algorithm>
 #include <spdlog/spdlog.h>
@@ -71,7 +71,7 @@ std::optional<std::string> SceneArguments::chosenMaterial() const {
 void SceneArguments::checkMaterials(const Scene& scene) const {
     for (const Part& part : scene.parts) {
         try {
-            makeBrdf(part.material);
+            readMaterials(part.material, part.materialFolder);
         } catch (const UsageError& wrong) {
             if (!input.ends_with(".json")) throw;
             throw Error("{}: part \"{}\": {}", input, part.name, wrong.what());
@@ -80,7 +80,7 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
 }
 
 void BakeArguments::add(CLI::App& command) {
-    command.add_option("-K,--terms", options.terms, "BRDF terms, 1 to 32")
+    command.add_option("-K,--terms", options.factorization.terms, "BRDF terms, 1 to 32")
         ->type_name("K")
         ->capture_default_str();
     command
@@ -91,9 +91,9 @@ void BakeArguments::add(CLI::App& command) {
     command.add_option("--map-size", options.mapSize, "Side of a light or view map")
         ->type_name("S")
         ->capture_default_str();
-    command.add_option("--map", mMapping, "Layout of the maps: orthographic or polar")
+    command.add_option("--map", mMapping, "Layout of the maps: equal-area, orthographic or polar")
         ->type_name("MAP")
-        ->check(CLI::IsMember({"orthographic", "polar"}))
+        ->check(CLI::IsMember({"equal-area", "orthographic", "polar"}))
         ->capture_default_str();
     command.add_option("--face-size", options.faceSize, "Side of a face of the lighting cube: 32 or 64")
         ->type_name("F")

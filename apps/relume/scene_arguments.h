@@ -46,7 +46,7 @@ struct BakeArguments {
     void resolve();
 
   private:
-    std::string mMapping = "orthographic";
+    std::string mMapping = "equal-area";
     std::string mOccluder = "full";
 };
 

@@ -1,25 +1,28 @@
 #include "engine/render/map_texture.h"
 
+#include "engine/vk/upload.h"
+
+#include <bit>
+
 namespace relume {
 
 vk::Image makeMapTexture(const vk::Device& device, std::span<const vec3> maps, uint32_t size, uint32_t layers,
                          std::string_view name) {
     RELUME_CHECK_EQ(maps.size(), size_t(size) * size * layers);
-    vk::Image texture(device, {.width = size, .height = size, .layers = layers}, name);
-    vk::Buffer staging(device, maps.size() * sizeof(vec4), vk::BufferUse::Upload, "map upload");
-    const std::span<vec4> texels = staging.map<vec4>();
-    for (size_t i = 0; i < maps.size(); i++) texels[i] = vec4(maps[i], 0);
+    std::vector<vec4> texels;
+    texels.reserve(maps.size());
+    for (const vec3& value : maps) texels.push_back(vec4(value, 0));
+    return vk::uploadImage(device, {.width = size, .height = size, .layers = layers},
+                           std::as_bytes(std::span(texels)), name);
+}
 
-    using enum vk::Stage;
-    vk::Commands commands(device, "map upload");
-    commands.begin();
-    commands.transition(texture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, Transfer,
-                        Transfer);
-    commands.copy(staging, texture);
-    commands.transition(texture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Transfer, Compute);
-    commands.submitAndWait();
-    return texture;
+vk::Image makeSurfaceTexture(const vk::Device& device, const Texture& texture, std::string_view name) {
+    static_assert(std::endian::native == std::endian::little); // texels are words with R lowest
+    const vk::ImageOptions options{.format =
+                                       texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+                                   .width = uint32_t(texture.width),
+                                   .height = uint32_t(texture.height)};
+    return vk::uploadImage(device, options, std::as_bytes(std::span(texture.texels)), name);
 }
 
 } // namespace relume

@@ -45,7 +45,10 @@ void appendRow(ShardData& shard, const SparseTransport& transport, size_t row, u
 
 Relighter::Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options)
     : mDevice(device), mFaceSize(asset.faceSize), mProgram(device, relight_comp_spirv, {}, "relight") {
-    for (const AssetPart& part : asset.parts) mParts.push_back(makePart(part, options));
+    for (const AssetPart& part : asset.parts) {
+        std::vector<Set>& sets = mParts.emplace_back();
+        for (const MaterialSet& set : part.sets) sets.push_back(makeSet(set.transport, part.name, options));
+    }
 }
 
 // Rows of a shard: as many as one dispatch reaches and as fit the buffer of their starts.
@@ -56,52 +59,55 @@ uint32_t Relighter::largestRowCount(uint64_t largestShard) const {
     return uint32_t(std::min<uint64_t>({reached, bound, std::numeric_limits<uint32_t>::max()}));
 }
 
-Relighter::Part Relighter::makePart(const AssetPart& source, const RelighterOptions& options) const {
-    const SparseTransport& transport = source.transport;
+Relighter::Set Relighter::makeSet(const SparseTransport& transport, const std::string& name,
+                                  const RelighterOptions& options) const {
     const uint64_t sumBytes = std::max<uint64_t>(transport.rows() * sizeof(ivec3), sizeof(ivec3));
     if (sumBytes > mDevice.largestStorageBuffer())
         throw Error("{}: {} vertices with {} terms need {} bytes of sums; {} binds at most {}; split the "
                     "mesh into several parts",
-                    source.name, transport.vertices, transport.terms, sumBytes, mDevice.name(),
+                    name, transport.vertices, transport.terms, sumBytes, mDevice.name(),
                     mDevice.largestStorageBuffer());
-    Part part;
-    part.rows = uint32_t(transport.rows());
-    part.sums = vk::Buffer(mDevice, sumBytes, vk::BufferUse::Device, source.name + " sums");
+    Set set;
+    set.rows = uint32_t(transport.rows());
+    set.sums = vk::Buffer(mDevice, sumBytes, vk::BufferUse::Device, name + " sums");
 
     const uint64_t largestShard = std::min(options.largestShard, mDevice.largestStorageBuffer());
     const uint64_t largestGroups = largestShard / kGroupBytes;
     const uint32_t largestRows = largestRowCount(largestShard);
     const uint32_t coefficients = 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize);
-    for (uint32_t row = 0; row < part.rows;) {
-        Shard& shard = part.shards.emplace_back();
+    for (uint32_t row = 0; row < set.rows;) {
+        Shard& shard = set.shards.emplace_back();
         shard.firstRow = row;
         ShardData data;
         // At least one row: the longest, all 24,576 coefficients, is far below what any device binds.
         do appendRow(data, transport, row++, coefficients);
-        while (row < part.rows && data.starts.size() <= largestRows &&
+        while (row < set.rows && data.starts.size() <= largestRows &&
                data.starts.back() + rowGroups(transport, row) <= largestGroups);
         shard.rows = row - shard.firstRow;
-        shard.starts = vk::upload<uint32_t>(mDevice, data.starts, source.name + " row starts");
-        shard.entries = vk::upload<uint32_t>(mDevice, data.words, source.name + " entries");
+        shard.starts = vk::upload<uint32_t>(mDevice, data.starts, name + " row starts");
+        shard.entries = vk::upload<uint32_t>(mDevice, data.words, name + " entries");
     }
-    return part;
+    return set;
 }
 
-void Relighter::record(vk::Commands& commands, const LightPass& light) const {
+void Relighter::record(vk::Commands& commands, const LightPass& light, const Appearance& appearance) const {
+    RELUME_CHECK(appearance.empty() || appearance.size() == mParts.size());
     RELUME_CHECK_EQ(light.faceSize(), mFaceSize);
     // An earlier frame of the same submission may still be reading the sums.
     commands.barrier(Stage::Draw, Stage::Compute);
     commands.pass("relight", [&] {
-        for (const Part& part : mParts)
-            for (const Shard& shard : part.shards)
-                commands.dispatch(mProgram, {shard.starts, shard.entries, light.table(), part.sums},
+        for (size_t part = 0; part < mParts.size(); part++) {
+            const Set& set = mParts[part].at(appearance.empty() ? 0 : appearance[part].set);
+            for (const Shard& shard : set.shards)
+                commands.dispatch(mProgram, {shard.starts, shard.entries, light.table(), set.sums},
                                   shared::RelightPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
+        }
         commands.barrier(Stage::Compute, Stage::Draw);
     });
 }
 
-std::vector<ivec3> Relighter::readSums(size_t part) const {
-    return vk::download<ivec3>(mDevice, mParts[part].sums, mParts[part].rows);
+std::vector<ivec3> Relighter::readSums(size_t part, size_t set) const {
+    return vk::download<ivec3>(mDevice, mParts[part][set].sums, mParts[part][set].rows);
 }
 
 } // namespace relume

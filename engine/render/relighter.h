@@ -1,6 +1,7 @@
 // Light change, second half: the K-tuple of every vertex as exact integer sums, on the device.
 #pragma once
 
+#include "engine/render/appearance.h"
 #include "engine/render/light_pass.h"
 #include "engine/transport/asset.h"
 
@@ -13,23 +14,26 @@ struct RelighterOptions {
     uint64_t largestShard = std::numeric_limits<uint64_t>::max();
 };
 
-// Holds the transport of every part on the device, as shards of whole rows that fit a binding. Entries come
-// in groups of eight, 48 bytes: four words of two 16-bit indices each (lower half first), then eight
-// words of packed 11/11/10 values. Rows are padded to whole groups with zeros.
+// Holds the transport of every part and set of materials on the device, as shards of whole rows that fit a
+// binding. Entries come in groups of eight, 48 bytes: four words of two 16-bit indices each (lower half
+// first), then eight words of packed 11/11/10 values. Rows are padded to whole groups with zeros.
 class Relighter {
   public:
     // Throws OutOfMemory, or Error when a part has more rows than the device can bind sums for.
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
-    // Pass "relight": sums of every part under the light recorded before. Draws may use them at once.
-    void record(vk::Commands& commands, const LightPass& light) const;
+    // Pass "relight": sums of every part's worn set (none given: the first) under the light recorded before.
+    // Draws may use them at once. Those of other sets stay as they are.
+    void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {}) const;
 
     size_t parts() const { return mParts.size(); }
-    size_t shards(size_t part) const { return mParts[part].shards.size(); }
-    const vk::Buffer& sums(size_t part) const { return mParts[part].sums; } // ivec3 per row
+    size_t shards(size_t part, size_t set = 0) const { return mParts[part][set].shards.size(); }
+    const vk::Buffer& sums(size_t part, size_t set = 0) const {
+        return mParts[part][set].sums;
+    } // ivec3 per row
 
     // The sums of the last submission; row = vertex · terms + term. Waits for the device.
-    std::vector<ivec3> readSums(size_t part) const;
+    std::vector<ivec3> readSums(size_t part, size_t set = 0) const;
 
   private:
     struct Shard {
@@ -37,19 +41,20 @@ class Relighter {
         vk::Buffer starts;  // rows + 1: first group of each row
         vk::Buffer entries; // groups
     };
-    struct Part {
+    struct Set {
         uint32_t rows = 0;
         std::vector<Shard> shards;
         vk::Buffer sums;
     };
 
     uint32_t largestRowCount(uint64_t largestShard) const;
-    Part makePart(const AssetPart& source, const RelighterOptions& options) const;
+    Set makeSet(const SparseTransport& transport, const std::string& name,
+                const RelighterOptions& options) const;
 
     const vk::Device& mDevice;
     int mFaceSize;
     vk::ComputeProgram mProgram;
-    std::vector<Part> mParts;
+    std::vector<std::vector<Set>> mParts; // sets by part
 };
 
 } // namespace relume

@@ -3,7 +3,6 @@
 #include "engine/base/error.h"
 #include "engine/render/map_texture.h"
 #include "engine/vk/upload.h"
-#include "shaders/shared/render.h"
 #include "shaders/view_clamp_frag.h"
 #include "shaders/view_frag.h"
 #include "shaders/view_vert.h"
@@ -20,10 +19,10 @@ namespace {
 constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-// A varying, whatever its width, takes a location of four components. Three are not for terms: the
-// position in clip space and those that view.vert numbers 0 and 1.
+// A varying, whatever its width, takes a location of four components. Five are not for terms: the
+// position in clip space and those that view.vert numbers 0 to 3.
 uint32_t largestTermsPerDraw(const VkPhysicalDeviceLimits& limits) {
-    return std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) / 4 - 3;
+    return std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) / 4 - 5;
 }
 
 bool canBlend(const vk::Device& device) {
@@ -45,14 +44,17 @@ std::vector<shared::ViewVertex> verticesOf(const Mesh& mesh) {
     RELUME_CHECK_EQ(mesh.normals.size(), mesh.positions.size());
     std::vector<shared::ViewVertex> vertices;
     vertices.reserve(mesh.vertexCount());
-    for (size_t v = 0; v < mesh.vertexCount(); v++) vertices.push_back({mesh.positions[v], mesh.normals[v]});
+    for (size_t v = 0; v < mesh.vertexCount(); v++)
+        vertices.push_back({mesh.positions[v], mesh.normals[v], mesh.uvs.empty() ? vec2(0) : mesh.uvs[v],
+                            mesh.colors.empty() ? vec4(0) : mesh.colors[v]});
     return vertices;
 }
 
 } // namespace
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
-    : mDevice(device), mBounds(boundsOf(asset)), mTermsPerDraw(largestTermsPerDraw(device.limits())) {
+    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)),
+      mTermsPerDraw(largestTermsPerDraw(device.limits())) {
     if (options.termsPerDraw > 0) mTermsPerDraw = std::min(mTermsPerDraw, options.termsPerDraw);
     const vk::GraphicsOptions clamp{.colorFormat = kColorFormat,
                                     .depthFormat = kDepthFormat,
@@ -64,37 +66,78 @@ ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptio
     constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     mDiskSampler = {device, kClamp, kClamp, "view maps"};
     mPolarSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, kClamp, "polar view maps"};
+    mSurfaceSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                       "surface textures"};
     for (const AssetPart& part : asset.parts) mParts.push_back(makePart(part));
+    setAppearance(defaultAppearance(asset));
     resize(options.width, options.height);
 }
 
 ViewPass::Part ViewPass::makePart(const AssetPart& source) {
-    const FactoredBrdf& brdf = source.brdf;
-    RELUME_CHECK_EQ(uint32_t(brdf.terms), source.transport.terms);
-    RELUME_CHECK_EQ(size_t(source.transport.vertices), source.mesh.vertexCount());
     Part part;
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
-    part.rowScales = uploadBindable(mDevice, source.transport.scales, source.name + " row scales");
     part.indices =
         vk::uploadBytes(mDevice, std::as_bytes(std::span(source.mesh.triangles)), source.name + " indices");
     part.indexCount = uint32_t(3 * source.mesh.triangleCount());
-    part.terms = uint32_t(brdf.terms);
-    part.mapping = brdf.mapping;
-    part.viewMaps =
-        makeMapTexture(mDevice, brdf.viewMaps, uint32_t(brdf.size), part.terms, source.name + " view maps");
-    planDraws(part);
+    part.paint = source.paintedByColors ? shared::kPaintedByColors
+                 : source.materialMap   ? shared::kPaintedByMap
+                                        : shared::kUnpainted;
+    const Texture white{1, 1, {0xffffffff}};
+    part.baseColor =
+        makeSurfaceTexture(mDevice, source.baseColor.value_or(white), source.name + " base colour");
+    part.materialMap =
+        makeSurfaceTexture(mDevice, source.materialMap.value_or(white), source.name + " material map");
+    size_t mostLayers = 1;
+    for (const MaterialSet& set : source.sets) {
+        RELUME_CHECK_EQ(size_t(set.transport.vertices), source.mesh.vertexCount());
+        part.sets.push_back(makeSet(set, source.name));
+        mostLayers = std::max(mostLayers, 2 * set.materials.size());
+    }
+    part.layers = vk::Buffer(mDevice, mostLayers * sizeof(shared::ViewLayer), vk::BufferUse::Device,
+                             source.name + " worn layers");
     return part;
 }
 
-void ViewPass::planDraws(Part& part) {
-    part.clamps = part.terms > mTermsPerDraw;
-    if (part.clamps && !canBlend(mDevice))
+ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& name) {
+    const FactoredBrdf& brdf = source.brdf;
+    RELUME_CHECK_EQ(uint32_t(brdf.terms), source.transport.terms);
+    const auto maps = uint32_t(brdf.layers * brdf.terms);
+    if (maps > mDevice.limits().maxImageArrayLayers)
+        throw Error(
+            "{}: a set of {} layers with {} terms needs {} view maps, {} holds at most {}; bake fewer "
+            "materials or terms in a set",
+            name, brdf.layers, brdf.terms, maps, mDevice.name(), mDevice.limits().maxImageArrayLayers);
+    Set set;
+    set.rowScales = uploadBindable(mDevice, source.transport.scales, name + " row scales");
+    set.terms = uint32_t(brdf.terms);
+    set.materials = uint32_t(source.materials.size());
+    set.mapping = brdf.mapping;
+    set.viewMaps = makeMapTexture(mDevice, brdf.viewMaps, uint32_t(brdf.size), maps, name + " view maps");
+    planDraws(set);
+    return set;
+}
+
+void ViewPass::planDraws(Set& set) {
+    set.clamps = set.terms > mTermsPerDraw;
+    if (set.clamps && !canBlend(mDevice))
         throw Error("{}: {} terms need several draws, and the device cannot blend float images; bake at most "
                     "{} terms for it",
-                    mDevice.name(), part.terms, mTermsPerDraw);
-    for (uint32_t term = 0; term < part.terms; term += mTermsPerDraw)
-        part.draws.push_back(
-            {term, &program(std::min(mTermsPerDraw, part.terms - term), term == 0, !part.clamps)});
+                    mDevice.name(), set.terms, mTermsPerDraw);
+    for (uint32_t term = 0; term < set.terms; term += mTermsPerDraw)
+        set.draws.push_back(
+            {term, &program(std::min(mTermsPerDraw, set.terms - term), term == 0, !set.clamps)});
+}
+
+void ViewPass::setAppearance(const Appearance& appearance) {
+    RELUME_CHECK_EQ(appearance.size(), mParts.size());
+    for (size_t i = 0; i < mParts.size(); i++) {
+        Part& part = mParts[i];
+        part.worn = appearance[i];
+        part.wornLayers.clear();
+        for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
+            part.wornLayers.push_back({uint32_t(layer.layer) * part.sets[part.worn.set].terms, layer.channel,
+                                       layer.textured, layer.weight});
+    }
 }
 
 const vk::GraphicsProgram& ViewPass::program(uint32_t terms, bool first, bool clamps) {
@@ -120,28 +163,46 @@ void ViewPass::resize(int width, int height) {
     mDepth = vk::Image(mDevice, options, "view depth");
 }
 
+void ViewPass::draw(vk::Commands& commands, const Part& part, const Draw& step, bool sampled,
+                    const mat4& clipFromWorld, vec3 eye, const vk::Buffer& sums,
+                    const LightPass& light) const {
+    const Set& set = wornSet(part);
+    const shared::ViewPush push{clipFromWorld,
+                                eye,
+                                set.terms,
+                                step.firstTerm,
+                                uint32_t(set.mapping),
+                                uint32_t(part.wornLayers.size()),
+                                part.worn.painted ? part.paint : shared::kUnpainted,
+                                set.materials};
+    if (sampled)
+        commands.bind(*step.program,
+                      {part.vertices,
+                       sums,
+                       set.rowScales,
+                       light.scale(),
+                       {set.viewMaps, set.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler},
+                       part.layers,
+                       {part.baseColor, mSurfaceSampler},
+                       {part.materialMap, mSurfaceSampler}},
+                      push);
+    else
+        commands.bind(*step.program, {part.vertices, sums, set.rowScales, light.scale()}, push);
+    commands.drawIndexed(part.indices, part.indexCount, 1);
+}
+
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter,
                       const LightPass& light) const {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const float aspect = float(mColor.options().width) / float(mColor.options().height);
     const mat4 clipFromWorld = camera.clipFromWorld(aspect, mBounds);
-    const auto draw = [&](size_t i, const Draw& step, bool sampled) {
-        const Part& part = mParts[i];
-        const shared::ViewPush push{clipFromWorld, camera.eye, part.terms, step.firstTerm,
-                                    uint32_t(part.mapping)};
-        if (sampled)
-            commands.bind(
-                *step.program,
-                {part.vertices,
-                 relighter.sums(i),
-                 part.rowScales,
-                 light.scale(),
-                 {part.viewMaps, part.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler}},
-                push);
-        else
-            commands.bind(*step.program, {part.vertices, relighter.sums(i), part.rowScales, light.scale()},
-                          push);
-        commands.drawIndexed(part.indices, part.indexCount, 1);
+    commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
+    for (const Part& part : mParts)
+        if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
+    commands.barrier(Stage::Transfer, Stage::Draw);
+    const auto drawPart = [&](size_t i, const Draw& step, bool sampled) {
+        draw(commands, mParts[i], step, sampled, clipFromWorld, camera.eye,
+             relighter.sums(i, mParts[i].worn.set), light);
     };
     commands.pass("view", [&] {
         commands.transition(mColor, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -150,10 +211,11 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
                             Stage::Color, Stage::Color);
         commands.render({.color = &mColor, .depth = &mDepth}, [&] {
             // Depth is settled over all parts before any adds to what it shows.
-            for (size_t i = 0; i < mParts.size(); i++) draw(i, mParts[i].draws[0], true);
+            for (size_t i = 0; i < mParts.size(); i++) drawPart(i, wornSet(mParts[i]).draws[0], true);
             for (size_t i = 0; i < mParts.size(); i++) {
-                for (size_t d = 1; d < mParts[i].draws.size(); d++) draw(i, mParts[i].draws[d], true);
-                if (mParts[i].clamps) draw(i, {0, &mClampProgram}, false);
+                const Set& set = wornSet(mParts[i]);
+                for (size_t d = 1; d < set.draws.size(); d++) drawPart(i, set.draws[d], true);
+                if (set.clamps) drawPart(i, {0, &mClampProgram}, false);
             }
         });
         commands.transition(mColor, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,

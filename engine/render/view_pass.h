@@ -3,8 +3,10 @@
 #pragma once
 
 #include "engine/image/image.h"
+#include "engine/render/appearance.h"
 #include "engine/render/relighter.h"
 #include "engine/scene/camera.h"
+#include "shaders/shared/render.h"
 
 namespace relume {
 
@@ -17,12 +19,16 @@ struct ViewOptions {
 
 class ViewPass {
   public:
-    // Uploads meshes, row scales and view maps. Throws OutOfMemory, or Error when a part has more vertices
-    // than the device can bind, or the image is larger than it can make.
+    // Uploads meshes, row scales, view maps and textures. `asset` must outlive this. Throws OutOfMemory, or
+    // Error when a part has more vertices than the device can bind, or the image is larger than it can make.
     ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options = {});
 
     // A new image size; what was drawn is lost.
     void resize(int width, int height);
+
+    // What parts wear from the next record() on; the default appearance until then. Nothing waits: the change
+    // travels with the commands.
+    void setAppearance(const Appearance& appearance);
 
     // Pass "view": draws the asset under the light and sums recorded before.
     void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter,
@@ -44,25 +50,40 @@ class ViewPass {
         uint32_t firstTerm;
         const vk::GraphicsProgram* program;
     };
-    struct Part {
-        vk::Buffer vertices, indices, rowScales;
-        uint32_t indexCount = 0, terms = 0;
+    struct Set {
+        vk::Buffer rowScales;
+        uint32_t terms = 0, materials = 0;
         DiskMapping mapping = DiskMapping::Orthographic;
-        vk::Image viewMaps; // a layer a term
+        vk::Image viewMaps; // an image layer a layer and term
         std::vector<Draw> draws;
         bool clamps = false; // needs the last draw
     };
+    struct Part {
+        vk::Buffer vertices, indices;
+        uint32_t indexCount = 0;
+        uint32_t paint = 0; // how it is painted where it is
+        vk::Image baseColor, materialMap;
+        std::vector<Set> sets;
+        vk::Buffer layers; // shared::ViewLayer, as many as can be worn
+        PartAppearance worn;
+        std::vector<shared::ViewLayer> wornLayers;
+    };
 
     Part makePart(const AssetPart& source);
-    void planDraws(Part& part);
+    Set makeSet(const MaterialSet& source, const std::string& name);
+    void planDraws(Set& set);
+    static const Set& wornSet(const Part& part) { return part.sets[part.worn.set]; }
+    void draw(vk::Commands& commands, const Part& part, const Draw& step, bool sampled,
+              const mat4& clipFromWorld, vec3 eye, const vk::Buffer& sums, const LightPass& light) const;
     const vk::GraphicsProgram& program(uint32_t terms, bool first, bool clamps);
 
     const vk::Device& mDevice;
+    const Asset& mAsset;
     Bounds mBounds;
     uint32_t mTermsPerDraw;
     std::map<std::array<uint32_t, 3>, vk::GraphicsProgram> mPrograms; // by program()'s arguments
     vk::GraphicsProgram mClampProgram;
-    vk::Sampler mDiskSampler, mPolarSampler; // the latter wraps in x
+    vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
     std::vector<Part> mParts;
     vk::Image mColor, mDepth;
 };

@@ -18,14 +18,15 @@ enum class UpAxis { Y, Z };
 struct Part {
     std::string name;
     Mesh mesh;
-    std::string material;   // A preset's name, or a JSON object with a model or a set of them, as text.
+    std::string material;   // As readMaterials() takes it: precompute/brdf/material_list.h.
     std::string source;     // The file it came from, or "built-in NAME"; for provenance.
     std::string sourceHash; // hashText of that file's bytes; empty for built-in meshes.
     std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs; multiplies the material's base colour.
     std::optional<Texture> materialMap =
-        std::nullopt;                         // By mesh.uvs: weights of the set's first four materials.
-    bool paintedByColors = false;             // Whether mesh.colors are these weights instead.
-    std::vector<InputFile> textureFiles = {}; // What the textures came from, unless `source` holds them.
+        std::nullopt;                          // By mesh.uvs: weights of the set's first four materials.
+    bool paintedByColors = false;              // Whether mesh.colors are these weights instead.
+    std::filesystem::path materialFolder = {}; // Where relative paths in `material` start.
+    std::vector<InputFile> textureFiles = {};  // What the textures came from, unless `source` holds them.
 };
 
 // What a part is painted with.

@@ -181,6 +181,7 @@ Scene readScene(const std::filesystem::path& path) {
         std::ranges::move(readParts((*parts)[i], fmt::format("{}: parts[{}]", name, i), path.parent_path()),
                           std::back_inserter(scene.parts));
     if (const Json* ground = root.find("ground")) readGround(*ground, name + ": ground", scene);
+    for (Part& part : scene.parts) part.materialFolder = path.parent_path();
     return scene;
 }
 

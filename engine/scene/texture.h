@@ -19,7 +19,7 @@ struct Texture {
     std::vector<uint32_t> texels; // RGBA, R in the lowest eight bits; row by row from the top
     bool srgb = false;            // whether R, G and B are encoded; A never is
 
-    size_t texelCount() const { return texels.size(); }
+    size_t texelCount() const { return size_t(width) * size_t(height); }
 };
 
 // A file that something was made of: for provenance.

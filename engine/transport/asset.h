@@ -3,22 +3,47 @@
 
 #include "engine/scene/factored_brdf.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/texture.h"
 #include "engine/transport/sparse_transport.h"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
 namespace relume {
 
-// One surface of the scene with its own material. Vertices are in bake order
-// (precompute/bake/vertex_order.h).
+// A BRDF that a part can wear.
+struct AssetMaterial {
+    std::string name;        // As it is chosen by; unique within its part
+    std::string description; // The BRDF: a JSON object {"model": …, parameters…}, as text.
+    // Of the set's view maps: all of f; or, if `hasBase`, f without what the part's base colour texture
+    // multiplies, and that in layer + 1.
+    int layer = 0;
+    bool hasBase = false;
+
+    int layers() const { return hasBase ? 2 : 1; }
+};
+
+// Materials that were factored jointly: they share light maps, and so the transport baked from these.
+struct MaterialSet {
+    std::vector<AssetMaterial> materials;
+    FactoredBrdf brdf;
+    SparseTransport transport; // terms == brdf.terms, vertices == the part's
+};
+
+// One surface of the scene. Vertices are in bake order (precompute/bake/vertex_order.h).
 struct AssetPart {
     std::string name;
-    std::string material; // The BRDF that was factored: a JSON object {"model": …, parameters…}, as text.
     Mesh mesh;
-    FactoredBrdf brdf;
-    SparseTransport transport; // terms == brdf.terms, vertices == mesh.vertexCount()
+    std::vector<MaterialSet> sets;                   // at least one
+    std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs
+    // Weights of a set's first four materials, where they are painted: by mesh.uvs, or mesh.colors
+    // themselves.
+    std::optional<Texture> materialMap = std::nullopt;
+    bool paintedByColors = false;
+
+    bool isPainted() const { return materialMap || paintedByColors; }
 };
 
 // How it was made. All of it goes into the file, none of it is needed to relight.

@@ -67,11 +67,12 @@ void checkMesh(const Mesh& mesh, const std::string& where) {
 void checkBrdf(const FactoredBrdf& brdf, const std::string& where) {
     expectRange(brdf.terms, 1, kLargestTerms, where, "BRDF terms");
     expectRange(brdf.size, kSmallestMap, kLargestMap, where, "a map size");
-    expect(brdf.mapping == DiskMapping::Orthographic || brdf.mapping == DiskMapping::Polar, where,
-           "the orthographic or the polar map");
+    expectRange(brdf.layers, 1, kLargestLayers, where, "layers of view maps");
+    expect(brdf.mapping <= DiskMapping::EqualArea, where,
+           "the orthographic, the polar or the equal-area map");
     const size_t texels = size_t(brdf.terms) * brdf.mapTexels();
     expectCount(brdf.lightMaps.size(), texels, where, "light map texels");
-    expectCount(brdf.viewMaps.size(), texels, where, "view map texels");
+    expectCount(brdf.viewMaps.size(), texels * size_t(brdf.layers), where, "view map texels");
     expectCount(brdf.eigenvalues.size(), size_t(brdf.terms), where, "eigenvalues");
     expect(allFinite(brdf.lightMaps) && allFinite(brdf.viewMaps), where, "finite light and view maps");
     for (const auto& value : brdf.eigenvalues)
@@ -111,6 +112,46 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
            "values within ±1023 in red and green and ±511 in blue");
 }
 
+void checkTexture(const Texture& texture, const Mesh& mesh, const std::string& where) {
+    expectRange(texture.width, 1, kLongestTextureSide, where, "a texture's width");
+    expectRange(texture.height, 1, kLongestTextureSide, where, "a texture's height");
+    expectCount(texture.texels.size(), texture.texelCount(), where, "texels");
+    expect(!mesh.uvs.empty(), where, "texture coordinates for its textures");
+}
+
+void checkPaint(const AssetPart& part, const std::string& where) {
+    const Mesh& mesh = part.mesh;
+    if (!mesh.uvs.empty()) expectCount(mesh.uvs.size(), mesh.vertexCount(), where, "texture coordinates");
+    if (!mesh.colors.empty()) expectCount(mesh.colors.size(), mesh.vertexCount(), where, "vertex colours");
+    expect(std::ranges::all_of(mesh.uvs, [](vec2 uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }),
+           where, "finite texture coordinates");
+    expect(std::ranges::all_of(mesh.colors,
+                               [](vec4 c) {
+                                   return glm::all(glm::greaterThanEqual(c, vec4(0))) &&
+                                          glm::all(glm::lessThanEqual(c, vec4(1)));
+                               }),
+           where, "vertex colours in [0, 1]");
+    if (part.baseColor) checkTexture(*part.baseColor, mesh, where);
+    if (part.materialMap) checkTexture(*part.materialMap, mesh, where);
+    expect(!part.paintedByColors || (!mesh.colors.empty() && !part.materialMap), where,
+           "vertex colours, and no material map, where colours paint");
+}
+
+void checkMaterials(const AssetPart& part, const std::string& where) {
+    expect(!part.sets.empty(), where, "at least one set of materials");
+    std::vector<std::string_view> names;
+    for (const MaterialSet& set : part.sets) {
+        expect(!set.materials.empty(), where, "at least one material in a set");
+        for (const AssetMaterial& material : set.materials) {
+            names.push_back(material.name);
+            expectRange(material.layer, 0, set.brdf.layers - material.layers(), where, "a material's layer");
+            expect(!material.hasBase || part.baseColor, where, "a base colour texture for a material's base");
+        }
+    }
+    std::ranges::sort(names);
+    expect(std::ranges::adjacent_find(names) == names.end(), where, "materials of different names");
+}
+
 } // namespace
 
 void checkAsset(const Asset& asset, const std::string& name) {
@@ -122,10 +163,14 @@ void checkAsset(const Asset& asset, const std::string& name) {
         const AssetPart& part = asset.parts[i];
         const std::string where = fmt::format("{}: part {} (\"{}\")", name, i, part.name);
         checkMesh(part.mesh, where);
-        checkBrdf(part.brdf, where);
-        expectCount(part.transport.vertices, part.mesh.vertexCount(), where, "vertices with transport");
-        expectCount(part.transport.terms, size_t(part.brdf.terms), where, "transport terms");
-        checkTransport(part.transport, coefficients, uint64_t(asset.coefficients), where);
+        checkPaint(part, where);
+        for (const MaterialSet& set : part.sets) {
+            checkBrdf(set.brdf, where);
+            expectCount(set.transport.vertices, part.mesh.vertexCount(), where, "vertices with transport");
+            expectCount(set.transport.terms, size_t(set.brdf.terms), where, "transport terms");
+            checkTransport(set.transport, coefficients, uint64_t(asset.coefficients), where);
+        }
+        checkMaterials(part, where);
     }
 }
 

@@ -8,6 +8,7 @@ namespace relume {
 constexpr int kSmallestFace = 8, kLargestFace = 64; // indices of 6 · 64² coefficients fit 16 bits
 constexpr int kLargestVisibility = 1024;
 constexpr int kLargestTerms = 32;
+constexpr int kLargestLayers = 64; // of view maps in a set
 constexpr int kSmallestMap = 4, kLargestMap = 256;
 
 // Sizes agree, indices lie within their arrays, numbers are finite and within their range, normals are unit

@@ -17,84 +17,88 @@ namespace {
 
 constexpr ChunkTag kMeta = chunkTag("META");
 constexpr ChunkTag kOccluderPositions = chunkTag("OPOS"), kOccluderTriangles = chunkTag("OTRI");
-constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), kTriangles = chunkTag("MTRI");
+constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), kTriangles = chunkTag("MTRI"),
+                   kUvs = chunkTag("MUVS"), kColors = chunkTag("MCOL");
+constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kTransport = chunkTag("TRAN");
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
-constexpr ChunkTag kPartTags[] = {kPositions, kNormals,     kTriangles, kLightMaps,
-                                  kViewMaps,  kEigenvalues, kTransport};
+constexpr ChunkTag kPartTags[] = {kPositions, kNormals, kTriangles, kUvs, kColors, kBaseColor, kMaterialMap};
+constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport};
 
-// Every array but the transport is made of three 32-bit words an element.
-constexpr size_t kTripleBytes = 12;
-constexpr size_t kTriplesPerChunk = size_t(1) << 19;
-static_assert(kTriplesPerChunk * kTripleBytes <= kLargestChunk);
+bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
+
+// Every array but the transport is made of elements of one to four 32-bit words.
+constexpr size_t kElementsPerChunk = size_t(1) << 19;
+static_assert(kElementsPerChunk * sizeof(vec4) <= kLargestChunk);
 static_assert(kRunHeaderBytes + kRunRows * kRunRowBytes + kRunEntries * kRunEntryBytes <= kLargestChunk);
 
-template <typename Triple>
-void addTriples(ChunkWriter& file, ChunkTag tag, uint32_t part, const std::vector<Triple>& triples) {
-    static_assert(sizeof(Triple) == kTripleBytes && std::is_trivially_copyable_v<Triple>);
-    for (size_t start = 0; start < triples.size(); start += kTriplesPerChunk) {
-        const size_t count = std::min(kTriplesPerChunk, triples.size() - start);
-        std::vector<uint32_t> words(3 * count);
-        std::memcpy(words.data(), &triples[start], count * kTripleBytes);
+template <typename Element>
+void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector<Element>& elements) {
+    static_assert(sizeof(Element) % 4 == 0 && sizeof(Element) <= 16 && std::is_trivially_copyable_v<Element>);
+    for (size_t start = 0; start < elements.size(); start += kElementsPerChunk) {
+        const size_t count = std::min(kElementsPerChunk, elements.size() - start);
+        std::vector<uint32_t> words(count * sizeof(Element) / 4);
+        std::memcpy(words.data(), &elements[start], count * sizeof(Element));
         ByteWriter raw;
         raw.putPlanes<uint32_t>(words);
-        file.add(tag, part, uint32_t(start / kTriplesPerChunk), raw.bytes());
+        file.add(tag, owner, uint32_t(start / kElementsPerChunk), raw.bytes());
     }
 }
 
-void addTransport(ChunkWriter& file, uint32_t part, const SparseTransport& transport) {
+void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport) {
     VertexRun run{0, 0};
     for (uint32_t number = 0; run.end < transport.vertices; number++) {
         run = nextRun(transport, run.end);
-        file.add(kTransport, part, number, encodeRun(transport, run));
+        file.add(kTransport, owner, number, encodeRun(transport, run));
     }
 }
 
-std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t part) {
-    const std::string owner = part == kWholeFile ? "" : fmt::format(" of part {}", part);
-    return fmt::format("{}: chunk {}{}", file.name(), tagText(tag), owner);
+std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t owner) {
+    const char* kind = isIn(tag, kSetTags) ? "set" : "part";
+    const std::string of = owner == kWholeFile ? "" : fmt::format(" of {} {}", kind, owner);
+    return fmt::format("{}: chunk {}{}", file.name(), tagText(tag), of);
 }
 
 std::string whereOf(const ChunkFile& file, const ChunkEntry& entry) {
-    return fmt::format("{}, run {}", whereOf(file, entry.tag, entry.part), entry.run);
+    return fmt::format("{}, run {}", whereOf(file, entry.tag, entry.owner), entry.run);
 }
 
 // Chunks of an array and, before anything is allocated for it, their sizes.
-std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t part, uint64_t chunkBytes,
+std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t chunkBytes,
                                   uint64_t contentBytes) {
-    const std::vector<ChunkEntry> runs = file.find(tag, part);
+    const std::vector<ChunkEntry> runs = file.find(tag, owner);
     uint64_t found = 0;
     for (const ChunkEntry& run : runs) found += run.rawSize;
     const uint64_t expected = contentBytes + chunkBytes * runs.size();
     if (found != expected)
-        throw Error("{}: expected {} bytes, found {}", whereOf(file, tag, part), expected, found);
+        throw Error("{}: expected {} bytes, found {}", whereOf(file, tag, owner), expected, found);
     return runs;
 }
 
-template <typename Triple>
-std::vector<Triple> readTriples(const ChunkFile& file, ChunkTag tag, uint32_t part, uint64_t count) {
-    const auto runs = findSized(file, tag, part, 0, count * kTripleBytes);
-    std::vector<Triple> triples(count);
+template <typename Element>
+std::vector<Element> readArray(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t count) {
+    const auto runs = findSized(file, tag, owner, 0, count * sizeof(Element));
+    std::vector<Element> elements(count);
     size_t read = 0;
     for (const ChunkEntry& run : runs) {
-        if (run.rawSize % kTripleBytes != 0)
+        if (run.rawSize % sizeof(Element) != 0)
             throw Error("{}: {} bytes are not a multiple of {}", whereOf(file, run), run.rawSize,
-                        kTripleBytes);
+                        sizeof(Element));
         const std::string where = whereOf(file, run);
         const std::vector<std::byte> raw = file.load(run);
         const auto words = ByteReader(raw, where).getPlanes<uint32_t>(raw.size() / sizeof(uint32_t));
-        std::memcpy(&triples[read], words.data(), raw.size());
-        read += raw.size() / kTripleBytes;
+        std::memcpy(&elements[read], words.data(), raw.size());
+        read += raw.size() / sizeof(Element);
     }
-    return triples;
+    return elements;
 }
 
-void readTransport(const ChunkFile& file, uint32_t part, uint64_t entries, uint32_t coefficients,
+void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint32_t coefficients,
                    SparseTransport& transport) {
     const uint64_t bytes = transport.rows() * kRunRowBytes + entries * kRunEntryBytes;
-    const auto runs = findSized(file, kTransport, part, kRunHeaderBytes, bytes);
+    const auto runs = findSized(file, kTransport, owner, kRunHeaderBytes, bytes);
     transport.rowStarts.reserve(transport.rows() + 1);
     transport.rowStarts.push_back(0);
     transport.scales.reserve(transport.rows());
@@ -104,17 +108,27 @@ void readTransport(const ChunkFile& file, uint32_t part, uint64_t entries, uint3
         decodeRun(file.load(run), coefficients, entries, whereOf(file, run), transport);
 }
 
-void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& sizes, uint32_t coefficients,
-              AssetPart& part) {
-    const uint64_t texels = uint64_t(part.brdf.terms) * part.brdf.mapTexels();
-    part.mesh.positions = readTriples<vec3>(file, kPositions, number, sizes.vertices);
-    part.mesh.normals = readTriples<vec3>(file, kNormals, number, sizes.vertices);
-    part.mesh.triangles = readTriples<uvec3>(file, kTriangles, number, sizes.triangles);
-    part.brdf.lightMaps = readTriples<vec3>(file, kLightMaps, number, texels);
-    part.brdf.viewMaps = readTriples<vec3>(file, kViewMaps, number, texels);
-    part.brdf.eigenvalues =
-        readTriples<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(part.brdf.terms));
-    readTransport(file, number, sizes.entries, coefficients, part.transport);
+void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& sizes, AssetPart& part) {
+    part.mesh.positions = readArray<vec3>(file, kPositions, number, sizes.vertices);
+    part.mesh.normals = readArray<vec3>(file, kNormals, number, sizes.vertices);
+    part.mesh.triangles = readArray<uvec3>(file, kTriangles, number, sizes.triangles);
+    part.mesh.uvs = readArray<vec2>(file, kUvs, number, sizes.uvs);
+    part.mesh.colors = readArray<vec4>(file, kColors, number, sizes.colors);
+    const auto readTexels = [&](ChunkTag tag, Texture& texture) {
+        texture.texels = readArray<uint32_t>(file, tag, number, texture.texelCount());
+    };
+    if (part.baseColor) readTexels(kBaseColor, *part.baseColor);
+    if (part.materialMap) readTexels(kMaterialMap, *part.materialMap);
+}
+
+void readSet(const ChunkFile& file, uint32_t number, uint64_t entries, uint32_t coefficients,
+             MaterialSet& set) {
+    const uint64_t texels = uint64_t(set.brdf.terms) * set.brdf.mapTexels();
+    set.brdf.lightMaps = readArray<vec3>(file, kLightMaps, number, texels);
+    set.brdf.viewMaps = readArray<vec3>(file, kViewMaps, number, texels * uint64_t(set.brdf.layers));
+    set.brdf.eigenvalues =
+        readArray<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(set.brdf.terms));
+    readTransport(file, number, entries, coefficients, set.transport);
 }
 
 AssetMeta readMeta(const ChunkFile& file) {
@@ -125,20 +139,21 @@ AssetMeta readMeta(const ChunkFile& file) {
     return decodeMeta({reinterpret_cast<const char*>(raw.data()), raw.size()}, file.name());
 }
 
-// Whether every required chunk is one that this program reads, of a part that there is.
-void checkTags(const ChunkFile& file, size_t parts) {
+// Whether every required chunk is one that this program reads, of a part or set that there is.
+void checkTags(const ChunkFile& file, size_t parts, size_t sets) {
     for (const ChunkEntry& entry : file.entries()) {
         if (!isRequired(entry.tag)) continue;
-        const bool known = entry.part == kWholeFile
-                               ? std::ranges::find(kWholeTags, entry.tag) != std::end(kWholeTags)
-                               : std::ranges::find(kPartTags, entry.tag) != std::end(kPartTags);
+        const bool ofSet = isIn(entry.tag, kSetTags);
+        const bool known =
+            entry.owner == kWholeFile ? isIn(entry.tag, kWholeTags) : ofSet || isIn(entry.tag, kPartTags);
         if (!known)
             throw Error(
                 "{}: is not a chunk that this program knows, and needed to read the file; update the program "
                 "or bake again",
                 whereOf(file, entry));
-        if (entry.part != kWholeFile && entry.part >= parts)
-            throw Error("{}: the file has {} parts", whereOf(file, entry), parts);
+        if (entry.owner != kWholeFile && entry.owner >= (ofSet ? sets : parts))
+            throw Error("{}: the file has {} {}", whereOf(file, entry), ofSet ? sets : parts,
+                        ofSet ? "sets" : "parts");
     }
 }
 
@@ -149,17 +164,25 @@ std::vector<std::byte> encodeAsset(const Asset& asset) {
     ChunkWriter file;
     const std::string meta = encodeMeta(asset);
     file.add(kMeta, kWholeFile, 0, std::as_bytes(std::span(meta)));
-    addTriples(file, kOccluderPositions, kWholeFile, asset.occluder.positions);
-    addTriples(file, kOccluderTriangles, kWholeFile, asset.occluder.triangles);
+    addArray(file, kOccluderPositions, kWholeFile, asset.occluder.positions);
+    addArray(file, kOccluderTriangles, kWholeFile, asset.occluder.triangles);
+    uint32_t setNumber = 0;
     for (uint32_t number = 0; number < asset.parts.size(); number++) {
         const AssetPart& part = asset.parts[number];
-        addTriples(file, kPositions, number, part.mesh.positions);
-        addTriples(file, kNormals, number, part.mesh.normals);
-        addTriples(file, kTriangles, number, part.mesh.triangles);
-        addTriples(file, kLightMaps, number, part.brdf.lightMaps);
-        addTriples(file, kViewMaps, number, part.brdf.viewMaps);
-        addTriples(file, kEigenvalues, number, part.brdf.eigenvalues);
-        addTransport(file, number, part.transport);
+        addArray(file, kPositions, number, part.mesh.positions);
+        addArray(file, kNormals, number, part.mesh.normals);
+        addArray(file, kTriangles, number, part.mesh.triangles);
+        addArray(file, kUvs, number, part.mesh.uvs);
+        addArray(file, kColors, number, part.mesh.colors);
+        if (part.baseColor) addArray(file, kBaseColor, number, part.baseColor->texels);
+        if (part.materialMap) addArray(file, kMaterialMap, number, part.materialMap->texels);
+        for (const MaterialSet& set : part.sets) {
+            addArray(file, kLightMaps, setNumber, set.brdf.lightMaps);
+            addArray(file, kViewMaps, setNumber, set.brdf.viewMaps);
+            addArray(file, kEigenvalues, setNumber, set.brdf.eigenvalues);
+            addTransport(file, setNumber, set.transport);
+            setNumber++;
+        }
     }
     return file.finish();
 }
@@ -168,13 +191,18 @@ Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
     const ChunkFile file(bytes, name);
     AssetMeta meta = readMeta(file);
     Asset& asset = meta.asset;
-    checkTags(file, asset.parts.size());
-    asset.occluder.positions = readTriples<vec3>(file, kOccluderPositions, kWholeFile, meta.occluderVertices);
-    asset.occluder.triangles =
-        readTriples<uvec3>(file, kOccluderTriangles, kWholeFile, meta.occluderTriangles);
+    checkTags(file, asset.parts.size(), meta.setEntries.size());
+    asset.occluder.positions = readArray<vec3>(file, kOccluderPositions, kWholeFile, meta.occluderVertices);
+    asset.occluder.triangles = readArray<uvec3>(file, kOccluderTriangles, kWholeFile, meta.occluderTriangles);
     const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
-    for (uint32_t number = 0; number < asset.parts.size(); number++)
-        readPart(file, number, meta.sizes[number], coefficients, asset.parts[number]);
+    uint32_t setNumber = 0;
+    for (uint32_t number = 0; number < asset.parts.size(); number++) {
+        readPart(file, number, meta.sizes[number], asset.parts[number]);
+        for (MaterialSet& set : asset.parts[number].sets) {
+            readSet(file, setNumber, meta.setEntries[setNumber], coefficients, set);
+            setNumber++;
+        }
+    }
     checkAsset(asset, name);
     return std::move(meta.asset);
 }

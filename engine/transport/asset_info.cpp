@@ -29,21 +29,33 @@ double ratio(uint64_t numerator, uint64_t denominator) {
     return denominator == 0 ? 0.0 : double(numerator) / double(denominator);
 }
 
-Json describePart(const AssetPart& part) {
-    const SparseTransport& transport = part.transport;
-    Json eigenvalues = Json::array();
-    for (const auto& channels : part.brdf.eigenvalues) eigenvalues.push_back(channels);
-    return {{"name", part.name},
-            {"material", jsonOrText(part.material)},
-            {"vertices", part.mesh.vertexCount()},
-            {"triangles", part.mesh.triangleCount()},
-            {"terms", part.brdf.terms},
-            {"map_size", part.brdf.size},
-            {"mapping", diskMappingName(part.brdf.mapping)},
+Json describeSet(const MaterialSet& set) {
+    const SparseTransport& transport = set.transport;
+    Json eigenvalues = Json::array(), materials = Json::array();
+    for (const auto& channels : set.brdf.eigenvalues) eigenvalues.push_back(channels);
+    for (const AssetMaterial& material : set.materials)
+        materials.push_back({{"name", material.name},
+                             {"brdf", jsonOrText(material.description)},
+                             {"textured_base", material.hasBase}});
+    return {{"materials", materials},
+            {"terms", set.brdf.terms},
+            {"map_size", set.brdf.size},
+            {"mapping", diskMappingName(set.brdf.mapping)},
             {"eigenvalues", eigenvalues},
             {"entries", transport.entries()},
             {"mean_entries_per_row", ratio(transport.entries(), transport.rows())},
             {"bytes_per_vertex", ratio(transport.entries() * kEntryBytes, transport.vertices)}};
+}
+
+Json describePart(const AssetPart& part) {
+    Json json = {
+        {"name", part.name}, {"vertices", part.mesh.vertexCount()}, {"triangles", part.mesh.triangleCount()}};
+    if (part.baseColor) json["base_color"] = {part.baseColor->width, part.baseColor->height};
+    if (part.materialMap) json["material_map"] = {part.materialMap->width, part.materialMap->height};
+    if (part.paintedByColors) json["material_map"] = "colors";
+    json["sets"] = Json::array();
+    for (const MaterialSet& set : part.sets) json["sets"].push_back(describeSet(set));
+    return json;
 }
 
 std::string describeSamples(int samples) {
@@ -67,8 +79,10 @@ Json describeApproximations(const Asset& asset) {
                         asset.coefficients, all));
     list.push_back("quantisation: 11, 11 and 10 bits for red, green and blue");
     for (const AssetPart& part : asset.parts)
-        list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}", part.name, part.brdf.terms,
-                                   part.brdf.size, part.brdf.size));
+        for (const MaterialSet& set : part.sets)
+            list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}{}", part.name, set.brdf.terms,
+                                       set.brdf.size, set.brdf.size,
+                                       set.brdf.layers > 1 ? ", light maps shared in a set" : ""));
     if (asset.visibilityOffset > 0)
         list.push_back(fmt::format("visibility: taken {} above each vertex", asset.visibilityOffset));
     return list;
@@ -79,8 +93,10 @@ Json describeTotal(const Asset& asset) {
     for (const AssetPart& part : asset.parts) {
         vertices += part.mesh.vertexCount();
         triangles += part.mesh.triangleCount();
-        rows += part.transport.rows();
-        entries += part.transport.entries();
+        for (const MaterialSet& set : part.sets) {
+            rows += set.transport.rows();
+            entries += set.transport.entries();
+        }
     }
     return {{"vertices", vertices},
             {"triangles", triangles},

@@ -48,6 +48,14 @@ class Reader {
         return value.get<std::string>();
     }
 
+    bool boolean(const char* key) const {
+        const Json& value = member(key);
+        if (!value.is_boolean()) throw Error("{}: \"{}\": expected true or false", mWhere, key);
+        return value.get<bool>();
+    }
+
+    bool has(const char* key) const { return mObject.contains(key); }
+
     Reader object(const char* key) const { return {member(key), fmt::format("{}: \"{}\"", mWhere, key)}; }
 
     const Json& array(const char* key) const {
@@ -69,34 +77,82 @@ class Reader {
     std::string mWhere;
 };
 
+Json setJson(const MaterialSet& set) {
+    Json materials = Json::array();
+    for (const AssetMaterial& material : set.materials)
+        materials.push_back({{"name", material.name},
+                             {"description", material.description},
+                             {"layer", material.layer},
+                             {"base", material.hasBase}});
+    return {{"materials", materials},
+            {"terms", set.brdf.terms},
+            {"layers", set.brdf.layers},
+            {"mapSize", set.brdf.size},
+            {"mapping", diskMappingName(set.brdf.mapping)},
+            {"entries", set.transport.entries()}};
+}
+
+Json textureJson(const Texture& texture) {
+    return {{"width", texture.width}, {"height", texture.height}, {"srgb", texture.srgb}};
+}
+
 Json partJson(const AssetPart& part) {
-    return {{"name", part.name},
-            {"material", part.material},
-            {"vertices", part.mesh.vertexCount()},
-            {"triangles", part.mesh.triangleCount()},
-            {"terms", part.brdf.terms},
-            {"mapSize", part.brdf.size},
-            {"mapping", diskMappingName(part.brdf.mapping)},
-            {"entries", part.transport.entries()}};
+    Json json = {{"name", part.name},
+                 {"vertices", part.mesh.vertexCount()},
+                 {"triangles", part.mesh.triangleCount()},
+                 {"uvs", !part.mesh.uvs.empty()},
+                 {"colors", !part.mesh.colors.empty()},
+                 {"paintedByColors", part.paintedByColors}};
+    if (part.baseColor) json["baseColor"] = textureJson(*part.baseColor);
+    if (part.materialMap) json["materialMap"] = textureJson(*part.materialMap);
+    json["sets"] = Json::array();
+    for (const MaterialSet& set : part.sets) json["sets"].push_back(setJson(set));
+    return json;
+}
+
+void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
+    MaterialSet set;
+    set.brdf.terms = in.integer("terms", 1, kLargestTerms);
+    set.brdf.layers = in.integer("layers", 1, kLargestLayers);
+    set.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
+    const std::string mapping = in.text("mapping");
+    if (!diskMappingFromName(mapping)) throw Error("{}: \"mapping\": \"{}\" is unknown", in.where(), mapping);
+    set.brdf.mapping = *diskMappingFromName(mapping);
+    set.transport.vertices = uint32_t(vertices);
+    set.transport.terms = uint32_t(set.brdf.terms);
+    const Json& materials = in.array("materials");
+    for (size_t i = 0; i < materials.size(); i++) {
+        const Reader material(materials[i], fmt::format("{}: material {}", in.where(), i));
+        set.materials.push_back({material.text("name"), material.text("description"),
+                                 material.integer("layer", 0, kLargestLayers), material.boolean("base")});
+    }
+    meta.setEntries.push_back(in.whole("entries", 0, kAnyEntries));
+    meta.asset.parts.back().sets.push_back(std::move(set));
+}
+
+Texture textureOf(const Reader& in) {
+    Texture texture;
+    texture.width = in.integer("width", 1, kLongestTextureSide);
+    texture.height = in.integer("height", 1, kLongestTextureSide);
+    texture.srgb = in.boolean("srgb");
+    return texture;
 }
 
 void readPart(const Reader& in, AssetMeta& meta) {
-    AssetPart part;
+    AssetPart& part = meta.asset.parts.emplace_back();
     AssetPartSizes sizes;
     part.name = in.text("name");
-    part.material = in.text("material");
     sizes.vertices = in.whole("vertices", 1, kAnyCount);
     sizes.triangles = in.whole("triangles", 1, kAnyCount);
-    sizes.entries = in.whole("entries", 0, kAnyEntries);
-    part.brdf.terms = in.integer("terms", 1, kLargestTerms);
-    part.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
-    const std::string mapping = in.text("mapping");
-    if (!diskMappingFromName(mapping)) throw Error("{}: \"mapping\": \"{}\" is unknown", in.where(), mapping);
-    part.brdf.mapping = *diskMappingFromName(mapping);
-    part.transport.vertices = uint32_t(sizes.vertices);
-    part.transport.terms = uint32_t(part.brdf.terms);
-    meta.asset.parts.push_back(std::move(part));
+    sizes.uvs = in.boolean("uvs") ? sizes.vertices : 0;
+    sizes.colors = in.boolean("colors") ? sizes.vertices : 0;
+    part.paintedByColors = in.boolean("paintedByColors");
+    if (in.has("baseColor")) part.baseColor = textureOf(in.object("baseColor"));
+    if (in.has("materialMap")) part.materialMap = textureOf(in.object("materialMap"));
     meta.sizes.push_back(sizes);
+    const Json& sets = in.array("sets");
+    for (size_t i = 0; i < sets.size(); i++)
+        readSet({sets[i], fmt::format("{}: set {}", in.where(), i)}, sizes.vertices, meta);
 }
 
 Json parseBounded(std::string_view text, const std::string& where) {

@@ -13,15 +13,16 @@ constexpr size_t kLargestMetaDepth = 8;          // nested arrays and objects
 
 // How long a part's arrays are.
 struct AssetPartSizes {
-    uint64_t vertices = 0, triangles = 0, entries = 0;
+    uint64_t vertices = 0, triangles = 0, uvs = 0, colors = 0;
 };
 
-// An asset whose arrays are still empty, and how long they are. Map sizes, terms and the transport's number
-// of vertices are set in the asset.
+// An asset whose arrays are still empty, and how long they are. The sizes of maps, textures and transport are
+// set in the asset.
 struct AssetMeta {
     Asset asset;
     uint64_t occluderVertices = 0, occluderTriangles = 0;
     std::vector<AssetPartSizes> sizes; // one per part
+    std::vector<uint64_t> setEntries;  // one per set, over all parts: entries of its transport
 };
 
 // Bytes that are not UTF-8 become U+FFFD. Throws Error when the text passes kLargestMeta.

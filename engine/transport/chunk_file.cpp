@@ -27,7 +27,7 @@ bool withinRatio(uint64_t raw, uint64_t stored) {
 
 void putEntry(ByteWriter& out, const ChunkEntry& entry) {
     out.put(std::as_bytes(std::span(entry.tag)));
-    out.put(entry.part);
+    out.put(entry.owner);
     out.put(entry.run);
     out.put(uint32_t(0));
     out.put(entry.offset);
@@ -39,7 +39,7 @@ void putEntry(ByteWriter& out, const ChunkEntry& entry) {
 ChunkEntry getEntry(ByteReader& in, const std::string& name) {
     ChunkEntry entry;
     for (char& letter : entry.tag) letter = char(in.get<uint8_t>());
-    entry.part = in.get<uint32_t>();
+    entry.owner = in.get<uint32_t>();
     entry.run = in.get<uint32_t>();
     const auto reserved = in.get<uint32_t>();
     if (reserved != 0)
@@ -68,7 +68,7 @@ std::string tagText(ChunkTag tag) {
     return text;
 }
 
-void ChunkWriter::add(ChunkTag tag, uint32_t part, uint32_t run, std::span<const std::byte> raw) {
+void ChunkWriter::add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw) {
     RELUME_CHECK(!raw.empty() && raw.size() <= kLargestChunk);
     const size_t start = mData.size();
     mData.resize(start + ZSTD_compressBound(raw.size()));
@@ -81,7 +81,7 @@ void ChunkWriter::add(ChunkTag tag, uint32_t part, uint32_t run, std::span<const
     }
     mData.resize(start + stored);
     mEntries.push_back(
-        {tag, part, run, start, stored, raw.size(), hash64(std::span(mData).subspan(start, stored))});
+        {tag, owner, run, start, stored, raw.size(), hash64(std::span(mData).subspan(start, stored))});
 }
 
 std::vector<std::byte> ChunkWriter::finish() {
@@ -110,9 +110,9 @@ ChunkFile::ChunkFile(std::span<const std::byte> bytes, std::string name)
         const ChunkEntry& entry = mEntries[i];
         checkEntry(entry, offset);
         offset += entry.storedSize;
-        if (!mIndex.try_emplace({entry.tag, entry.part, entry.run}, i).second)
-            throw Error("{}: chunk {} of part {}, run {}, appears twice", mName, tagText(entry.tag),
-                        entry.part, entry.run);
+        if (!mIndex.try_emplace({entry.tag, entry.owner, entry.run}, i).second)
+            throw Error("{}: chunk {} of part or set {}, run {}, appears twice", mName, tagText(entry.tag),
+                        entry.owner, entry.run);
     }
     if (offset != mBytes.size())
         throw Error("{}: {} bytes are left over behind the last chunk", mName, mBytes.size() - offset);
@@ -163,17 +163,19 @@ void ChunkFile::checkEntry(const ChunkEntry& entry, uint64_t expectedOffset) con
         throw Error("{}: chunk {}: {} bytes cannot stand for {}", mName, tag, entry.storedSize,
                     entry.rawSize);
     if (hash64(mBytes.subspan(entry.offset, entry.storedSize)) != entry.checksum)
-        throw Error("{}: chunk {} of part {} fails its checksum; the file is damaged: copy or bake it again",
-                    mName, tag, entry.part);
+        throw Error(
+            "{}: chunk {} of part or set {} fails its checksum; the file is damaged: copy or bake it again",
+            mName, tag, entry.owner);
 }
 
-std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t part) const {
+std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
     std::vector<ChunkEntry> runs;
-    for (auto at = mIndex.lower_bound({tag, part, 0}); at != mIndex.end(); ++at) {
+    for (auto at = mIndex.lower_bound({tag, owner, 0}); at != mIndex.end(); ++at) {
         const ChunkEntry& entry = mEntries[at->second];
-        if (entry.tag != tag || entry.part != part) break;
+        if (entry.tag != tag || entry.owner != owner) break;
         if (entry.run != runs.size())
-            throw Error("{}: chunk {} of part {}: run {} is missing", mName, tagText(tag), part, runs.size());
+            throw Error("{}: chunk {} of part or set {}: run {} is missing", mName, tagText(tag), owner,
+                        runs.size());
         runs.push_back(entry);
     }
     return runs;

@@ -13,7 +13,7 @@
 
 namespace relume {
 
-constexpr uint32_t kAssetFormatVersion = 1;
+constexpr uint32_t kAssetFormatVersion = 2;
 
 // Four letters. A reader that does not know a tag refuses the file if the first letter is a capital, and
 // skips the chunk otherwise.
@@ -22,7 +22,7 @@ constexpr ChunkTag chunkTag(const char (&text)[5]) { return {text[0], text[1], t
 constexpr bool isRequired(ChunkTag tag) { return tag[0] >= 'A' && tag[0] <= 'Z'; }
 std::string tagText(ChunkTag tag); // for messages: anything but letters and digits becomes '?'
 
-// Part of chunks that belong to the file as a whole.
+// Owner of chunks that belong to the file as a whole.
 constexpr uint32_t kWholeFile = 0xffffffff;
 
 // Limits that bound what a reader must hold, and what a small file can make it allocate.
@@ -30,10 +30,10 @@ constexpr size_t kLargestChunk = size_t(8) << 20; // bytes before compression
 constexpr uint64_t kLargestRatio = 1024;          // raw size ≤ kLargestRatio · stored size + kRatioSlack
 constexpr uint64_t kRatioSlack = 65536;
 
-// A line of the table. A long array is cut into chunks of the same tag and part: run 0, 1, 2, ….
+// A line of the table. A long array is cut into chunks of the same tag and owner: run 0, 1, 2, ….
 struct ChunkEntry {
     ChunkTag tag{};
-    uint32_t part = kWholeFile;
+    uint32_t owner = kWholeFile; // a part, or a set of materials counted over all parts
     uint32_t run = 0;
     uint64_t offset = 0; // from the start of the file
     uint64_t storedSize = 0;
@@ -45,7 +45,7 @@ struct ChunkEntry {
 class ChunkWriter {
   public:
     // 1 to kLargestChunk bytes.
-    void add(ChunkTag tag, uint32_t part, uint32_t run, std::span<const std::byte> raw);
+    void add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw);
 
     std::vector<std::byte> finish();
 
@@ -65,7 +65,7 @@ class ChunkFile {
     const std::vector<ChunkEntry>& entries() const { return mEntries; }
 
     // The runs of an array, in order; none for an empty one.
-    std::vector<ChunkEntry> find(ChunkTag tag, uint32_t part) const;
+    std::vector<ChunkEntry> find(ChunkTag tag, uint32_t owner) const;
 
     // A chunk's bytes, decompressed. Throws Error.
     std::vector<std::byte> load(const ChunkEntry& entry) const;
@@ -79,7 +79,7 @@ class ChunkFile {
     std::span<const std::byte> mBytes;
     std::string mName;
     std::vector<ChunkEntry> mEntries;
-    std::map<std::tuple<ChunkTag, uint32_t, uint32_t>, size_t> mIndex; // (tag, part, run)
+    std::map<std::tuple<ChunkTag, uint32_t, uint32_t>, size_t> mIndex; // (tag, owner, run)
 };
 
 } // namespace relume

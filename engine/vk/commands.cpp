@@ -272,6 +272,11 @@ void Commands::fill(const Buffer& buffer, uint32_t value) {
     vkCmdFillBuffer(mCommands, buffer.handle(), 0, VK_WHOLE_SIZE, value);
 }
 
+void Commands::update(const Buffer& buffer, std::span<const std::byte> bytes) {
+    RELUME_CHECK_LE(bytes.size(), buffer.bytes());
+    vkCmdUpdateBuffer(mCommands, buffer.handle(), 0, bytes.size(), bytes.data());
+}
+
 void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
                     uint64_t toOffset) {
     const VkBufferCopy region{fromOffset, toOffset, bytes};

@@ -75,6 +75,8 @@ class Commands {
     void transition(const Image& image, VkImageLayout from, VkImageLayout to, Stage before, Stage after);
 
     void fill(const Buffer& buffer, uint32_t value);
+    // Writes a few bytes, whole words of at most 64 KiB, into a device buffer: they travel with the commands.
+    void update(const Buffer& buffer, std::span<const std::byte> bytes);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
               uint64_t toOffset = 0);
     void copy(const Buffer& from, const Image& to);                  // all layers; image in TRANSFER_DST

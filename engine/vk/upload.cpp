@@ -30,6 +30,22 @@ Buffer uploadBytes(const Device& device, std::span<const std::byte> bytes, std::
     return buffer;
 }
 
+Image uploadImage(const Device& device, const ImageOptions& options, std::span<const std::byte> texels,
+                  std::string_view name) {
+    Image image(device, options, name);
+    const Buffer staging(device, texels.size(), BufferUse::Upload, "image upload");
+    std::copy(texels.begin(), texels.end(), staging.map<std::byte>().begin());
+    Commands commands(device, "image upload");
+    commands.begin();
+    commands.transition(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                        Stage::Transfer, Stage::Transfer);
+    commands.copy(staging, image);
+    commands.transition(image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                        Stage::Transfer, Stage::Compute);
+    commands.submitAndWait();
+    return image;
+}
+
 std::vector<std::byte> downloadBytes(const Device& device, const Buffer& buffer, uint64_t bytes) {
     RELUME_CHECK_LE(bytes, buffer.bytes());
     std::vector<std::byte> values(bytes);

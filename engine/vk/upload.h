@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/vk/buffer.h"
+#include "engine/vk/image.h"
 
 #include <span>
 
@@ -15,6 +16,11 @@ template <typename T>
 Buffer upload(const Device& device, std::span<const T> values, std::string_view name) {
     return uploadBytes(device, std::as_bytes(values), name);
 }
+
+// An image with these texels, layer after layer, ready for shader reads. Waits for the copy. Throws
+// OutOfMemory.
+Image uploadImage(const Device& device, const ImageOptions& options, std::span<const std::byte> texels,
+                  std::string_view name);
 
 // The first `bytes` of a device buffer, back on the host. Waits.
 std::vector<std::byte> downloadBytes(const Device& device, const Buffer& buffer, uint64_t bytes);

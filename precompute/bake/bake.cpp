@@ -4,13 +4,12 @@
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/bake/vertex_order.h"
-#include "precompute/brdf/factorization.h"
+#include "precompute/brdf/material_factory.h"
 #include "precompute/visibility/occluder.h"
 #include "precompute/visibility/raster_visibility.h"
 
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
@@ -24,52 +23,33 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Factors each material once, however many parts wear it.
-class MaterialFactory {
-  public:
-    explicit MaterialFactory(const BakeOptions& options) : mOptions(options) {}
-
-    struct Material {
-        std::string description;
-        FactoredBrdf factored;
-    };
-    const Material& operator()(const std::string& material) {
-        const auto known = mMaterials.find(material);
-        if (known != mMaterials.end()) return known->second;
-        const std::unique_ptr<Brdf> brdf = makeBrdf(material);
-        const BrdfTable table = tabulate(*brdf, mOptions.mapSize, mOptions.mapping);
-        Material made{brdf->describe().dump(), factorize(table, {mOptions.terms})};
-        return mMaterials.emplace(material, std::move(made)).first->second;
-    }
-
-  private:
-    const BakeOptions& mOptions;
-    std::map<std::string, Material> mMaterials;
-};
-
 // The passes of one part with their buffers, for batches of a given size.
 struct PartPasses {
-    PartPasses(const vk::Device& device, const Asset& asset, const FactoredBrdf& brdf,
+    PartPasses(const vk::Device& device, const Asset& asset, const AssetPart& part,
                const BakeOptions& options, uint32_t capacity)
         : batch(capacity), visibility(device, asset.occluder, uint32_t(options.visibilitySize), capacity,
                                       visibilityNearDistance(asset.visibilityOffset)),
-          transport(device, brdf, options, capacity),
           points(device, capacity * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points"),
           bits(device, capacity * RasterVisibility::bytesPerPoint(uint32_t(options.visibilitySize)),
-               vk::BufferUse::Device, "visibility bits") {}
+               vk::BufferUse::Device, "visibility bits") {
+        for (const MaterialSet& set : part.sets) transports.emplace_back(device, set.brdf, options, capacity);
+    }
 
     uint32_t batch;
     RasterVisibility visibility;
-    TransportPass transport;
+    std::vector<TransportPass> transports; // per set
     vk::Buffer points, bits;
 };
 
 // Makes the passes for the planned batch, or half of it as often as memory asks for.
-std::unique_ptr<PartPasses> makePasses(const vk::Device& device, const Asset& asset, const FactoredBrdf& brdf,
-                                       const BakeOptions& options, uint32_t vertices) {
-    for (uint32_t batch = std::min(planBatch(device, options, brdf.terms), vertices);; batch /= 2) {
+std::unique_ptr<PartPasses> makePasses(const vk::Device& device, const Asset& asset, const AssetPart& part,
+                                       const BakeOptions& options) {
+    int terms = 0;
+    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
+    const auto vertices = uint32_t(part.mesh.vertexCount());
+    for (uint32_t batch = std::min(planBatch(device, options, terms), vertices);; batch /= 2) {
         try {
-            return std::make_unique<PartPasses>(device, asset, brdf, options, batch);
+            return std::make_unique<PartPasses>(device, asset, part, options, batch);
         } catch (const vk::OutOfMemory& failure) {
             if (batch <= 1) throw;
             spdlog::warn("{}; going on with batches of {} vertices instead of {}", failure.what(), batch / 2,
@@ -81,11 +61,12 @@ std::unique_ptr<PartPasses> makePasses(const vk::Device& device, const Asset& as
 void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& options, AssetPart& part,
               TransportLosses& losses, BakeTimes& times, const BakeProgress& progress) {
     const auto vertices = uint32_t(part.mesh.vertexCount());
-    part.transport.vertices = vertices;
-    part.transport.terms = uint32_t(part.brdf.terms);
-    part.transport.rowStarts = {0};
-
-    const std::unique_ptr<PartPasses> passes = makePasses(device, asset, part.brdf, options, vertices);
+    for (MaterialSet& set : part.sets) {
+        set.transport.vertices = vertices;
+        set.transport.terms = uint32_t(set.brdf.terms);
+        set.transport.rowStarts = {0};
+    }
+    const std::unique_ptr<PartPasses> passes = makePasses(device, asset, part, options);
     times.batch = std::max(times.batch, passes->batch);
     vk::Commands commands(device, "bake");
     for (uint32_t first = 0; first < vertices; first += passes->batch) {
@@ -95,16 +76,21 @@ void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& o
                 bakePoint(part.mesh, first + i, asset.visibilityOffset);
         commands.begin();
         passes->visibility.record(commands, passes->points, count, passes->bits);
-        passes->transport.record(commands, passes->points, count, passes->bits);
+        for (const TransportPass& transport : passes->transports)
+            transport.record(commands, passes->points, count, passes->bits);
         commands.submitAndWait();
-        passes->transport.collect(count, part.transport, losses);
+        for (size_t set = 0; set < part.sets.size(); set++)
+            passes->transports[set].collect(count, part.sets[set].transport, losses);
         if (progress) progress(first + count);
     }
     for (const auto& [name, seconds] : commands.times()) vk::addTime(times.device, name, seconds);
 }
 
 nlohmann::json describe(const BakeOptions& options) {
-    return {{"terms", options.terms},
+    const FactorizationOptions& factorization = options.factorization;
+    return {{"terms", factorization.terms},
+            {"error", factorization.wantedError ? nlohmann::json(*factorization.wantedError) : nullptr},
+            {"factorization", factorizationName(factorization.method)},
             {"coefficients", options.coefficients},
             {"map_size", options.mapSize},
             {"map", diskMappingName(options.mapping)},
@@ -154,10 +140,12 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, co
     times.occluder = secondsSince(stage);
 
     stage = Clock::now();
-    MaterialFactory materials(options);
+    MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
     for (Part& part : scene.parts) {
-        const MaterialFactory::Material& material = materials(part.material);
-        asset.parts.push_back({part.name, material.description, std::move(part.mesh), material.factored, {}});
+        std::vector<MaterialSet> sets =
+            materials.make(part.material, part.materialFolder, part.baseColor.has_value());
+        asset.parts.push_back({part.name, std::move(part.mesh), std::move(sets), std::move(part.baseColor),
+                               std::move(part.materialMap), part.paintedByColors});
     }
     times.factorisation = secondsSince(stage);
 

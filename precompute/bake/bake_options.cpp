@@ -1,7 +1,6 @@
 #include "precompute/bake/bake_options.h"
 
 #include "engine/base/error.h"
-#include "precompute/brdf/factorization.h"
 #include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ static void expectOneOf(const char* option, int value, const char* names, std::i
 }
 
 void BakeOptions::validate() const {
-    expectRange("--terms", terms, 1, kMaxTerms);
+    expectRange("--terms", factorization.terms, 1, kMaxTerms);
     expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);
     expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});

@@ -1,7 +1,7 @@
 // Every choice that decides a bake's bytes.
 #pragma once
 
-#include "engine/scene/factored_brdf.h"
+#include "precompute/brdf/factorization.h"
 
 #include <cstddef>
 #include <optional>
@@ -9,10 +9,11 @@
 namespace relume {
 
 struct BakeOptions {
-    int terms = 4;         // K, 1 to 32: the most that a part gets; a diffuse one needs a single term
+    // K, 1 to 32, and how they are found. At most so many: a diffuse part needs a single one.
+    FactorizationOptions factorization;
     int coefficients = 96; // N, 1 to 6 F²
     int mapSize = 48;      // S, 4 to 64
-    DiskMapping mapping = DiskMapping::Orthographic;
+    DiskMapping mapping = DiskMapping::EqualArea;
     int faceSize = 64;        // F: 32 or 64
     int visibilitySize = 256; // 64, 128 or 256
     int transportSamples = 1; // 1, 4 or 16 light-map evaluations per lighting texel

@@ -3,6 +3,7 @@
 
 #include "engine/image/image.h"
 #include "engine/light/light_cube.h"
+#include "engine/render/appearance.h"
 #include "engine/scene/camera.h"
 #include "engine/transport/asset.h"
 
@@ -16,6 +17,7 @@ struct ReferenceOptions {
     int width = 640, height = 480;
     ReferenceBrdf brdf = ReferenceBrdf::Exact;
     int raysPerTexelSide = 2;   // shadow rays through each lighting texel: this squared; 4 is the 256² grid
+    Appearance appearance = {}; // what parts wear; empty: the default appearance
     bool bakedOccluder = false; // cast shadows with the asset's simplified occluder, not the full mesh
 };
 

@@ -37,11 +37,11 @@ struct Sums {
 // What the device makes of some points of a part: bits and all coefficients, back on the host.
 class DeviceStages {
   public:
-    DeviceStages(const vk::Device& device, const Asset& asset, const AssetPart& part,
+    DeviceStages(const vk::Device& device, const Asset& asset, const AssetPart& part, const MaterialSet& set,
                  const std::vector<uint32_t>& vertices)
-        : mFaceCoefficients(6ull * asset.faceSize * asset.faceSize), mTerms(uint32_t(part.brdf.terms)) {
+        : mFaceCoefficients(6ull * asset.faceSize * asset.faceSize), mTerms(uint32_t(set.brdf.terms)) {
         BakeOptions options;
-        options.terms = part.brdf.terms;
+        options.factorization.terms = set.brdf.terms;
         options.coefficients = asset.coefficients;
         options.faceSize = asset.faceSize;
         options.visibilitySize = asset.visibilitySize;
@@ -54,7 +54,7 @@ class DeviceStages {
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
         const RasterVisibility visibility(device, asset.occluder, size, batch,
                                           visibilityNearDistance(asset.visibilityOffset));
-        const TransportPass transport(device, part.brdf, options, batch);
+        const TransportPass transport(device, set.brdf, options, batch);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
         const uint64_t coefficientBytes = batch * mTerms * mFaceCoefficients * sizeof(vec4);
@@ -111,11 +111,12 @@ std::vector<vec3> expand(const PackedRow& row, size_t count) {
     return dense;
 }
 
-void checkVertex(const Asset& asset, size_t partIndex, uint32_t vertex, const RayTracer& tracer,
-                 const DeviceStages& device, size_t point, Sums& sums) {
+void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t vertex,
+                 const RayTracer& tracer, const DeviceStages& device, size_t point, Sums& sums) {
     const AssetPart& part = asset.parts[partIndex];
+    const MaterialSet& set = part.sets[setIndex];
     const vec3 normal = part.mesh.normals[vertex];
-    const VertexReference reference = recomputeVertex(asset, partIndex, vertex, tracer);
+    const VertexReference reference = recomputeVertex(asset, partIndex, setIndex, vertex, tracer);
     const std::vector<uint8_t>& visibility = device.visibility(point);
     const int size = asset.visibilitySize;
     for (int texel = 0; texel < 6 * size * size; texel++) {
@@ -124,9 +125,9 @@ void checkVertex(const Asset& asset, size_t partIndex, uint32_t vertex, const Ra
         sums.hemisphere++;
         sums.mismatched += visibility[size_t(texel)] != reference.visibility[size_t(texel)];
     }
-    for (int term = 0; term < part.brdf.terms; term++) {
+    for (int term = 0; term < set.brdf.terms; term++) {
         std::vector<vec3> expected = transportVector(visibility, size, asset.faceSize, asset.transportSamples,
-                                                     part.brdf, term, tangentFrame(normal));
+                                                     set.brdf, term, tangentFrame(normal));
         haarFaces(expected, asset.faceSize);
         const std::vector<vec3> found = device.coefficients(point, size_t(term));
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
@@ -134,7 +135,7 @@ void checkVertex(const Asset& asset, size_t partIndex, uint32_t vertex, const Ra
         std::vector<bool> kept(expected.size(), false);
         for (uint16_t index : selectLargest(found, asset.coefficients)) kept[index] = true;
         const std::vector<vec3> stored =
-            expand(storedRow(part.transport, vertex, size_t(term)), expected.size());
+            expand(storedRow(set.transport, vertex, size_t(term)), expected.size());
         const std::vector<vec3>& exact = reference.terms[size_t(term)].coefficients;
         for (size_t i = 0; i < expected.size(); i++) {
             sums.wavelet.add(kept[i] ? found[i] : vec3(0), found[i]);
@@ -161,6 +162,27 @@ std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samp
     return drawn;
 }
 
+// Vertices whose tuples differ from the CPU's.
+uint64_t countDifferences(const SparseTransport& transport, const LightVector& light,
+                          const std::vector<ivec3>& found) {
+    const std::vector<ivec3> expected = relight(transport, light);
+    uint64_t different = 0;
+    for (size_t vertex = 0; vertex < transport.vertices; vertex++) {
+        const auto begin = ptrdiff_t(vertex * transport.terms), end = begin + ptrdiff_t(transport.terms);
+        different += !std::equal(found.begin() + begin, found.begin() + end, expected.begin() + begin);
+    }
+    return different;
+}
+
+// Mean over the materials of a set.
+double brdfError(const MaterialSet& set) {
+    double sum = 0;
+    for (const AssetMaterial& material : set.materials)
+        sum += double(rmsErrors(*makeBrdf(material.description), set.brdf, material.layer, material.layers())
+                          .relative.back());
+    return sum / double(set.materials.size());
+}
+
 uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, const Environment& prepared,
                                  float rotation) {
     LightPass light(device, asset.faceSize);
@@ -169,17 +191,22 @@ uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, c
     vk::Commands commands(device, "verify relighting");
     commands.begin();
     light.record(commands, rotation);
-    relighter.record(commands, light);
     commands.submitAndWait();
     const LightVector vector = light.readVector();
+    size_t mostSets = 0;
+    for (const AssetPart& part : asset.parts) mostSets = std::max(mostSets, part.sets.size());
     uint64_t different = 0;
-    for (size_t part = 0; part < asset.parts.size(); part++) {
-        const SparseTransport& transport = asset.parts[part].transport;
-        const std::vector<ivec3> found = relighter.readSums(part), expected = relight(transport, vector);
-        for (size_t vertex = 0; vertex < transport.vertices; vertex++) {
-            const auto begin = ptrdiff_t(vertex * transport.terms), end = begin + ptrdiff_t(transport.terms);
-            different += !std::equal(found.begin() + begin, found.begin() + end, expected.begin() + begin);
-        }
+    for (size_t index = 0; index < mostSets; index++) {
+        Appearance appearance = defaultAppearance(asset);
+        for (size_t part = 0; part < appearance.size(); part++)
+            appearance[part].set = std::min(index, asset.parts[part].sets.size() - 1);
+        commands.begin();
+        relighter.record(commands, light, appearance);
+        commands.submitAndWait();
+        for (size_t part = 0; part < asset.parts.size(); part++)
+            if (index < asset.parts[part].sets.size())
+                different += countDifferences(asset.parts[part].sets[index].transport, vector,
+                                              relighter.readSums(part, index));
     }
     return different;
 }
@@ -193,10 +220,12 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
     Sums sums;
     for (const auto& [partIndex, vertices] : drawSamples(asset, samples)) {
         const AssetPart& part = asset.parts[partIndex];
-        const DeviceStages stages(device, asset, part, vertices);
-        for (size_t point = 0; point < vertices.size(); point++)
-            checkVertex(asset, partIndex, vertices[point], tracer, stages, point, sums);
-        sums.brdf += double(rmsErrors(*makeBrdf(part.material), part.brdf).relative.back()) * double(vertices.size());
+        for (size_t set = 0; set < part.sets.size(); set++) {
+            const DeviceStages stages(device, asset, part, part.sets[set], vertices);
+            for (size_t point = 0; point < vertices.size(); point++)
+                checkVertex(asset, partIndex, set, vertices[point], tracer, stages, point, sums);
+            sums.brdf += brdfError(part.sets[set]) * double(vertices.size()) / double(part.sets.size());
+        }
     }
     Verification result;
     result.samples = uint64_t(samples);

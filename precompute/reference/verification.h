@@ -14,7 +14,7 @@ struct Verification {
     double transportError = 0;     // all coefficients: device against CPU twin on the device's visibility
     double waveletError = 0;       // lost by keeping N
     double quantisationError = 0;  // the asset's rows against the coefficients they keep
-    double brdfError = 0;          // cos-weighted relative RMS of the K terms, mean over samples' parts
+    double brdfError = 0;          // cos-weighted relative RMS of the K terms, mean over samples' materials
     uint64_t relightBits = 0;      // vertices, of all, whose integer K-tuple differs between device and CPU
     double totalError = 0; // the asset's rows against uncompressed transport under Embree's visibility
 };

@@ -4,10 +4,11 @@
 
 namespace relume {
 
-VertexReference recomputeVertex(const Asset& asset, size_t part, size_t vertex, const RayTracer& occluder) {
+VertexReference recomputeVertex(const Asset& asset, size_t part, size_t set, size_t vertex,
+                                const RayTracer& occluder) {
     RELUME_CHECK_LT(part, asset.parts.size());
     const Mesh& mesh = asset.parts[part].mesh;
-    const FactoredBrdf& brdf = asset.parts[part].brdf;
+    const FactoredBrdf& brdf = asset.parts[part].sets.at(set).brdf;
     RELUME_CHECK_LT(vertex, mesh.vertexCount());
     const vec3 normal = mesh.normals[vertex];
     const vec3 origin = mesh.positions[vertex] + asset.visibilityOffset * normal;

@@ -18,9 +18,10 @@ struct VertexReference {
     std::vector<TermReference> terms; // K
 };
 
-// Recomputes vertex `vertex` of part `part` with the asset's own options, factors and frames; `occluder`
-// traces the asset's occluder.
-VertexReference recomputeVertex(const Asset& asset, size_t part, size_t vertex, const RayTracer& occluder);
+// Recomputes vertex `vertex` of part `part` and its set `set` with the asset's own options, factors and
+// frames; `occluder` traces the asset's occluder.
+VertexReference recomputeVertex(const Asset& asset, size_t part, size_t set, size_t vertex,
+                                const RayTracer& occluder);
 
 // The row that the asset holds for a vertex and term.
 PackedRow storedRow(const SparseTransport& transport, size_t vertex, size_t term);

@@ -51,8 +51,22 @@ RELUME_SHARED_SIZE(RelightPush, 8)
 struct ViewVertex {
     vec3 position;
     vec3 normal; // Unit length
+    vec2 uv;     // of the part's textures, if it has any
+    vec4 color;  // as paint, if the part is painted by colours
 };
-RELUME_SHARED_SIZE(ViewVertex, 24)
+RELUME_SHARED_SIZE(ViewVertex, 48)
+
+// Layers of view maps that a part shows: engine/render/appearance.h.
+struct ViewLayer {
+    uint firstMap;   // of the layer's K maps in the part's texture
+    int channel;     // of the paint that multiplies it; -1: none
+    uint isTextured; // 1: the base colour texture multiplies it
+    float weight;
+};
+RELUME_SHARED_SIZE(ViewLayer, 16)
+
+// Where a part's paint comes from.
+const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
 
 struct ViewPush {
     mat4 clipFromWorld;
@@ -60,8 +74,11 @@ struct ViewPush {
     uint terms;     // K of the part
     uint firstTerm; // of this draw
     uint mapping;   // of the view maps: DiskMapping
+    uint layers;    // that are worn
+    uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
+    uint materials; // of the worn set: no more than these share the paint
 };
-RELUME_SHARED_SIZE(ViewPush, 88)
+RELUME_SHARED_SIZE(ViewPush, 100)
 
 RELUME_SHARED_END
 

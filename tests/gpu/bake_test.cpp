@@ -23,10 +23,11 @@ Scene smallScene(const std::string& material) {
 TEST_CASE("bake: every stage agrees with its CPU twin and Embree") {
     const TestDevice device;
     BakeOptions options;
-    options.terms = 5; // with batches of 64 vertices, more than a row for each lane of row_starts.comp
+    options.factorization.terms =
+        5; // with batches of 64 vertices, more than a row for each lane of row_starts.comp
     const Asset asset = bake(device, smallScene("ashikhmin-shirley"), options);
-    CHECK_EQ(asset.parts[0].brdf.terms, 5);
-    CHECK_EQ(asset.parts[1].brdf.terms, 1); // diffuse: one term is exact
+    CHECK_EQ(asset.parts[0].sets[0].brdf.terms, 5);
+    CHECK_EQ(asset.parts[1].sets[0].brdf.terms, 1); // diffuse: one term is exact
     const Verification found = verify(device, asset, prepareForSampling(makeSky()), 0.3f, 40);
     CHECK_LE(found.visibilityMismatch, 0.005);
     CHECK_LE(found.transportError, 1e-4);

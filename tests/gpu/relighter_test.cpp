@@ -14,7 +14,8 @@ AssetPart makePart(uint32_t vertices, uint32_t terms, uint32_t longest, int face
     std::mt19937 random(seed);
     AssetPart part;
     part.name = "random";
-    SparseTransport& transport = part.transport;
+    part.sets.emplace_back().materials = {{"test", "{}"}};
+    SparseTransport& transport = part.sets[0].transport;
     transport.vertices = vertices;
     transport.terms = terms;
     transport.rowStarts.push_back(0);
@@ -53,7 +54,7 @@ void checkBits(const vk::Device& device, const Asset& asset, const RelighterOpti
         const LightVector vector = light.readVector();
         REQUIRE_FALSE(vector.indices.empty());
         for (size_t part = 0; part < asset.parts.size(); part++)
-            CHECK(relighter.readSums(part) == relight(asset.parts[part].transport, vector));
+            CHECK(relighter.readSums(part) == relight(asset.parts[part].sets[0].transport, vector));
     }
     for (size_t part = 0; part < shards.size(); part++) CHECK_EQ(relighter.shards(part), shards[part]);
 }
@@ -88,7 +89,7 @@ TEST_CASE("relighter: shards give the reference's bits") {
     checkBits(device, asset, {.largestShard = 1}, {2000, 10, 0});
 
     size_t groups = 0;
-    const SparseTransport& transport = asset.parts[0].transport;
+    const SparseTransport& transport = asset.parts[0].sets[0].transport;
     for (size_t row = 0; row < transport.rows(); row++)
         groups += (transport.rowStarts[row + 1] - transport.rowStarts[row] + 7) / 8;
     const Relighter relighter(device, asset, {.largestShard = 48 * groups / 4});
@@ -113,16 +114,17 @@ TEST_CASE("relighter: sums reach the limits of 32 bits without overflow") {
     const LightVector vector = light.readVector();
 
     AssetPart& part = asset.parts.emplace_back();
-    part.transport.vertices = part.transport.terms = 1;
-    part.transport.scales = {1};
+    part.sets.emplace_back();
+    part.sets[0].transport.vertices = part.sets[0].transport.terms = 1;
+    part.sets[0].transport.scales = {1};
     int64_t expected = 0;
     for (size_t e = 0; e < vector.indices.size(); e++) {
         const int sign = vector.values[e][0] < 0 ? -1 : 1;
-        part.transport.indices.push_back(vector.indices[e]);
-        part.transport.values.push_back(packCoefficient(ivec3(1023 * sign, 1023 * sign, 511 * sign)));
+        part.sets[0].transport.indices.push_back(vector.indices[e]);
+        part.sets[0].transport.values.push_back(packCoefficient(ivec3(1023 * sign, 1023 * sign, 511 * sign)));
         expected += 1023 * int64_t(std::abs(vector.values[e][0]));
     }
-    part.transport.rowStarts = {0, part.transport.values.size()};
+    part.sets[0].transport.rowStarts = {0, part.sets[0].transport.values.size()};
     const Relighter relighter(device, asset);
     commands.begin();
     relighter.record(commands, light);
@@ -130,5 +132,5 @@ TEST_CASE("relighter: sums reach the limits of 32 bits without overflow") {
     const ivec3 sum = relighter.readSums(0)[0];
     CHECK_LT(int64_t(1) << 30, expected); // close enough to the limit to mean something
     CHECK_EQ(int64_t(sum.x), expected);
-    CHECK(relight(part.transport, vector)[0] == sum);
+    CHECK(relight(part.sets[0].transport, vector)[0] == sum);
 }

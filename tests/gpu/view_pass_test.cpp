@@ -20,13 +20,14 @@ AssetPart makePart(Mesh mesh, int terms, DiskMapping mapping, uint32_t seed) {
     std::uniform_real_distribution<float> value(-1, 1);
     AssetPart part;
     part.name = "test";
+    part.sets.emplace_back().materials = {{"test", "{}"}};
     part.mesh = std::move(mesh);
-    part.brdf.size = 8;
-    part.brdf.terms = terms;
-    part.brdf.mapping = mapping;
-    for (size_t i = 0; i < size_t(terms) * part.brdf.mapTexels(); i++)
-        part.brdf.viewMaps.emplace_back(value(random), value(random), value(random));
-    SparseTransport& transport = part.transport;
+    part.sets[0].brdf.size = 8;
+    part.sets[0].brdf.terms = terms;
+    part.sets[0].brdf.mapping = mapping;
+    for (size_t i = 0; i < size_t(terms) * part.sets[0].brdf.mapTexels(); i++)
+        part.sets[0].brdf.viewMaps.emplace_back(value(random), value(random), value(random));
+    SparseTransport& transport = part.sets[0].transport;
     transport.vertices = uint32_t(part.mesh.vertexCount());
     transport.terms = uint32_t(terms);
     transport.rowStarts.push_back(0);
@@ -69,7 +70,7 @@ class HostView {
   public:
     HostView(const Asset& asset, const LightVector& light)
         : mAsset(asset), mLight(light), mTracer(std::array{&asset.parts[0].mesh, &asset.parts[1].mesh}) {
-        for (const AssetPart& part : asset.parts) mSums.push_back(relight(part.transport, light));
+        for (const AssetPart& part : asset.parts) mSums.push_back(relight(part.sets[0].transport, light));
     }
 
     HostPixel at(vec3 eye, vec3 direction) const {
@@ -85,11 +86,12 @@ class HostView {
         const vec3 toEye = tangentFrame(glm::normalize(normal)).toLocal(glm::normalize(eye - position));
         const vec3 local = liftAboveHorizon(toEye);
         vec3 radiance(0);
-        for (int term = 0; term < part.brdf.terms; term++) {
+        for (int term = 0; term < part.sets[0].brdf.terms; term++) {
             vec3 tuple(0);
             for (int c = 0; c < 3; c++) tuple += hit->weights[c] * tupleOf(hit->mesh, corners[c], term);
-            radiance += tuple * lookupMap(&part.brdf.viewMaps[size_t(term) * part.brdf.mapTexels()],
-                                          part.brdf.size, part.brdf.mapping, local);
+            radiance +=
+                tuple * lookupMap(&part.sets[0].brdf.viewMaps[size_t(term) * part.sets[0].brdf.mapTexels()],
+                                  part.sets[0].brdf.size, part.sets[0].brdf.mapping, local);
         }
         const float inside = std::min({hit->weights.x, hit->weights.y, hit->weights.z});
         return {true, inside > 0.02f && toEye.z > 0.15f, glm::max(radiance, vec3(0))};
@@ -97,7 +99,7 @@ class HostView {
 
   private:
     vec3 tupleOf(size_t part, uint32_t vertex, int term) const {
-        const SparseTransport& transport = mAsset.parts[part].transport;
+        const SparseTransport& transport = mAsset.parts[part].sets[0].transport;
         const size_t row = size_t(vertex) * transport.terms + size_t(term);
         return vec3(mSums[part][row]) * transport.scales[row] * mLight.scale /
                vec3(kRedMaximum, kGreenMaximum, kBlueMaximum);
@@ -182,12 +184,12 @@ TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
     Asset asset;
     asset.parts.push_back(makePart(makePlane(2, 1), 1, DiskMapping::Orthographic, 4));
     AssetPart& part = asset.parts[0];
-    std::fill(part.brdf.viewMaps.begin(), part.brdf.viewMaps.end(), vec3(0.5f));
+    std::fill(part.sets[0].brdf.viewMaps.begin(), part.sets[0].brdf.viewMaps.end(), vec3(0.5f));
     // One entry a row: the average of face 2 (+Y), 64 times its constant radiance of 3.
-    part.transport.indices.assign(4, 2 * 4096);
-    part.transport.values.assign(4, packCoefficient({1023, 512, 0}));
-    part.transport.scales.assign(4, 2.0f);
-    part.transport.rowStarts = {0, 1, 2, 3, 4};
+    part.sets[0].transport.indices.assign(4, 2 * 4096);
+    part.sets[0].transport.values.assign(4, packCoefficient({1023, 512, 0}));
+    part.sets[0].transport.scales.assign(4, 2.0f);
+    part.sets[0].transport.rowStarts = {0, 1, 2, 3, 4};
     LightPass light(device, 64);
     LightCube cube{64, std::vector<vec3>(6 * 4096, vec3(0))};
     std::fill_n(cube.radiance.begin() + 2 * 4096, 4096, vec3(3));

@@ -51,7 +51,7 @@ double relativeRmse(const vk::Device& device, const Asset& asset, const LightCub
     const double error = compareImages(relit(device, asset, cube, threshold),
                                        renderReference(asset, viewOf(asset), cube, options))
                              .relativeRmse;
-    MESSAGE(asset.parts[0].material, ", N = ", asset.coefficients, ", threshold ", threshold,
+    MESSAGE(asset.parts[0].sets[0].materials[0].name, ", N = ", asset.coefficients, ", threshold ", threshold,
             ": relative RMSE ", error);
     return error;
 }

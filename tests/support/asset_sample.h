@@ -41,22 +41,24 @@ inline AssetPart samplePart(uint32_t vertices, int terms, int faceSize, int perR
     const auto point = [&] { return vec3(gauss(random), gauss(random), gauss(random)); };
     AssetPart part;
     part.name = "sample";
-    part.material = R"({"model":"lambert","albedo":[0.5,0.25,0.125]})";
+    MaterialSet set;
+    set.materials = {{"matt", R"({"model":"lambert","albedo":[0.5,0.25,0.125]})", 0, false}};
     for (uint32_t i = 0; i < vertices; i++) {
         part.mesh.positions.push_back(point());
         part.mesh.normals.push_back(glm::normalize(point()));
         part.mesh.triangles.push_back({i, (i + 1) % vertices, uint32_t(random()) % vertices});
     }
-    part.brdf.size = 4;
-    part.brdf.terms = terms;
-    part.brdf.mapping = DiskMapping::Polar;
-    for (size_t i = 0; i < size_t(terms) * part.brdf.mapTexels(); i++) {
-        part.brdf.lightMaps.push_back(point());
-        part.brdf.viewMaps.push_back(point());
+    set.brdf.size = 4;
+    set.brdf.terms = terms;
+    set.brdf.mapping = DiskMapping::Polar;
+    for (size_t i = 0; i < size_t(terms) * set.brdf.mapTexels(); i++) {
+        set.brdf.lightMaps.push_back(point());
+        set.brdf.viewMaps.push_back(point());
     }
     for (int i = 0; i < terms; i++)
-        part.brdf.eigenvalues.push_back({gauss(random), -1.0f / float(i + 1), 0.0f});
-    part.transport = sampleTransport(vertices, uint32_t(terms), faceSize, perRow, random);
+        set.brdf.eigenvalues.push_back({gauss(random), -1.0f / float(i + 1), 0.0f});
+    set.transport = sampleTransport(vertices, uint32_t(terms), faceSize, perRow, random);
+    part.sets.push_back(std::move(set));
     return part;
 }
 
@@ -73,6 +75,22 @@ inline Asset sampleAsset(uint32_t seed = 1) {
     asset.parts.push_back(samplePart(19, 3, asset.faceSize, asset.coefficients, random));
     asset.parts.push_back(samplePart(11, 1, asset.faceSize, asset.coefficients, random));
     asset.parts[1].name = "ground \xc3\xa9\"\n";
+    // The first part has all that a part can have: three layers for two materials, a second set, textures.
+    AssetPart& rich = asset.parts[0];
+    MaterialSet& set = rich.sets[0];
+    set.materials.push_back({"glossy", R"({"model":"plastic"})", 1, true});
+    set.brdf.layers = 3;
+    const std::vector<vec3> layer = set.brdf.viewMaps;
+    for (int extra = 0; extra < 2; extra++)
+        set.brdf.viewMaps.insert(set.brdf.viewMaps.end(), layer.begin(), layer.end());
+    rich.sets.push_back(samplePart(19, 2, asset.faceSize, asset.coefficients, random).sets[0]);
+    rich.sets[1].materials[0].name = "other";
+    for (uint32_t i = 0; i < 19; i++) rich.mesh.uvs.push_back({float(i) / 7, -float(i)});
+    rich.baseColor = Texture{2, 3, {1, 2, 3, 4, 5, 0xff000000}, true};
+    rich.materialMap = Texture{1, 1, {0x12345678}, false};
+    // The second is painted by its colours.
+    for (uint32_t i = 0; i < 11; i++) asset.parts[1].mesh.colors.push_back(vec4(float(i) / 10));
+    asset.parts[1].paintedByColors = true;
     asset.occluder.positions = asset.parts[0].mesh.positions;
     asset.occluder.triangles = asset.parts[0].mesh.triangles;
     asset.provenance = {"relume 0.1.0", "a device", R"({"terms":3})",
@@ -91,7 +109,7 @@ inline std::vector<RawChunk> chunksOf(std::span<const std::byte> bytes) {
     const ChunkFile file(bytes, "sample");
     std::vector<RawChunk> chunks;
     for (const ChunkEntry& entry : file.entries())
-        chunks.push_back({entry.tag, entry.part, entry.run, file.load(entry)});
+        chunks.push_back({entry.tag, entry.owner, entry.run, file.load(entry)});
     return chunks;
 }
 

@@ -21,9 +21,10 @@ inline FactoredBrdf makeDiffuseFactors(vec3 albedo, int size = 8) {
 // A part with those factors, a material that says the same, and no transport.
 inline AssetPart makeDiffusePart(const Mesh& mesh, float albedo) {
     AssetPart part;
-    part.material = fmt::format(R"({{"model": "diffuse", "albedo": {0}}})", albedo);
     part.mesh = mesh;
-    part.brdf = makeDiffuseFactors(vec3(albedo));
+    part.sets.push_back({{{"diffuse", fmt::format(R"({{"model": "diffuse", "albedo": {0}}})", albedo)}},
+                         makeDiffuseFactors(vec3(albedo)),
+                         {}});
     return part;
 }
 

@@ -20,12 +20,26 @@ void checkSameMesh(const Mesh& a, const Mesh& b) {
     CHECK(a.triangles == b.triangles);
 }
 
-void checkSamePart(const AssetPart& a, const AssetPart& b) {
-    CHECK(a.name == b.name);
-    CHECK(a.material == b.material);
-    checkSameMesh(a.mesh, b.mesh);
+void checkSameTexture(const std::optional<Texture>& a, const std::optional<Texture>& b) {
+    REQUIRE(a.has_value() == b.has_value());
+    if (!a) return;
+    CHECK(a->width == b->width);
+    CHECK(a->height == b->height);
+    CHECK(a->srgb == b->srgb);
+    CHECK(a->texels == b->texels);
+}
+
+void checkSameSet(const MaterialSet& a, const MaterialSet& b) {
+    REQUIRE(a.materials.size() == b.materials.size());
+    for (size_t i = 0; i < a.materials.size(); i++) {
+        CHECK(a.materials[i].name == b.materials[i].name);
+        CHECK(a.materials[i].description == b.materials[i].description);
+        CHECK(a.materials[i].layer == b.materials[i].layer);
+        CHECK(a.materials[i].hasBase == b.materials[i].hasBase);
+    }
     CHECK(a.brdf.size == b.brdf.size);
     CHECK(a.brdf.terms == b.brdf.terms);
+    CHECK(a.brdf.layers == b.brdf.layers);
     CHECK(a.brdf.mapping == b.brdf.mapping);
     CHECK(a.brdf.lightMaps == b.brdf.lightMaps);
     CHECK(a.brdf.viewMaps == b.brdf.viewMaps);
@@ -36,6 +50,18 @@ void checkSamePart(const AssetPart& a, const AssetPart& b) {
     CHECK(a.transport.scales == b.transport.scales);
     CHECK(a.transport.indices == b.transport.indices);
     CHECK(a.transport.values == b.transport.values);
+}
+
+void checkSamePart(const AssetPart& a, const AssetPart& b) {
+    CHECK(a.name == b.name);
+    checkSameMesh(a.mesh, b.mesh);
+    CHECK(a.mesh.uvs == b.mesh.uvs);
+    CHECK(a.mesh.colors == b.mesh.colors);
+    checkSameTexture(a.baseColor, b.baseColor);
+    checkSameTexture(a.materialMap, b.materialMap);
+    CHECK(a.paintedByColors == b.paintedByColors);
+    REQUIRE(a.sets.size() == b.sets.size());
+    for (size_t i = 0; i < a.sets.size(); i++) checkSameSet(a.sets[i], b.sets[i]);
 }
 
 void checkSame(const Asset& a, const Asset& b) {
@@ -130,10 +156,10 @@ TEST_CASE("asset file: long transport is cut into bounded runs, and monotonous o
     checkSame(decodeAsset(bytes, "file"), asset);
 
     // Nothing but empty rows: zstd would shrink them past what a reader believes.
-    part.transport.indices.clear();
-    part.transport.values.clear();
-    std::ranges::fill(part.transport.rowStarts, 0);
-    std::ranges::fill(part.transport.scales, 0.0f);
+    part.sets[0].transport.indices.clear();
+    part.sets[0].transport.values.clear();
+    std::ranges::fill(part.sets[0].transport.rowStarts, 0);
+    std::ranges::fill(part.sets[0].transport.scales, 0.0f);
     const std::vector<std::byte> empty = encodeAsset(asset);
     const ChunkEntry first = ChunkFile(empty, "file").find(chunkTag("TRAN"), 0)[0];
     CHECK(first.storedSize == first.rawSize);
@@ -148,7 +174,7 @@ TEST_CASE("asset file: a vertex of the most terms and coefficients is one run") 
     asset.transportSamples = 1;
     asset.coefficients = 6 * 64 * 64;
     asset.parts[0] = samplePart(2, 32, 64, 1, random);
-    SparseTransport& transport = asset.parts[0].transport;
+    SparseTransport& transport = asset.parts[0].sets[0].transport;
     transport.indices.clear();
     for (size_t row = 0; row < transport.rows(); row++)
         for (int i = 0; i < asset.coefficients; i++) transport.indices.push_back(uint16_t(i));
@@ -225,7 +251,7 @@ TEST_CASE("asset file: foreign and later files are refused by name") {
     CHECK_THROWS_WITH_AS(decodeAsset({}, "empty"), doctest::Contains("not a .relume file"), Error);
     std::vector<std::byte> later = bytes;
     poke(later, 8, kAssetFormatVersion + 1, 4);
-    CHECK_THROWS_WITH_AS(decodeAsset(later, "later"), doctest::Contains("format version 2"), Error);
+    CHECK_THROWS_WITH_AS(decodeAsset(later, "later"), doctest::Contains("format version 3"), Error);
     // A transfer in text mode turns \r\n into \n.
     bytes.erase(bytes.begin() + 6);
     CHECK_THROWS_WITH_AS(decodeAsset(bytes, "text"), doctest::Contains("not a .relume file"), Error);
@@ -298,13 +324,24 @@ TEST_CASE("asset file: absurd settings and counts are refused") {
     refuses("\"truncationError\":0", "\"truncationError\":-0");
     refuses("\"truncationError\":0", "\"truncationError\":1e99");
     for (const char* count : {"0", "18", "20", "4294967295", "4294967296", "18446744073709551615"})
-        refuses("\"vertices\":19,\"triangles\":19,\"terms\"",
-                fmt::format("\"vertices\":{},\"triangles\":19,\"terms\"", count).c_str());
+        refuses("\"vertices\":19,\"triangles\":19,\"uvs\"",
+                fmt::format("\"vertices\":{},\"triangles\":19,\"uvs\"", count).c_str());
     for (const char* count : {"0", "2", "4", "32", "33"})
         refuses("\"terms\":3,", fmt::format("\"terms\":{},", count).c_str());
     for (const char* size : {"3", "5", "256", "257"})
         refuses("\"mapSize\":4", fmt::format("\"mapSize\":{}", size).c_str());
     refuses("\"entries\":", "\"entries\":9");
+    for (const char* layers : {"0", "1", "2", "4", "65", "true"})
+        refuses("\"layers\":3", fmt::format("\"layers\":{}", layers).c_str());
+    refuses("\"layer\":1,\"base\":true", "\"layer\":2,\"base\":true");
+    refuses("\"layer\":1,\"base\":true", "\"layer\":1,\"base\":1");
+    refuses("\"uvs\":true", "\"uvs\":false");
+    refuses("\"colors\":false", "\"colors\":true");
+    refuses("\"paintedByColors\":false", "\"paintedByColors\":true");
+    for (const char* width : {"0", "3", "8193", "-1"})
+        refuses("\"width\":2", fmt::format("\"width\":{}", width).c_str());
+    refuses("\"sets\":[", "\"sets\":[{},");
+    refuses("\"name\":\"glossy\"", "\"name\":\"matt\"");
     refuses("\"mapping\":\"polar\"", "\"mapping\":\"mercator\"");
     refuses("\"parts\":[", "\"parts\":[{},");
     refuses("\"program\":\"relume 0.1.0\"", "\"program\":7");
@@ -345,7 +382,7 @@ TEST_CASE("asset file: transport chunks that do not add up are refused") {
     CHECK(pokes(12 + rows - 1, 0, 1).find("rows hold") != std::string::npos);
     const auto last = [](std::vector<std::byte>& raw) { raw.pop_back(); };
     CHECK(refusal(last).find("bytes") != std::string::npos);
-    const size_t entries = sampleAsset().parts[0].transport.entries();
+    const size_t entries = sampleAsset().parts[0].sets[0].transport.entries();
     CHECK(pokes(gaps + entries, 2, 1).find("indices below 384") != std::string::npos);
     CHECK(pokes(12 + 2 * rows + 3 * rows, 0xffff, 2).find("scales") != std::string::npos); // negative or NaN
 }
@@ -378,42 +415,52 @@ TEST_CASE("asset file: an asset that could not be read back is not written") {
     refuses([](Asset& a) { a.parts[0].mesh.normals.pop_back(); });
     refuses([](Asset& a) { a.parts[0].mesh.normals[2] *= 1.01f; });
     refuses([&](Asset& a) { a.parts[0].mesh.normals[2].x = nan; });
-    refuses([&](Asset& a) { a.parts[0].brdf.lightMaps[5].z = nan; });
-    refuses([](Asset& a) { a.parts[0].brdf.viewMaps.pop_back(); });
-    refuses([&](Asset& a) { a.parts[0].brdf.eigenvalues[0][1] = infinite; });
-    refuses([](Asset& a) { a.parts[0].brdf.mapping = DiskMapping(2); });
-    refuses([](Asset& a) { a.parts[0].transport.terms = 2; });
-    refuses([](Asset& a) { a.parts[0].transport.vertices = 18; });
-    refuses([](Asset& a) { a.parts[0].transport.rowStarts[1] = 1000000; });
+    refuses([&](Asset& a) { a.parts[0].sets[0].brdf.lightMaps[5].z = nan; });
+    refuses([](Asset& a) { a.parts[0].sets[0].brdf.viewMaps.pop_back(); });
+    refuses([&](Asset& a) { a.parts[0].sets[0].brdf.eigenvalues[0][1] = infinite; });
+    refuses([](Asset& a) { a.parts[0].sets[0].brdf.mapping = DiskMapping(3); });
+    refuses([](Asset& a) { a.parts[0].sets.clear(); });
+    refuses([](Asset& a) { a.parts[0].sets[0].materials.clear(); });
+    refuses([](Asset& a) { a.parts[0].baseColor.reset(); });
+    refuses([](Asset& a) { a.parts[0].baseColor->texels.pop_back(); });
+    refuses([&](Asset& a) { a.parts[0].mesh.uvs[3].x = nan; });
+    refuses([](Asset& a) { a.parts[0].mesh.uvs.pop_back(); });
+    refuses([](Asset& a) { a.parts[1].mesh.colors[2].y = 1.5f; });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.terms = 2; });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.vertices = 18; });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.rowStarts[1] = 1000000; });
+    refuses([](Asset& a) {
+        std::swap(a.parts[0].sets[0].transport.rowStarts[1], a.parts[0].sets[0].transport.rowStarts[2]);
+    });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.rowStarts.pop_back(); });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.scales[0] = -1; });
     refuses(
-        [](Asset& a) { std::swap(a.parts[0].transport.rowStarts[1], a.parts[0].transport.rowStarts[2]); });
-    refuses([](Asset& a) { a.parts[0].transport.rowStarts.pop_back(); });
-    refuses([](Asset& a) { a.parts[0].transport.scales[0] = -1; });
-    refuses([](Asset& a) { a.parts[0].transport.indices[1] = a.parts[0].transport.indices[0]; });
-    refuses([](Asset& a) { a.parts[0].transport.indices.back() = 384; });
-    refuses([](Asset& a) { a.parts[0].transport.values[0] = 0x400; });       // red -1024
-    refuses([](Asset& a) { a.parts[0].transport.values[0] = 0x80000000u; }); // blue -512
+        [](Asset& a) { a.parts[0].sets[0].transport.indices[1] = a.parts[0].sets[0].transport.indices[0]; });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.indices.back() = 384; });
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.values[0] = 0x400; });       // red -1024
+    refuses([](Asset& a) { a.parts[0].sets[0].transport.values[0] = 0x80000000u; }); // blue -512
 }
 
 TEST_CASE("asset info: JSON with the numbers that matter, whatever text the asset carries") {
     Asset asset = sampleAsset();
     auto info = nlohmann::json::parse(describeAssetJson(asset, 12345));
-    const SparseTransport& transport = asset.parts[0].transport;
+    const SparseTransport& transport = asset.parts[0].sets[0].transport;
     CHECK(info["file_bytes"] == 12345);
     CHECK(info["coefficients"] == 24);
     CHECK(info["occluder_triangles"] == 19);
     CHECK(info["parts"][0]["vertices"] == 19);
-    CHECK(info["parts"][0]["terms"] == 3);
-    CHECK(info["parts"][0]["entries"] == transport.entries());
-    CHECK(info["parts"][0]["mean_entries_per_row"] == double(transport.entries()) / 57);
-    CHECK(info["parts"][0]["bytes_per_vertex"] == 6.0 * double(transport.entries()) / 19);
-    CHECK(info["parts"][0]["material"]["model"] == "lambert");
+    CHECK(info["parts"][0]["sets"][0]["terms"] == 3);
+    CHECK(info["parts"][0]["sets"][0]["entries"] == transport.entries());
+    CHECK(info["parts"][0]["sets"][0]["mean_entries_per_row"] == double(transport.entries()) / 57);
+    CHECK(info["parts"][0]["sets"][0]["bytes_per_vertex"] == 6.0 * double(transport.entries()) / 19);
+    CHECK(info["parts"][0]["sets"][0]["materials"][0]["brdf"]["model"] == "lambert");
     CHECK(info["total"]["vertices"] == 30);
     CHECK(info["provenance"]["options"]["terms"] == 3);
     asset.transportSamples = 1;
-    asset.parts[0].material = std::string(500000, '['); // would overflow the stack of a recursive printer
+    // Would overflow the stack of a recursive printer.
+    asset.parts[0].sets[0].materials[0].description = std::string(500000, '[');
     asset.parts[1].name = "\xff\xfe";
     info = nlohmann::json::parse(describeAssetJson(asset, 0));
-    CHECK(info["parts"][0]["material"].is_string());
+    CHECK(info["parts"][0]["sets"][0]["materials"][0]["brdf"].is_string());
     CHECK(info["approximations"][0] == "transport: one evaluation per lighting texel, an approximation");
 }

@@ -92,7 +92,7 @@ TEST_CASE("reference image: each part has its own material") {
 
 TEST_CASE("reference image: a negative sum of factors is black, not negative") {
     Asset asset = makeTestAsset({makeDiffusePart(makeSphere(2), 0.5f)});
-    for (vec3& value : asset.parts[0].brdf.viewMaps) value = vec3(-1, 1, -1);
+    for (vec3& value : asset.parts[0].sets[0].brdf.viewMaps) value = vec3(-1, 1, -1);
     const Image image = render(asset, {0, 0, 5}, uniformLight(8, vec3(1)), {.brdf = ReferenceBrdf::Factored});
     const vec4 centre = image.at(6, 4);
     CHECK(centre.x == 0);
@@ -102,7 +102,7 @@ TEST_CASE("reference image: a negative sum of factors is black, not negative") {
 
 TEST_CASE("reference image: under one texel of light, the BRDF at that direction") {
     Asset asset = makeTestAsset({makeDiffusePart(makePlane(2, 1), 0.5f)});
-    FactoredBrdf& brdf = asset.parts[0].brdf;
+    FactoredBrdf& brdf = asset.parts[0].sets[0].brdf;
     brdf.terms = 2;
     brdf.lightMaps.resize(2 * brdf.mapTexels()), brdf.viewMaps.resize(2 * brdf.mapTexels());
     for (size_t i = 0; i < brdf.lightMaps.size(); i++) {
@@ -112,8 +112,9 @@ TEST_CASE("reference image: under one texel of light, the BRDF at that direction
     const int face = 2, x = 6, y = 3, size = 8;
     LightCube light = uniformLight(size, vec3(0));
     light.radiance[size_t(cubeTexelIndex(face, x, y, size))] = vec3(2);
-    asset.parts[0].material = R"({"model": "ashikhmin-shirley", "nu": 10, "nv": 100})";
-    const std::unique_ptr<Brdf> exact = makeBrdf(asset.parts[0].material);
+    asset.parts[0].sets[0].materials[0].description =
+        R"({"model": "ashikhmin-shirley", "nu": 10, "nv": 100})";
+    const std::unique_ptr<Brdf> exact = makeBrdf(asset.parts[0].sets[0].materials[0].description);
 
     const Camera camera{{1, 2, 3}, vec3(0), 0.6f};
     const TangentFrame frame = tangentFrame({0, 1, 0});

@@ -15,13 +15,13 @@ namespace {
 // A torus with two terms, baked vertex by vertex from the stages themselves.
 Asset bakeTorus(const RayTracer& tracer, const Mesh& torus) {
     AssetPart part = makeDiffusePart(torus, 0.5f);
-    part.brdf.terms = 2;
-    for (size_t i = 0; i < part.brdf.mapTexels(); i++)
-        part.brdf.lightMaps.push_back(vec3(float(i % 8), 1, -float(i / 8)));
+    part.sets[0].brdf.terms = 2;
+    for (size_t i = 0; i < part.sets[0].brdf.mapTexels(); i++)
+        part.sets[0].brdf.lightMaps.push_back(vec3(float(i % 8), 1, -float(i / 8)));
     Asset asset = makeTestAsset({part});
     asset.visibilitySize = 32, asset.faceSize = 16, asset.coefficients = 20, asset.transportSamples = 4;
 
-    SparseTransport& transport = asset.parts[0].transport;
+    SparseTransport& transport = asset.parts[0].sets[0].transport;
     transport.vertices = uint32_t(torus.vertexCount());
     transport.terms = 2;
     transport.rowStarts = {0};
@@ -30,7 +30,7 @@ Asset bakeTorus(const RayTracer& tracer, const Mesh& torus) {
         const auto visibility =
             visibilityCube(tracer, torus.positions[vertex] + asset.visibilityOffset * n, n, 32);
         for (int term = 0; term < 2; term++) {
-            auto cube = transportVector(visibility, 32, 16, 4, part.brdf, term, tangentFrame(n));
+            auto cube = transportVector(visibility, 32, 16, 4, part.sets[0].brdf, term, tangentFrame(n));
             haarFaces(cube, 16);
             const PackedRow row = packRow(cube, selectLargest(cube, 20));
             transport.indices.insert(transport.indices.end(), row.indices.begin(), row.indices.end());
@@ -54,14 +54,15 @@ TEST_CASE("vertex check: recomputes exactly what the stages stored") {
     const RayTracer tracer{occluders};
     const Asset asset = bakeTorus(tracer, torus);
     for (size_t vertex = 0; vertex < torus.vertexCount(); vertex += 7) {
-        const VertexReference reference = recomputeVertex(asset, 0, vertex, tracer);
+        const VertexReference reference = recomputeVertex(asset, 0, 0, vertex, tracer);
         CHECK(reference.visibility.size() == 6 * 32 * 32);
         REQUIRE(reference.terms.size() == 2);
         for (size_t term = 0; term < 2; term++) {
             const TermReference& recomputed = reference.terms[term];
             CHECK(recomputed.selected.size() == 20);
-            CHECK(isSameRow(recomputed.row, storedRow(asset.parts[0].transport, vertex, term)));
-            CHECK_FALSE(isSameRow(recomputed.row, storedRow(asset.parts[0].transport, vertex, 1 - term)));
+            CHECK(isSameRow(recomputed.row, storedRow(asset.parts[0].sets[0].transport, vertex, term)));
+            CHECK_FALSE(
+                isSameRow(recomputed.row, storedRow(asset.parts[0].sets[0].transport, vertex, 1 - term)));
             std::vector<vec3> transformed = recomputed.transport;
             haarFaces(transformed, 16);
             CHECK(transformed == recomputed.coefficients);

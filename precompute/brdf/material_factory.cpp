@@ -1,0 +1,47 @@
+#include "precompute/brdf/material_factory.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+std::vector<MaterialSet> MaterialFactory::make(const std::string& material,
+                                               const std::filesystem::path& folder, bool isTextured) {
+    const auto [known, isNew] = mKnown.try_emplace({material, folder, isTextured});
+    if (!isNew) return known->second;
+    for (const std::vector<NamedMaterial>& materials : readMaterials(material, folder))
+        known->second.push_back(factor(materials, isTextured));
+    const auto hasBase = [](const MaterialSet& set) {
+        return std::ranges::any_of(set.materials, &AssetMaterial::hasBase);
+    };
+    if (isTextured && std::ranges::none_of(known->second, hasBase))
+        spdlog::warn("{}: has no base colour that a texture could multiply; the texture shows nowhere",
+                     known->second.front().materials.front().name);
+    return known->second;
+}
+
+MaterialSet MaterialFactory::factor(const std::vector<NamedMaterial>& materials, bool isTextured) const {
+    const TexelValue value = texelValueOf(mOptions.method);
+    MaterialSet set;
+    std::vector<BrdfTable> tables;
+    for (const NamedMaterial& material : materials) {
+        const int layer = int(tables.size());
+        bool hasBase = false;
+        if (isTextured) {
+            BrdfTable base = tabulate(*material.brdf, mMapSize, mMapping, value, BrdfPart::Base);
+            hasBase =
+                std::ranges::any_of(base.channels, [](const auto& channel) { return !channel.isZero(0); });
+            if (hasBase) {
+                tables.push_back(tabulate(*material.brdf, mMapSize, mMapping, value, BrdfPart::Rest));
+                tables.push_back(std::move(base));
+            }
+        }
+        if (!hasBase) tables.push_back(tabulate(*material.brdf, mMapSize, mMapping, value));
+        set.materials.push_back({material.name, material.brdf->describe().dump(), layer, hasBase});
+    }
+    set.brdf = factorize(tables, mOptions);
+    return set;
+}
+
+} // namespace relume

@@ -1,0 +1,34 @@
+// From the text of a part's materials to factored sets.
+#pragma once
+
+#include "engine/transport/asset.h"
+#include "precompute/brdf/factorization.h"
+#include "precompute/brdf/material_list.h"
+
+#include <map>
+#include <tuple>
+
+namespace relume {
+
+// Factors each text once, however many parts wear it.
+class MaterialFactory {
+  public:
+    MaterialFactory(const FactorizationOptions& options, int mapSize, DiskMapping mapping)
+        : mOptions(options), mMapSize(mapSize), mMapping(mapping) {}
+
+    // The sets that readMaterials() gives, without transport. For a part with a texture of base colours,
+    // BRDFs that have a base are split into it and the rest; where none has one, the log says that the
+    // texture shows nowhere.
+    std::vector<MaterialSet> make(const std::string& material, const std::filesystem::path& folder,
+                                  bool isTextured);
+
+  private:
+    MaterialSet factor(const std::vector<NamedMaterial>& materials, bool isTextured) const;
+
+    FactorizationOptions mOptions;
+    int mMapSize;
+    DiskMapping mMapping;
+    std::map<std::tuple<std::string, std::filesystem::path, bool>, std::vector<MaterialSet>> mKnown;
+};
+
+} // namespace relume

@@ -1,0 +1,53 @@
+#include "precompute/brdf/material_json.h"
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+namespace relume {
+
+using nlohmann::json;
+
+namespace {
+
+// Materials are a few lines: anything longer or deeper is a mistake.
+constexpr size_t kMaxTextSize = 1 << 16;
+constexpr int kMaxDepth = 8;
+constexpr size_t kMaxPathLength = 4096;
+
+} // namespace
+
+bool looksLikeJson(const std::string& text) {
+    const size_t first = text.find_first_not_of(" \t\r\n");
+    return first != std::string::npos && text[first] == '{';
+}
+
+json parseMaterial(const std::string& text) {
+    if (text.size() > kMaxTextSize)
+        throw UsageError("material of {} bytes: expected a name, or a JSON object of at most {} bytes",
+                         text.size(), kMaxTextSize);
+    const auto checkDepth = [](int depth, json::parse_event_t, const json&) {
+        if (depth > kMaxDepth)
+            throw UsageError("material in JSON is nested more than {} levels deep", kMaxDepth);
+        return true;
+    };
+    try {
+        return json::parse(text, checkDepth);
+    } catch (const json::exception& error) {
+        throw UsageError("material is not valid JSON: {}", error.what());
+    }
+}
+
+std::optional<MaterialFile> readMaterialFile(const std::string& material,
+                                             const std::filesystem::path& folder) {
+    if (material.size() > kMaxPathLength || material.find('\0') != std::string::npos) return std::nullopt;
+    if (looksLikeJson(material) || !material.ends_with(".json")) return std::nullopt;
+    const std::filesystem::path path = folder / material;
+    std::error_code failure;
+    if (!std::filesystem::exists(path, failure))
+        throw Error("{}: material file not found; give the path of a file that holds a material in JSON",
+                    path.generic_string());
+    const std::vector<std::byte> bytes = readFile(path, kMaxTextSize);
+    return MaterialFile{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.parent_path()};
+}
+
+} // namespace relume
