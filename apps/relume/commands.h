@@ -12,6 +12,7 @@ void addCompareCommand(CLI::App& program);
 void addVerifyCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addMaterialsCommand(CLI::App& program);
+void addBrdfCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 

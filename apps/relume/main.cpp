@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     addVerifyCommand(program);
     addInfoCommand(program);
     addMaterialsCommand(program);
+    addBrdfCommand(program);
     addDevicesCommand(program);
     addBenchCommand(program);
     return run(program, argc, argv);

@@ -32,6 +32,14 @@ struct FactoredBrdf {
     }
 };
 
+// What a bilinear lookup reads: texels of two rows, left and right of each, and how far it lies between them.
+struct MapPlace {
+    std::array<int, 4> texels;
+    vec2 weight;
+};
+MapPlace placeInMap(int size, DiskMapping mapping, vec3 local);
+vec3 lookupMap(const vec3* map, const MapPlace& place);
+
 // Bilinear lookup of one map of size × size texels, clamped at its border (polar maps wrap in x).
 vec3 lookupMap(const vec3* map, int size, DiskMapping mapping, vec3 local);
 

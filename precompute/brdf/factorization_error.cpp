@@ -96,12 +96,13 @@ RmsErrors rmsErrors(const Brdf& brdf, const FactoredBrdf& factored, int layer, i
         const float weight = incoming.z * outgoing.z;
         const glm::dvec3 exact(weight * brdf.evaluate(incoming, outgoing));
         total += exact * exact;
+        const MapPlace lit = placeInMap(factored.size, factored.mapping, incoming);
+        const MapPlace seen = placeInMap(factored.size, factored.mapping, outgoing);
         vec3 sum(0);
         for (int term = 0; term < factored.terms; term++) {
-            const vec3 light = lookupMap(factored.lightMap(term), factored.size, factored.mapping, incoming);
+            const vec3 light = lookupMap(factored.lightMap(term), lit);
             for (int l = layer; l < layer + layers; l++)
-                sum +=
-                    light * lookupMap(factored.viewMap(l, term), factored.size, factored.mapping, outgoing);
+                sum += light * lookupMap(factored.viewMap(l, term), seen);
             const glm::dvec3 error = glm::dvec3(weight * sum) - exact;
             differences[size_t(term)] += error * error;
         }

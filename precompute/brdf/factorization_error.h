@@ -31,7 +31,7 @@ RmsErrors rmsErrors(const Brdf& brdf, const FactoredBrdf& factored, int layer = 
 // Measured: the relative RMS of the radiance that unshadowed points reflect, over `orientations` of the frame
 // turned every way in the light and 40 views of each, as the pixels of a convex object have them (density
 // cosθ) or, with `uniform`, with equal density over the hemisphere. Sums over the cube's texels; negative
-// sums count as 0, as they are drawn. A result per factored BRDF.
+// sums count as 0, as they are drawn.
 struct RadianceErrorOptions {
     int orientations = 60;
     bool uniform = false;
@@ -40,8 +40,14 @@ struct LayerOf {
     const FactoredBrdf* factored;
     int layer = 0;
 };
+// After each term, per factored BRDF.
 std::vector<std::vector<float>> radianceErrors(const Brdf& brdf, std::span<const LayerOf> factored,
                                                const LightCube& light,
                                                const RadianceErrorOptions& options = {});
+// That per light, all lights of one size: the BRDF is evaluated once for all of them.
+std::vector<std::vector<std::vector<float>>> radianceErrors(const Brdf& brdf,
+                                                            std::span<const LayerOf> factored,
+                                                            std::span<const LightCube> lights,
+                                                            const RadianceErrorOptions& options = {});
 
 } // namespace relume

@@ -47,8 +47,8 @@ TEST_CASE("cli: help and version go to stdout and end well") {
     const TemporaryFolder folder;
     const Outcome help = runRelume(folder, "--help");
     CHECK_EQ(help.exitCode, 0);
-    for (const char* command :
-         {"bake", "render", "reference", "compare", "verify", "info", "materials", "devices", "bench"}) {
+    for (const char* command : {"bake", "render", "reference", "compare", "verify", "info", "materials",
+                                "brdf", "devices", "bench"}) {
         CHECK(says(help.out, command));
         const Outcome own = runRelume(folder, std::string(command) + " --help");
         CHECK_EQ(own.exitCode, 0);
@@ -73,6 +73,14 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"bake -o x.png", ".relume"},
              {"bake -o x.relume --up z scene.json", "--up"},
              {"bake -o x.relume --ground-extent 2", "--ground"},
+             {"brdf clay --terms 33", "1 to 32"},
+             {"brdf clay --terms auto:nan", "auto:"},
+             {"brdf clay --factorization svd", "nonnegative"},
+             {"brdf clay --map equal", "equal-area"},
+             {"brdf clay --size 3", "--size"},
+             {"brdf clay --size 8 --terms auto:0.1 --factorization nonnegative", "give their number"},
+             {"brdf cley", "clay"},
+             {"brdf clay --plot x.png", ".svg"},
              {"render x.relume -o x.jpg", ".exr or .png"},
              {"render x.relume -o x.png --rotate inf", "--rotate"},
              {"render x.relume -o x.png --orbit 0,nan,1", "--orbit"},
@@ -140,6 +148,35 @@ TEST_CASE("cli: materials lists presets and models, as text and as JSON") {
     const auto materials = nlohmann::json::parse(outcome.out);
     CHECK_GT(materials["presets"].size(), 25u);
     CHECK_EQ(materials["models"][0]["parameters"][0]["name"], "albedo");
+}
+
+TEST_CASE("cli: brdf measures terms, after each of them, and draws them") {
+    const TemporaryFolder folder;
+    const Outcome outcome = runRelume(
+        folder, "brdf red-plastic --size 12 --terms 6 --json --maps m.png --plot p.svg --slice s.svg");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    const auto brdf = nlohmann::json::parse(outcome.out);
+    CHECK_EQ(brdf["terms"], 6);
+    CHECK_EQ(brdf["map"], "equal-area");
+    CHECK_EQ(brdf["material"]["model"], "plastic");
+    CHECK_EQ(brdf["eigenvalues"].size(), 3u);
+    for (const char* key :
+         {"frobenius_residual", "rms_absolute", "rms_relative", "expected_radiance_error"}) {
+        REQUIRE_EQ(brdf[key].size(), 6u);
+        CHECK_LT(brdf[key][5].get<double>(), brdf[key][0].get<double>());
+    }
+    CHECK(contents(folder.path() / "m.png").starts_with("\x89PNG"));
+    for (const char* file : {"p.svg", "s.svg"}) CHECK(contents(folder.path() / file).starts_with("<svg"));
+
+    const Outcome paper = runRelume(folder, "brdf red-plastic --size 12 --factorization paper --json");
+    CHECK_EQ(nlohmann::json::parse(paper.out)["map"], "orthographic");
+    const Outcome automatic = runRelume(folder, "brdf red-plastic --size 12 --terms auto:0.05 --json");
+    const auto few = nlohmann::json::parse(automatic.out);
+    CHECK_LE(few["expected_radiance_error"].back().get<double>(), 0.05);
+    REQUIRE_GE(few["terms"].get<size_t>(), 2u);
+    CHECK_GT(few["expected_radiance_error"][few["terms"].get<size_t>() - 2].get<double>(), 0.05);
+    CHECK(says(runRelume(folder, "brdf clay --size 8 --terms 2").out, "Frobenius"));
 }
 
 TEST_CASE("cli: a material that cannot be used is named before the work") {

@@ -1,0 +1,64 @@
+#include "apps/relume/factorization_arguments.h"
+
+#include "engine/base/error.h"
+
+namespace relume {
+
+namespace {
+
+constexpr std::string_view kAuto = "auto:";
+
+// Of "auto:E".
+float wantedErrorFrom(const std::string& text) {
+    float error;
+    if (CLI::detail::lexical_cast(text.substr(kAuto.size()), error) && error > 0 && error <= 1) return error;
+    throw UsageError("--terms: expected an error above 0 and up to 1 after auto:, found \"{}\"", text);
+}
+
+int termsFrom(const std::string& text) {
+    int terms;
+    if (CLI::detail::lexical_cast(text, terms) && terms >= 1 && terms <= kMaxTerms) return terms;
+    throw UsageError("--terms: expected 1 to {}, or auto:E for an error of E; found \"{}\"", kMaxTerms, text);
+}
+
+// The paper's tables are orthographic; errors that are weighted by area do best with texels of equal area.
+DiskMapping mappingFor(Factorization method) {
+    return method == Factorization::Paper ? DiskMapping::Orthographic : DiskMapping::EqualArea;
+}
+
+} // namespace
+
+void FactorizationArguments::add(CLI::App& command, int defaultTerms) {
+    mTerms = std::to_string(defaultTerms);
+    mMethod = factorizationName(options.method);
+    command
+        .add_option("-K,--terms", mTerms,
+                    "BRDF terms, 1 to 32; or auto:E, the fewest whose expected relative error of reflected "
+                    "radiance is at most E")
+        ->type_name("K")
+        ->capture_default_str();
+    command
+        .add_option("--factorization", mMethod,
+                    "What the terms make least: environment (errors of radiance as it is seen), cosine (of f "
+                    "cos cos), paper (of f), or nonnegative (as cosine, without negative maps)")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"environment", "cosine", "paper", "nonnegative"}))
+        ->capture_default_str();
+    command
+        .add_option("--map", mMapping,
+                    "Layout of the maps: orthographic, polar or equal-area (default: orthographic for paper, "
+                    "else equal-area)")
+        ->type_name("MAP")
+        ->check(CLI::IsMember({"orthographic", "polar", "equal-area"}));
+}
+
+void FactorizationArguments::resolve() {
+    options.method = *factorizationFromName(mMethod);
+    mapping = mMapping.empty() ? mappingFor(options.method) : *diskMappingFromName(mMapping);
+    const bool isAutomatic = mTerms.starts_with(kAuto);
+    options.terms = isAutomatic ? kMaxTerms : termsFrom(mTerms);
+    options.wantedError.reset();
+    if (isAutomatic) options.wantedError = wantedErrorFrom(mTerms);
+}
+
+} // namespace relume
