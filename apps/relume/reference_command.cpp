@@ -1,3 +1,4 @@
+#include "apps/relume/appearance_arguments.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
@@ -15,6 +16,7 @@ struct Arguments {
     CameraArguments camera;
     LightArguments light;
     ImageArguments image;
+    AppearanceArguments appearance;
     std::string brdf = "exact", lightForm = "cube", occluder = "full";
     int rays = 4, environmentWidth = 1024;
 };
@@ -27,6 +29,7 @@ void run(const Arguments& arguments) {
     options.height = arguments.camera.height;
     options.brdf = arguments.brdf == "factored" ? ReferenceBrdf::Factored : ReferenceBrdf::Exact;
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
+    options.appearance = arguments.appearance.appearance(asset);
     options.bakedOccluder = arguments.occluder == "baked";
     const Camera camera = arguments.camera.camera(asset);
     const float rotation = radians(arguments.light.rotationDegrees);
@@ -57,6 +60,7 @@ void addReferenceCommand(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     arguments->image.add(*command);
+    arguments->appearance.add(*command);
     arguments->light.add(*command);
     arguments->camera.add(*command);
     command->add_option("--brdf", arguments->brdf, "exact, or factored: the baked K terms")

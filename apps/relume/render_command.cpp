@@ -1,3 +1,4 @@
+#include "apps/relume/appearance_arguments.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
@@ -18,6 +19,7 @@ struct Arguments {
     CameraArguments camera;
     LightArguments light;
     ImageArguments image;
+    AppearanceArguments appearance;
     DeviceArguments device;
     int threshold = kDefaultLightThreshold;
     int frames = 1;
@@ -44,12 +46,14 @@ void run(const Arguments& arguments) {
     arguments.image.check();
     if (!arguments.timings.empty()) expectWritable(arguments.timings);
     const Asset asset = readAsset(arguments.file);
+    const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     LightPass light(*device, asset.faceSize);
     if (arguments.light.isEnvironment())
         light.setEnvironment(prepareForSampling(arguments.light.environment()));
     const Relighter relighter(*device, asset);
     ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
+    view.setAppearance(appearance);
 
     const bool turnsLight = arguments.turn == "light";
     auto frames = nlohmann::ordered_json::array();
@@ -64,7 +68,7 @@ void run(const Arguments& arguments) {
         if (lightChanges) {
             light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
                          arguments.threshold);
-            relighter.record(commands, light);
+            relighter.record(commands, light, appearance);
         }
         view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter, light);
         commands.submitAndWait();
@@ -89,6 +93,7 @@ void addRenderCommand(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     arguments->image.add(*command);
+    arguments->appearance.add(*command);
     arguments->light.add(*command);
     command->add_option("--threshold", arguments->threshold, "Drop light coefficients below this, of 32767")
         ->check(CLI::Range(0, kLightMaximum))

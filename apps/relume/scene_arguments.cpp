@@ -3,6 +3,7 @@
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
+#include "precompute/brdf/material_json.h"
 #include "precompute/brdf/material_list.h"
 
 #include <algorithm>
@@ -15,10 +16,15 @@ void SceneArguments::add(CLI::App& command) {
         .add_option("INPUT", input,
                     "Mesh (.obj, .ply, .gltf, .glb), scene (.json), or built-in knot, sphere, torus, plane")
         ->capture_default_str();
-    mMaterialOption =
-        command.add_option("-m,--material", material, "Preset, model, or JSON object with parameters")
-            ->type_name("MATERIAL")
-            ->default_str(fmt::format("the file's own (glTF), else {}", kDefaultMaterial));
+    mMaterialOption = command
+                          .add_option("-m,--material", mMaterials,
+                                      "Preset, model, file, or JSON object with parameters; several, or a "
+                                      "{\"set\": […]}, share one bake and can be swapped and blended")
+                          ->type_name("MATERIAL")
+                          ->take_all()
+                          ->default_str(fmt::format("the file's own (glTF), else {}", kDefaultMaterial));
+    command.add_flag("--separate", mSeparate,
+                     "Bake several materials each on its own: larger, more exact, swapped but not blended");
     mUpOption = command.add_option("--up", mUp, "The mesh's up axis: y or z")
                     ->type_name("AXIS")
                     ->check(CLI::IsMember({"y", "z"}))
@@ -50,6 +56,7 @@ Scene SceneArguments::load() const {
                              option->get_name());
     for (const CLI::Option* option : mGroundDetails)
         if (!ground && option->count() > 0) throw UsageError("{}: needs --ground", option->get_name());
+    if (mSeparate && mMaterials.size() < 2) throw UsageError("--separate: needs several --material");
     if (isScene)
         scene = readScene(input);
     else
@@ -64,8 +71,12 @@ Scene SceneArguments::load() const {
 }
 
 std::optional<std::string> SceneArguments::chosenMaterial() const {
-    if (material || hasOwnMaterials(input)) return material;
-    return kDefaultMaterial;
+    if (mMaterials.empty()) return hasOwnMaterials(input) ? std::nullopt : std::optional(kDefaultMaterial);
+    if (mMaterials.size() == 1) return mMaterials.front();
+    nlohmann::json list = nlohmann::json::array();
+    for (const std::string& material : mMaterials)
+        list.push_back(looksLikeJson(material) ? parseMaterial(material) : nlohmann::json(material));
+    return nlohmann::json{{mSeparate ? "separate" : "set", list}}.dump();
 }
 
 void SceneArguments::checkMaterials(const Scene& scene) const {
@@ -80,9 +91,7 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
 }
 
 void BakeArguments::add(CLI::App& command) {
-    command.add_option("-K,--terms", options.factorization.terms, "BRDF terms, 1 to 32")
-        ->type_name("K")
-        ->capture_default_str();
+    mFactorization.add(command, options.factorization.terms);
     command
         .add_option("-N,--coefficients", options.coefficients,
                     "Wavelet coefficients kept per vertex and term")
@@ -90,10 +99,6 @@ void BakeArguments::add(CLI::App& command) {
         ->capture_default_str();
     command.add_option("--map-size", options.mapSize, "Side of a light or view map")
         ->type_name("S")
-        ->capture_default_str();
-    command.add_option("--map", mMapping, "Layout of the maps: equal-area, orthographic or polar")
-        ->type_name("MAP")
-        ->check(CLI::IsMember({"equal-area", "orthographic", "polar"}))
         ->capture_default_str();
     command.add_option("--face-size", options.faceSize, "Side of a face of the lighting cube: 32 or 64")
         ->type_name("F")
@@ -115,7 +120,9 @@ void BakeArguments::add(CLI::App& command) {
 }
 
 void BakeArguments::resolve() {
-    options.mapping = *diskMappingFromName(mMapping);
+    mFactorization.resolve();
+    options.factorization = mFactorization.options;
+    options.mapping = mFactorization.mapping;
     options.occluderTriangles = 0;
     if (mOccluder != "full") {
         const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&

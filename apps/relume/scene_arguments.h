@@ -1,6 +1,7 @@
 // What to bake and how: the options of `relume bake`, shared with `relume bench`.
 #pragma once
 
+#include "apps/relume/factorization_arguments.h"
 #include "engine/scene/ground.h"
 #include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
@@ -14,10 +15,9 @@ namespace relume {
 // What a mesh without materials of its own is made of, where none is named.
 constexpr const char* kDefaultMaterial = "ashikhmin-shirley";
 
-// MESH|SCENE.json, --material, --up, --ground…
+// MESH|SCENE.json, --material, --separate, --up, --ground…
 struct SceneArguments {
     std::string input = "knot";
-    std::optional<std::string> material; // none: the mesh's own, else kDefaultMaterial
     bool ground = false;
 
     void add(CLI::App& command);
@@ -29,6 +29,8 @@ struct SceneArguments {
     // None: the mesh's own.
     std::optional<std::string> chosenMaterial() const;
 
+    std::vector<std::string> mMaterials; // none: the mesh's own, else kDefaultMaterial
+    bool mSeparate = false;
     CLI::Option* mMaterialOption = nullptr;
     CLI::Option* mUpOption = nullptr;
     std::vector<CLI::Option*> mGroundDetails; // mean nothing without --ground
@@ -37,7 +39,7 @@ struct SceneArguments {
     GroundOptions mGroundOptions;
 };
 
-// --terms, --coefficients, …: everything in BakeOptions.
+// --terms, --factorization, --coefficients, …: everything in BakeOptions.
 struct BakeArguments {
     BakeOptions options;
 
@@ -46,7 +48,7 @@ struct BakeArguments {
     void resolve();
 
   private:
-    std::string mMapping = "equal-area";
+    FactorizationArguments mFactorization;
     std::string mOccluder = "full";
 };
 

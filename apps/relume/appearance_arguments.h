@@ -1,0 +1,20 @@
+// What to wear: options that render and reference share.
+#pragma once
+
+#include "engine/render/appearance.h"
+
+#include <CLI/CLI.hpp>
+
+namespace relume {
+
+// --material NAME[=WEIGHT], repeatable
+struct AppearanceArguments {
+    void add(CLI::App& command);
+    // The default appearance, in the materials that were named. Throws UsageError.
+    Appearance appearance(const Asset& asset) const;
+
+  private:
+    std::vector<std::string> mMaterials;
+};
+
+} // namespace relume

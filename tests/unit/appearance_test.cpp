@@ -1,0 +1,75 @@
+// What parts wear: names, blends, paint.
+#include "engine/base/error.h"
+#include "engine/render/appearance.h"
+#include "tests/support/asset_sample.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+// Part 0: a set of "matt" (layer 0) and "glossy" (1, and its base 2), and one of "other"; part 1: "matt".
+Appearance dressed(const Asset& asset, const std::vector<WeightedMaterial>& blend) {
+    Appearance appearance = defaultAppearance(asset);
+    wear(appearance, asset, blend);
+    return appearance;
+}
+
+} // namespace
+
+TEST_CASE("appearance: parts begin as they were baked to be") {
+    const Asset asset = sampleAsset();
+    const Appearance appearance = defaultAppearance(asset);
+    REQUIRE(appearance.size() == 2);
+    CHECK(appearance[0].painted); // by its material map
+    CHECK(appearance[1].painted); // by its colours
+    CHECK(appearance[0].weights == std::vector<float>{1, 0});
+    CHECK(materialNames(asset) == std::vector<std::string>{"matt", "glossy", "other"});
+}
+
+TEST_CASE("appearance: a material is worn wherever a part has it, and nowhere else") {
+    const Asset asset = sampleAsset();
+    const Appearance matt = dressed(asset, {{"matt"}});
+    CHECK(matt[0].set == 0);
+    CHECK_FALSE(matt[0].painted);
+    CHECK_FALSE(matt[1].painted);
+    const Appearance other = dressed(asset, {{"other"}});
+    CHECK(other[0].set == 1);
+    CHECK(other[0].weights == std::vector<float>{1});
+    CHECK(other[1].painted); // as before
+}
+
+TEST_CASE("appearance: blends need materials of one set, and names that exist") {
+    const Asset asset = sampleAsset();
+    const Appearance blend = dressed(asset, {{"matt", 0.25f}, {"glossy", 0.5f}});
+    CHECK(blend[0].weights == std::vector<float>{0.25f, 0.5f});
+    CHECK_THROWS_WITH_AS(dressed(asset, {{"matt", 0.5f}, {"other", 0.5f}}), doctest::Contains("in one set"),
+                         UsageError);
+    CHECK_THROWS_WITH_AS(dressed(asset, {{"glosy"}}), doctest::Contains("did you mean \"glossy\""),
+                         UsageError);
+}
+
+TEST_CASE("appearance: worn layers are those of the worn materials, bases textured, paint by channel") {
+    const Asset asset = sampleAsset();
+    const auto layers = wornLayers(asset.parts[0], dressed(asset, {{"matt", 0}, {"glossy", 0.5f}})[0]);
+    REQUIRE(layers.size() == 2);
+    CHECK(layers[0].layer == 1);
+    CHECK_FALSE(layers[0].textured);
+    CHECK(layers[1].layer == 2);
+    CHECK(layers[1].textured);
+    CHECK(layers[1].weight == 0.5f);
+    CHECK(layers[1].channel == -1);
+    const auto painted = wornLayers(asset.parts[0], defaultAppearance(asset)[0]);
+    REQUIRE(painted.size() == 3);
+    CHECK(painted[0].channel == 0);
+    CHECK(painted[2].channel == 1);
+    CHECK(painted[2].weight == 1);
+}
+
+TEST_CASE("appearance: paint is shared by the materials there are") {
+    CHECK(paintWeights({0.5f, 0.5f, 1, 1}, 2) == vec4(0.5f, 0.5f, 0, 0));
+    CHECK(paintWeights({0, 0, 0, 0.5f}, 4) == vec4(0, 0, 0, 1));
+    CHECK(paintWeights({0, 0, 1, 1}, 2) == vec4(1, 0, 0, 0)); // none of theirs: the first alone
+}

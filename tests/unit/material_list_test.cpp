@@ -1,0 +1,95 @@
+// Lists of materials: sets, names, files.
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "precompute/brdf/material_factory.h"
+#include "precompute/brdf/material_list.h"
+#include "tests/support/temporary_folder.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+std::vector<std::vector<std::string>> namesOf(const MaterialSets& sets) {
+    std::vector<std::vector<std::string>> names;
+    for (const auto& set : sets) {
+        names.emplace_back();
+        for (const NamedMaterial& material : set) names.back().push_back(material.name);
+    }
+    return names;
+}
+
+using Names = std::vector<std::vector<std::string>>;
+
+MaterialFactory smallFactory(int terms) {
+    return {FactorizationOptions{.terms = terms}, 12, DiskMapping::EqualArea};
+}
+
+} // namespace
+
+TEST_CASE("material list: one material, a set, and sets baked separately") {
+    CHECK(namesOf(readMaterials("clay")) == Names{{"clay"}});
+    CHECK(namesOf(readMaterials(R"({"model": "plastic"})")) == Names{{"plastic"}});
+    CHECK(namesOf(readMaterials(R"({"set": ["clay", {"name": "coat", "model": "plastic"}, "clay"]})")) ==
+          Names{{"clay", "coat", "clay 2"}});
+    CHECK(namesOf(readMaterials(R"({"separate": ["clay", {"set": ["skin", "gold"]}]})")) ==
+          Names{{"clay"}, {"skin", "gold"}});
+}
+
+TEST_CASE("material list: a file may hold any of these, and paths in it start at its folder") {
+    const TemporaryFolder folder;
+    writeFileAtomically(folder.path() / "inner.json", R"({"model": "phong"})");
+    writeFileAtomically(folder.path() / "list.json", R"({"set": ["clay", "inner.json"]})");
+    const MaterialSets sets = readMaterials("list.json", folder.path());
+    CHECK(namesOf(sets) == Names{{"clay", "inner"}});
+    CHECK(sets[0][1].brdf->describe()["model"] == "phong");
+}
+
+TEST_CASE("material list: what makes no sense is refused, and says why") {
+    const auto refuses = [](const std::string& text, const char* why) {
+        CHECK_THROWS_WITH_AS(readMaterials(text), doctest::Contains(why), Error);
+    };
+    refuses(R"({"set": []})", "expected {\"set\"");
+    refuses(R"({"set": ["clay"], "name": "x"})", "nothing else");
+    refuses(R"({"set": [7]})", "expected a name or an object");
+    refuses(R"({"set": [{"set": ["clay"]}]})", "several materials");
+    refuses(R"({"separate": [{"separate": ["clay"]}]})", "several materials");
+    refuses(R"({"set": ["cly"]})", "did you mean \"clay\"");
+    refuses(R"({"set": [{"name": "", "model": "plastic"}]})", "\"name\"");
+    refuses(R"({"set": ["clay", {"name": "clay", "model": "plastic"}]})", "two materials are called");
+    std::string many = R"({"set": [)";
+    for (int i = 0; i < 17; i++) many += std::string(i ? "," : "") + "\"clay\"";
+    refuses(many + "]}", "more than 16");
+}
+
+TEST_CASE("material factory: members of a set share light maps; each has its view maps") {
+    MaterialFactory factory = smallFactory(32);
+    const auto sets = factory.make(R"({"set": ["clay", "red-plastic"]})", {}, false);
+    REQUIRE(sets.size() == 1);
+    CHECK(sets[0].brdf.layers == 2);
+    CHECK(sets[0].materials[1].layer == 1);
+    for (const AssetMaterial& material : sets[0].materials) {
+        const auto brdf = makeBrdf(material.description);
+        const vec3 in = glm::normalize(vec3(0.3f, 0.1f, 1)), out = glm::normalize(vec3(-0.2f, 0.2f, 1));
+        const vec3 exact = brdf->evaluate(in, out), found = evaluate(sets[0].brdf, in, out, material.layer);
+        CHECK(glm::length(found - exact) < 0.1f * glm::length(exact));
+    }
+}
+
+TEST_CASE("material factory: a texture splits what has a base, and only that") {
+    MaterialFactory factory = smallFactory(32);
+    const auto sets = factory.make(R"({"set": ["red-plastic", "gold"]})", {}, true);
+    REQUIRE(sets[0].materials.size() == 2);
+    CHECK(sets[0].materials[0].hasBase);
+    CHECK_FALSE(sets[0].materials[1].hasBase); // a conductor has none
+    CHECK(sets[0].materials[1].layer == 2);
+    CHECK(sets[0].brdf.layers == 3);
+    const auto brdf = makeBrdf("red-plastic");
+    const vec3 in = glm::normalize(vec3(0.3f, 0.1f, 1)), out = glm::normalize(vec3(-0.2f, 0.2f, 1));
+    const vec3 base = evaluate(sets[0].brdf, in, out, 1), exact = brdf->evaluateBase(in, out);
+    CHECK(glm::length(base - exact) < 0.05f * glm::length(exact));
+    CHECK_FALSE(factory.make("red-plastic", {}, false)[0].materials[0].hasBase);
+}
