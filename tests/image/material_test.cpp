@@ -1,0 +1,130 @@
+// Materials from files to images: what is drawn against what Embree traces with the exact BRDFs.
+#include "engine/light/environment.h"
+#include "engine/render/compare.h"
+#include "engine/render/view_pass.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/scene.h"
+#include "precompute/bake/bake.h"
+#include "precompute/reference/reference_image.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_device.h"
+#include "tests/support/textured_glb.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+constexpr int kWidth = 64, kHeight = 48;
+
+class MaterialTest {
+  public:
+    MaterialTest(Scene scene, int terms, const Camera& camera)
+        : mAsset(bake(mDevice, std::move(scene), optionsOf(terms))), mCamera(camera),
+          mSky(sampleEnvironment(prepareForSampling(makeSky()), 64, 0)), mLight(mDevice, 64),
+          mRelighter(mDevice, mAsset), mView(mDevice, mAsset, {.width = kWidth, .height = kHeight}) {
+        mLight.setCube(mSky);
+    }
+
+    const Asset& asset() const { return mAsset; }
+
+    Image draw(const Appearance& appearance) {
+        vk::Commands commands(mDevice, "material test");
+        commands.begin();
+        mLight.record(commands, 0, 64);
+        mRelighter.record(commands, mLight, appearance);
+        mView.setAppearance(appearance);
+        mView.record(commands, mCamera, mRelighter, mLight);
+        commands.submitAndWait();
+        return mView.read();
+    }
+
+    double error(const Appearance& appearance) {
+        ReferenceOptions options{.width = kWidth, .height = kHeight};
+        options.raysPerTexelSide = 1;
+        options.appearance = appearance;
+        return compareImages(draw(appearance), renderReference(mAsset, mCamera, mSky, options)).relativeRmse;
+    }
+
+  private:
+    static BakeOptions optionsOf(int terms) {
+        BakeOptions options;
+        options.factorization.terms = terms;
+        options.visibilitySize = 64;
+        options.coefficients = 192;
+        return options;
+    }
+
+    TestDevice mDevice;
+    Asset mAsset;
+    Camera mCamera;
+    LightCube mSky;
+    LightPass mLight;
+    Relighter mRelighter;
+    ViewPass mView;
+};
+
+Appearance wearing(const Asset& asset, const std::string& name) {
+    Appearance appearance = defaultAppearance(asset);
+    wear(appearance, asset, std::vector<WeightedMaterial>{{name}});
+    return appearance;
+}
+
+// A sphere alone: nothing but its materials decides the image.
+Scene sphereScene(const std::string& material) {
+    Scene scene;
+    scene.parts.push_back({"sphere", makeSphere(3), material, "", ""});
+    return scene;
+}
+
+const Camera kBeforeSphere{{0, 1, 3}, {0, 0, 0}, 0.8f};
+
+} // namespace
+
+TEST_CASE("image: a glTF file's two textured materials are its reference") {
+    const TemporaryFolder folder;
+    const std::string glb = TexturedGlb().bytes();
+    folder.write("squares.glb", glb);
+    Scene scene;
+    scene.parts = loadParts((folder.path() / "squares.glb").string(), UpAxis::Y, std::nullopt);
+    REQUIRE(scene.parts.size() == 2);
+    MaterialTest test(std::move(scene), 16, {{0.3f, 0.9f, 2.6f}, {0.5f, 0.5f, 0.5f}, 0.7f});
+    for (const AssetPart& part : test.asset().parts) {
+        CHECK(part.baseColor.has_value());
+        CHECK(part.sets[0].materials[0].hasBase);
+        CHECK(nlohmann::json::parse(part.sets[0].materials[0].description)["model"] == "gltf");
+    }
+    const double error = test.error(defaultAppearance(test.asset()));
+    MESSAGE("textured squares: relative RMSE ", error);
+    CHECK_LE(error, 0.06);
+}
+
+TEST_CASE("image: every material of a set, and a blend, is its reference") {
+    MaterialTest test(sphereScene(R"({"set": ["clay", "gold", "red-plastic"]})"), 16, kBeforeSphere);
+    REQUIRE(test.asset().parts[0].sets.size() == 1);
+    std::vector<Image> images;
+    for (const std::string name : {"clay", "gold", "red-plastic"}) {
+        const double error = test.error(wearing(test.asset(), name));
+        MESSAGE(name, " in a set of three: relative RMSE ", error);
+        CHECK_LE(error, 0.16);
+        images.push_back(test.draw(wearing(test.asset(), name)));
+    }
+    CHECK_GT(compareImages(images[0], images[1]).relativeRmse, 0.2);
+    CHECK_GT(compareImages(images[0], images[2]).relativeRmse, 0.2);
+    Appearance blend = defaultAppearance(test.asset());
+    wear(blend, test.asset(), std::vector<WeightedMaterial>{{"clay", 0.5f}, {"gold", 0.5f}});
+    CHECK_LE(test.error(blend), 0.16);
+}
+
+TEST_CASE("image: materials baked separately are swapped without reloading") {
+    MaterialTest test(sphereScene(R"({"separate": ["clay", "red-plastic"]})"), 8, kBeforeSphere);
+    REQUIRE(test.asset().parts[0].sets.size() == 2);
+    for (const std::string name : {"red-plastic", "clay"}) {
+        const double error = test.error(wearing(test.asset(), name));
+        MESSAGE(name, " on its own: relative RMSE ", error);
+        CHECK_LE(error, 0.12);
+    }
+}
