@@ -72,8 +72,8 @@ std::string radiancePlot(const std::vector<MaterialStudy>& studies, const StudyO
         for (size_t a = 0; a < approaches().size(); a++) {
             const Approach& approach = approaches()[a];
             const bool isAside = approach.method == Factorization::Paper || a == kCentres;
-            panel.curves.push_back(
-                {approach.name, a, isAside, pointsOf(study, a, options.mainSize(), Measure::Pixels, light)});
+            panel.curves.push_back({approach.name, approach.colour, isAside,
+                                    pointsOf(study, a, options.mainSize(), Measure::Pixels, light)});
         }
     }
     return drawLinePlot(plot);

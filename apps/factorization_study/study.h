@@ -16,6 +16,7 @@ struct Approach {
     Factorization method;
     DiskMapping mapping;
     TexelValue value;
+    size_t colour; // of its curves
 };
 const std::vector<Approach>& approaches();
 
