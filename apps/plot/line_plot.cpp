@@ -14,7 +14,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double kLeft = 64, kRight = 16, kTop = 34, kLegendRow = 18, kBottom = 46;
-constexpr double kGapX = 16, kGapY = 30, kLetterWidth = 6.2; // of text of 11 pixels, on average
+constexpr double kGapX = 22, kGapY = 30, kLetterWidth = 6.2; // of text of 11 pixels, on average
 constexpr Stroke kGrid{"#e4e4e4", 1}, kFrame{"#888888", 1};
 
 bool isDrawn(const LinePlot& plot, dvec2 point) {
