@@ -113,11 +113,19 @@ int main(int argc, char** argv) {
     program.add_option("--orientations", arguments.options.orientations, "Orientations of the light")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    CLI11_PARSE(program, argc, argv);
     try {
+        program.parse(argc, argv);
         if (arguments.onlyGiven && arguments.materials.empty()) throw UsageError("--only: give a MATERIAL");
         run(arguments);
         return kExitDone;
+    } catch (const CLI::Success& success) { // --help
+        return program.exit(success);
+    } catch (const CLI::ParseError& wrong) {
+        program.exit(wrong);
+        return kExitUsage;
+    } catch (const UsageError& wrong) {
+        spdlog::error("{}", wrong.what());
+        return kExitUsage;
     } catch (const std::exception& failure) {
         spdlog::error("{}", failure.what());
         return kExitFailed;

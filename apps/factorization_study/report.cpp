@@ -15,7 +15,7 @@ LinePlot plotOf(std::string title, std::string yLabel) {
     return {std::move(title), "terms K", std::move(yLabel), {0, 8, 16, 24, 32}, true, kColumns, {}};
 }
 
-// Up to 32 terms; a BRDF that has fewer keeps its last error, where it is more than rounding.
+// What was measured of up to 32 terms.
 std::vector<glm::dvec2> pointsOf(const MaterialStudy& study, size_t approach, int size, Measure measure,
                                  size_t light) {
     std::vector<glm::dvec2> points;
@@ -72,8 +72,8 @@ std::string radiancePlot(const std::vector<MaterialStudy>& studies, const StudyO
         for (size_t a = 0; a < approaches().size(); a++) {
             const Approach& approach = approaches()[a];
             const bool isAside = approach.method == Factorization::Paper || a == kCentres;
-            panel.curves.push_back(
-                {approach.name, a, isAside, pointsOf(study, a, options.mainSize(), Measure::Pixels, light)});
+            panel.curves.push_back({approach.name, approach.colour, isAside,
+                                    pointsOf(study, a, options.mainSize(), Measure::Pixels, light)});
         }
     }
     return drawLinePlot(plot);

@@ -37,16 +37,16 @@ const std::vector<Approach>& approaches() {
     using enum Factorization;
     using enum DiskMapping;
     using enum TexelValue;
-    // Those of one table side by side.
+    // Those of one table side by side; later curves are drawn over earlier ones.
     static const std::vector<Approach> kApproaches = {
-        {"paper, orthographic", Paper, Orthographic, Centre},
-        {"paper, polar", Paper, Polar, Centre},
-        {"cosine, orthographic", Cosine, Orthographic, Mean},
-        {"environment, orthographic", Environment, Orthographic, Mean},
-        {"cosine, equal-area", Cosine, EqualArea, Mean},
-        {"environment, equal-area", Environment, EqualArea, Mean},
-        {"nonnegative, equal-area", NonNegative, EqualArea, Mean},
-        {"environment, equal-area, texel centres", Environment, EqualArea, Centre},
+        {"paper, orthographic", Paper, Orthographic, Centre, 1},
+        {"paper, polar", Paper, Polar, Centre, 4},
+        {"cosine, orthographic", Cosine, Orthographic, Mean, 5},
+        {"environment, orthographic", Environment, Orthographic, Mean, 3},
+        {"environment, equal-area, texel centres", Environment, EqualArea, Centre, 7},
+        {"cosine, equal-area", Cosine, EqualArea, Mean, 2},
+        {"environment, equal-area", Environment, EqualArea, Mean, 0},
+        {"nonnegative, equal-area", NonNegative, EqualArea, Mean, 6},
     };
     return kApproaches;
 }

@@ -16,11 +16,12 @@ struct Approach {
     Factorization method;
     DiskMapping mapping;
     TexelValue value;
+    size_t colour; // of its curves
 };
 const std::vector<Approach>& approaches();
 
-// The paper's way, what `relume` does where nothing is asked for, and that with the paper's texel centres.
-constexpr size_t kPaper = 0, kDefault = 5, kCentres = 7;
+// The paper's way; what `relume` does where nothing is asked for; that but for one choice.
+constexpr size_t kPaper = 0, kDefault = 6, kCentres = 4, kCosine = 5, kNonNegative = 7;
 
 struct StudyOptions {
     std::vector<int> sizes;              // S

@@ -88,14 +88,14 @@ std::string byTerms(const Studies& studies, const StudyOptions& options, Measure
     return table;
 }
 
-std::string bySize(const Studies& studies, const StudyOptions& options) {
+std::string bySize(const Studies& studies, const StudyOptions& options, Measure measure) {
     std::vector<std::string> head = {"approach"};
     for (const int size : options.sizes) head.push_back(fmt::format("S = {}", size));
     std::string table = headOf(head);
     for (size_t a = 0; a < approaches().size(); a++) {
         std::vector<std::string> cells = {approaches()[a].name};
         for (const int size : options.sizes)
-            cells.push_back(meanError(studies, options, a, size, kMainTerms, Measure::Pixels).text());
+            cells.push_back(meanError(studies, options, a, size, kMainTerms, measure).text());
         table += rowOf(cells);
     }
     return table;
@@ -131,10 +131,13 @@ std::string summaryOf(const Studies& studies, const StudyOptions& options) {
            section("The same with uniform views", byTerms(studies, options, Measure::Uniform)) +
            section("RMS, mean over materials, " + main, byTerms(studies, options, Measure::Rms)) +
            section(fmt::format("Radiance over S, mean over materials and environments, K = {}", kMainTerms),
-                   bySize(studies, options)) +
+                   bySize(studies, options, Measure::Pixels)) +
+           section("RMS over S, likewise", bySize(studies, options, Measure::Rms)) +
            section("Radiance of the default, " + main, defaultByTerms(studies, options)) +
            section("Radiance, texel centres → means, " + both,
-                   comparison(studies, options, kCentres, kDefault));
+                   comparison(studies, options, kCentres, kDefault)) +
+           section("Radiance, cosine → nonnegative, equal-area, " + both,
+                   comparison(studies, options, kCosine, kNonNegative));
 }
 
 } // namespace relume

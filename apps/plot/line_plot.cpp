@@ -13,8 +13,8 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kLeft = 58, kRight = 16, kTop = 34, kLegendRow = 18, kBottom = 46;
-constexpr double kGapX = 16, kGapY = 30, kLetterWidth = 6.2; // of text of 11 pixels, on average
+constexpr double kLeft = 64, kRight = 16, kTop = 34, kLegendRow = 18, kBottom = 46;
+constexpr double kGapX = 22, kGapY = 30, kLetterWidth = 6.2; // of text of 11 pixels, on average
 constexpr Stroke kGrid{"#e4e4e4", 1}, kFrame{"#888888", 1};
 
 bool isDrawn(const LinePlot& plot, dvec2 point) {
@@ -67,7 +67,7 @@ Axis axisOf(const LinePlot& plot) {
     axis.high = roundNumber(most, true);
     // Beyond a millionth of the largest, errors are rounding.
     axis.low = roundNumber(std::max(least, 1e-6 * most), false);
-    if (axis.low >= axis.high) axis.low = axis.high / 10;
+    axis.low = std::min(axis.low, roundNumber(axis.high / 10, false)); // curves that hardly fall look so
     const bool dense = axis.high / axis.low < 3e3;
     for (double tick = axis.low; tick <= axis.high * 1.001; tick = roundNumber(1.01 * tick, true)) {
         const double mantissa = tick / std::pow(10, std::floor(std::log10(tick * 1.001)));
@@ -116,6 +116,8 @@ class Panel {
         std::vector<dvec2> points;
         for (const dvec2& point : curve.points)
             if (isDrawn(mPlot, point)) points.push_back(place(point));
+        if (points.empty()) return;
+        if (points.size() == 1) points = {points[0] - dvec2(4, 0), points[0] + dvec2(4, 0)}; // to be seen
         svg.polyline(points, {curveColour(curve.colour), 1.7, curve.dashed ? "5 3" : ""});
     }
 

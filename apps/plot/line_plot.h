@@ -11,8 +11,8 @@ struct PlotCurve {
     std::string name;  // in the legend; curves of one name in several panels look the same and appear once
     size_t colour = 0; // of curveColour()
     bool dashed = false;
-    std::vector<glm::dvec2>
-        points; // those that are not finite, or not above 0 on a logarithmic axis, are left out
+    // Those that are not finite, or not above 0 on a logarithmic axis, are left out.
+    std::vector<glm::dvec2> points;
 };
 
 struct PlotPanel {

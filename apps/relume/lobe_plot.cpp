@@ -90,7 +90,7 @@ std::string drawLobes(const Brdf& brdf, const FactoredBrdf& factored, const std:
     svg.text({right - 256, 46}, "BRDF", {});
     svg.line({right - 200, 42}, {right - 172, 42}, kApproximated);
     svg.text({right - 166, 46},
-             fmt::format("{} terms, {} x {} maps", factored.terms, factored.size, factored.size), {});
+             fmt::format("K = {}, {} x {} texels", factored.terms, factored.size, factored.size), {});
     for (int i = 0; i < kColumns * kRows; i++) {
         const dvec2 centre((i % kColumns + 0.5) * kPanelWidth, kTop + (i / kColumns + 1) * kPanelHeight - 46);
         drawPanel(svg, centre, kIncoming[i], brdf, factored);

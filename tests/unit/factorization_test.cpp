@@ -4,6 +4,7 @@
 #include "precompute/brdf/factorization_error.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -19,15 +20,15 @@ BrdfTable tableOf(const std::string& material, int size, DiskMapping mapping = D
 }
 
 // The sum of the terms at two directions of the table, texel against texel.
-MatrixXf reconstruct(const FactoredBrdf& brdf, const BrdfTable& table, int channel) {
+MatrixXf reconstruct(const FactoredBrdf& brdf, const BrdfTable& table, int channel, int layer = 0) {
     const Eigen::Index n = Eigen::Index(table.directions.size());
     MatrixXf light(n, brdf.terms), view(n, brdf.terms);
     for (Eigen::Index i = 0; i < n; i++)
         for (int term = 0; term < brdf.terms; term++) {
             const ivec2 texel = table.texels[size_t(i)];
-            const size_t place = size_t(term) * brdf.mapTexels() + size_t(texel.y * brdf.size + texel.x);
-            light(i, term) = brdf.lightMaps[place][channel];
-            view(i, term) = brdf.viewMaps[place][channel];
+            const int place = texel.y * brdf.size + texel.x;
+            light(i, term) = brdf.lightMap(term)[place][channel];
+            view(i, term) = brdf.viewMap(layer, term)[place][channel];
         }
     return light * view.transpose();
 }
@@ -190,4 +191,53 @@ TEST_CASE("factorization: a black channel or BRDF is zero everywhere") {
 TEST_CASE("factorization: term counts out of range are refused") {
     const BrdfTable table = tableOf("clay", 4);
     for (int terms : {-1, 0, 33}) CHECK_THROWS_AS(factorize(table, {terms}), UsageError);
+}
+
+TEST_CASE("factorization: several tables share light maps, and all terms together are each of them") {
+    const std::vector<BrdfTable> tables = {tableOf("ashikhmin-shirley", 6), tableOf("clay", 6),
+                                           tableOf("gold", 6)};
+    const FactoredBrdf brdf = factorize(tables, {32, Factorization::Environment});
+    REQUIRE(brdf.layers == 3);
+    for (int layer = 0; layer < 3; layer++)
+        for (int c = 0; c < 3; c++) {
+            const MatrixXf& exact = tables[size_t(layer)].channels[size_t(c)];
+            CHECK((reconstruct(brdf, tables[size_t(layer)], c, layer) - exact).norm() < 2e-3f * exact.norm());
+        }
+}
+
+TEST_CASE("factorization: of proportional BRDFs, and of a black one among them, one term serves all") {
+    const std::vector<BrdfTable> tables = {tableOf(R"({"model": "diffuse", "albedo": [0.2, 0.5, 0.8]})", 12),
+                                           tableOf(R"({"model": "diffuse", "albedo": 0.1})", 12),
+                                           tableOf(R"({"model": "diffuse", "albedo": 0})", 12)};
+    for (const Factorization method : {Factorization::Paper, Factorization::Cosine,
+                                       Factorization::Environment, Factorization::NonNegative}) {
+        const FactoredBrdf brdf = factorize(tables, {8, method});
+        CHECK(brdf.terms == 1);
+        const vec3 up(0, 0, 1);
+        CHECK(glm::length(evaluate(brdf, up, up, 0) * kPi - vec3(0.2f, 0.5f, 0.8f)) < 1e-4f);
+        CHECK(glm::length(evaluate(brdf, up, up, 1) * kPi - vec3(0.1f)) < 1e-4f);
+        CHECK(evaluate(brdf, up, up, 2) == vec3(0));
+    }
+}
+
+TEST_CASE("factorization: of a wanted error the fewest terms, as many as allowed where they do not suffice") {
+    const BrdfTable table = tableOf("red-plastic", 16, DiskMapping::EqualArea);
+    const std::vector<float> errors = expectedErrors(table, factorize(table, {32}));
+    for (const float wanted : {0.3f, 0.2f, 0.1f}) {
+        const FactoredBrdf brdf = factorize(table, {32, Factorization::Environment, wanted});
+        const auto enough =
+            std::find_if(errors.begin(), errors.end(), [&](float error) { return error <= wanted; });
+        REQUIRE(enough != errors.end());
+        CHECK(brdf.terms == int(enough - errors.begin()) + 1);
+        const std::vector<float> own = expectedErrors(table, brdf);
+        CHECK(own.back() <= wanted);
+        CHECK(own.back() == doctest::Approx(*enough).epsilon(1e-3));
+    }
+    CHECK(factorize(table, {5, Factorization::Environment, 1e-3f}).terms == 5);
+    // The worst layer decides.
+    const std::vector<BrdfTable> both = {tableOf("grey-diffuse", 16, DiskMapping::EqualArea), table};
+    const FactoredBrdf joint = factorize(both, {32, Factorization::Environment, 0.1f});
+    for (int layer = 0; layer < 2; layer++)
+        CHECK(expectedErrors(both[size_t(layer)], joint, layer).back() <= 0.1f);
+    CHECK_THROWS_AS(factorize(table, {32, Factorization::NonNegative, 0.1f}), UsageError);
 }

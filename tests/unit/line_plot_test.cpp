@@ -49,6 +49,7 @@ TEST_CASE("line plot: a name stands once in the legend, ticks cover the values")
 TEST_CASE("line plot: nothing to draw is drawn") {
     LinePlot empty{"none", "x", "y", {0, 1}, true, 1, {{"", {{"curve", 0, false, {}}}}}};
     CHECK(drawLinePlot(empty).ends_with("</svg>\n"));
+    CHECK_FALSE(says(drawLinePlot(empty), "points=\"\""));
     empty.panels.clear();
     CHECK(drawLinePlot(empty).ends_with("</svg>\n"));
 }

@@ -72,7 +72,7 @@ TEST_CASE("haar: a constant is one coefficient") {
 }
 
 TEST_CASE("disk maps: a direction's coordinates lead back to it") {
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar})
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea})
         for (int y = 0; y < 16; y++)
             for (int x = 0; x < 16; x++) {
                 const vec2 coordinates((float(x) + 0.5f) / 16, (float(y) + 0.5f) / 16);
@@ -81,6 +81,21 @@ TEST_CASE("disk maps: a direction's coordinates lead back to it") {
                 CHECK(glm::length(*direction) == doctest::Approx(1).epsilon(1e-5));
                 CHECK(glm::length(diskMapCoordinates(mapping, *direction) - coordinates) < 1e-4f);
             }
+}
+
+TEST_CASE("disk maps: solid angles sum to the hemisphere") {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea}) {
+        constexpr int kSize = 256;
+        double sum = 0;
+        for (int y = 0; y < kSize; y++)
+            for (int x = 0; x < kSize; x++) {
+                const vec2 coordinates = (vec2(x, y) + 0.5f) / float(kSize);
+                if (diskMapDirection(mapping, coordinates))
+                    sum += double(diskMapSolidAngle(mapping, coordinates)) / (kSize * kSize);
+            }
+        // At the orthographic disk's rim texels are stretched without bound.
+        CHECK(sum == doctest::Approx(2 * kPi).epsilon(mapping == DiskMapping::Orthographic ? 0.02 : 1e-3));
+    }
 }
 
 TEST_CASE("disk maps: 48 x 48 orthographic texels hold 1804 directions") {

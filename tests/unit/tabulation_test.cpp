@@ -17,6 +17,31 @@ class OneSided final : public Brdf {
     nlohmann::json describe() const override { return {{"model", "one-sided"}}; }
 };
 
+// The mean that a table stands for, by 6^4 pairs of places in every pair of texels.
+Eigen::MatrixXf bruteForceMeans(const Brdf& brdf, const BrdfTable& table) {
+    constexpr int kPlaces = 6;
+    const auto placesIn = [&](ivec2 texel) {
+        std::vector<vec3> directions;
+        for (int i = 0; i < kPlaces * kPlaces; i++) {
+            const vec2 place = (vec2(i % kPlaces, i / kPlaces) + 0.5f) / float(kPlaces);
+            const auto direction = diskMapDirection(table.mapping, (vec2(texel) + place) / float(table.size));
+            if (direction && direction->z > kGrazingCosine) directions.push_back(*direction);
+        }
+        return directions;
+    };
+    const auto n = Eigen::Index(table.texels.size());
+    return Eigen::MatrixXf::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index o) {
+        double sum = 0, weights = 0;
+        for (const vec3& incoming : placesIn(table.texels[size_t(i)]))
+            for (const vec3& outgoing : placesIn(table.texels[size_t(o)])) {
+                const double weight = double(incoming.z) * double(outgoing.z);
+                sum += weight * double(brdf.evaluate(incoming, outgoing).x);
+                weights += weight;
+            }
+        return float(sum / weights);
+    });
+}
+
 } // namespace
 
 TEST_CASE("tabulation: the directions are the texel centres inside the map's domain") {
@@ -58,4 +83,31 @@ TEST_CASE("tabulation: asymmetry is rounding for reciprocal models, and detected
 TEST_CASE("tabulation: sizes out of range are refused") {
     for (int size : {-1, 0, 3, 65, 1 << 30})
         CHECK_THROWS_AS(tabulate(*makeBrdf("clay"), size, DiskMapping::Polar), UsageError);
+}
+
+TEST_CASE("tabulation: means keep a reciprocal BRDF symmetric, and are the values of a constant one") {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea}) {
+        CHECK(tabulate(*makeBrdf("gold"), 12, mapping, TexelValue::Mean).asymmetry < 1e-5f);
+        const auto brdf = makeBrdf("grey-diffuse");
+        const BrdfTable means = tabulate(*brdf, 12, mapping, TexelValue::Mean),
+                        centres = tabulate(*brdf, 12, mapping, TexelValue::Centre);
+        CHECK((means.channels[0] - centres.channels[0]).cwiseAbs().maxCoeff() < 1e-6f);
+    }
+}
+
+TEST_CASE("tabulation: means are nearer to those of many samples than centres are") {
+    const auto brdf = makeBrdf("gold");
+    const BrdfTable means = tabulate(*brdf, 8, DiskMapping::EqualArea, TexelValue::Mean),
+                    centres = tabulate(*brdf, 8, DiskMapping::EqualArea, TexelValue::Centre);
+    const Eigen::MatrixXf exact = bruteForceMeans(*brdf, means);
+    Eigen::VectorXf cosines(exact.rows());
+    for (size_t i = 0; i < means.directions.size(); i++) cosines[Eigen::Index(i)] = means.directions[i].z;
+    const auto errorOf = [&](const BrdfTable& table) {
+        const Eigen::MatrixXf error = table.channels[0] - exact;
+        return (cosines.asDiagonal() * error * cosines.asDiagonal()).norm() /
+               (cosines.asDiagonal() * exact * cosines.asDiagonal()).norm();
+    };
+    CHECK(errorOf(means) < 0.5f * errorOf(centres));
+    const auto total = [&](const Eigen::MatrixXf& matrix) { return cosines.dot(matrix * cosines); };
+    CHECK(total(means.channels[0]) == doctest::Approx(total(exact)).epsilon(0.02));
 }
