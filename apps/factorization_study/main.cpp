@@ -1,5 +1,6 @@
 // Compares the ways to factor a BRDF: docs/factorization.md is made of what this prints and draws.
 #include "apps/factorization_study/report.h"
+#include "apps/factorization_study/set_price.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -15,9 +16,7 @@ namespace {
 
 constexpr int kLightSize = 64; // a side of the light cube
 
-struct Material {
-    std::string name, text;
-};
+using Material = std::pair<std::string, std::string>; // its name here, and as of relume bake
 
 const std::vector<Material>& usualMaterials() {
     static const std::vector<Material> kMaterials = {
@@ -38,9 +37,24 @@ const std::vector<Material>& usualMaterials() {
     return kMaterials;
 }
 
+// Members of the sets that are priced: unlike each other, each pair, each four and all eight.
+const std::vector<Material>& usualSetMembers() {
+    static const std::vector<Material> kMembers = {
+        {"clay", "clay"},
+        {"gold", "gold"},
+        {"red-plastic", "red-plastic"},
+        {"Ashikhmin-Shirley (10, 100)", "ashikhmin-shirley"},
+        {"skin", "skin"},
+        {"brushed-steel", "brushed-steel"},
+        {"porcelain", "porcelain"},
+        {"car-paint-blue", "car-paint-blue"},
+    };
+    return kMembers;
+}
+
 struct Arguments {
     std::vector<std::string> materials, environments;
-    bool onlyGiven = false;
+    bool onlyGiven = false, pricesSets = false;
     std::filesystem::path output = ".";
     StudyOptions options{.sizes = {16, 32, 48, 64}};
 };
@@ -64,17 +78,21 @@ std::string fileNameOf(const std::string& name) {
 void run(Arguments& arguments) {
     StudyOptions& options = arguments.options;
     for (const std::string& environment : arguments.environments) addLight(environment, options);
-    std::vector<Material> materials = arguments.onlyGiven ? std::vector<Material>() : usualMaterials();
+    std::vector<Material> materials;
+    if (!arguments.onlyGiven) materials = arguments.pricesSets ? usualSetMembers() : usualMaterials();
     for (const std::string& text : arguments.materials) materials.push_back({text, text});
+    if (arguments.pricesSets) {
+        fmt::print("{}", setPriceOf(materials, options));
+        return;
+    }
     expectWritable(arguments.output / "factorization.csv");
 
     std::vector<MaterialStudy> studies;
-    for (const Material& material : materials) {
+    for (const auto& [name, text] : materials) {
         const auto start = std::chrono::steady_clock::now();
-        studies.push_back(studyMaterial(material.name, *makeBrdf(material.text), options));
+        studies.push_back(studyMaterial(name, *makeBrdf(text), options));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        spdlog::info("{} of {}: {}, {:.1f} s", studies.size(), materials.size(), material.name,
-                     elapsed.count());
+        spdlog::info("{} of {}: {}, {:.1f} s", studies.size(), materials.size(), name, elapsed.count());
     }
     const auto write = [&](const std::string& name, const std::string& text) {
         writeFileAtomically(arguments.output / name, text);
@@ -98,7 +116,9 @@ int main(int argc, char** argv) {
         "relume_factorization_study"};
     Arguments arguments;
     program.add_option("MATERIAL", arguments.materials, "Further materials, as of relume bake");
-    program.add_flag("--only", arguments.onlyGiven, "Only these, not the usual twelve");
+    program.add_flag("--only", arguments.onlyGiven, "Only these, not the usual ones");
+    program.add_flag("--sets", arguments.pricesSets,
+                     "Price sets instead: print the errors of each material alone and in sets of 2, 4, 8 …");
     program.add_option("-e,--environment", arguments.environments, "Light (.exr, .hdr), repeatable")
         ->type_name("[NAME=]FILE")
         ->allow_extra_args(false)
