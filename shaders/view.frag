@@ -11,6 +11,8 @@
 
 layout(constant_id = 0) const uint kTerms = 4;     // of this draw
 layout(constant_id = 1) const bool kClamps = true; // this draw has all terms of its part
+layout(constant_id = 2) const uint kLook = 0;
+const uint kSurfaceSlots = kLook == kSurfaceLook ? 2 : 0;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 layout(binding = 4) uniform sampler2DArray viewMaps; // layer after layer of K maps
 layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
@@ -19,12 +21,18 @@ layout(binding = 7) uniform sampler2DArray materialMap;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec2 uv;
-layout(location = 3) in vec4 color;
-layout(location = 4) in vec3 tuple[kTerms];
+layout(location = 2) in vec3 slots[kTerms + kSurfaceSlots]; // the tuple, then (uv, r), (g, b, a)
 layout(location = 0) out vec4 radiance;
 
-vec4 paintWeights() {
+// Of a layer's terms.
+vec3 reflected(vec2 place, uint firstMap) {
+    vec3 sum = vec3(0);
+    for (uint k = 0; k < kTerms; k++)
+        sum += texture(viewMaps, vec3(place, firstMap + push.firstTerm + k)).rgb * slots[k];
+    return sum;
+}
+
+vec4 paintWeights(vec2 uv, vec4 color) {
     if (push.paint == kUnpainted) return vec4(0);
     vec4 paint = push.paint == kPaintedByMap ? texture(materialMap, vec3(uv, 0)) : color;
     for (uint m = push.materials; m < 4; m++) paint[m] = 0;
@@ -32,24 +40,32 @@ vec4 paintWeights() {
     return sum > 0 ? paint / sum : vec4(1, 0, 0, 0);
 }
 
+vec3 reflectedBySurface(vec2 place) {
+    const vec2 uv = slots[kTerms].xy;
+    const vec4 paint = paintWeights(uv, vec4(slots[kTerms].z, slots[kTerms + 1]));
+    const vec3 base = texture(baseColor, vec3(uv, 0)).rgb;
+    vec3 sum = vec3(0);
+    for (uint i = 0; i < push.layers; i++) {
+        vec3 weight = vec3(layers[i].weight);
+        if (layers[i].channel >= 0) weight *= paint[layers[i].channel];
+        if (layers[i].isTextured != 0) weight *= base;
+        sum += weight * reflected(place, layers[i].firstMap);
+    }
+    return sum;
+}
+
 void main() {
     // Opposite normals can cancel out on a fold; any direction does there.
     const mat3 frame = tangentFrame(dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal));
     const vec3 local = liftAboveHorizon(frame * normalize(push.eye - position));
     const vec2 place = diskMapCoordinates(push.mapping, local);
-    const vec4 paint = paintWeights();
-    const vec3 base = texture(baseColor, vec3(uv, 0)).rgb;
     vec3 sum = vec3(0);
-    for (uint i = 0; i < push.layers; i++) {
-        const ViewLayer layer = layers[i];
-        vec3 weight = vec3(layer.weight);
-        if (layer.channel >= 0) weight *= paint[layer.channel];
-        if (layer.isTextured != 0) weight *= base;
-        vec3 reflected = vec3(0);
-        for (uint k = 0; k < kTerms; k++)
-            reflected += texture(viewMaps, vec3(place, layer.firstMap + push.firstTerm + k)).rgb * tuple[k];
-        sum += weight * reflected;
-    }
+    if (kLook == kSingleLook)
+        sum = push.weight * reflected(place, push.firstMap);
+    else if (kLook == kLayersLook)
+        for (uint i = 0; i < push.layers; i++) sum += layers[i].weight * reflected(place, layers[i].firstMap);
+    else
+        sum = reflectedBySurface(place);
     // A truncated sum of products can be negative.
     if (kClamps) sum = max(sum, 0);
     radiance = vec4(sum, 1);

@@ -6,6 +6,8 @@
 #include "shaders/shared/render.h"
 
 layout(constant_id = 0) const uint kTerms = 4; // of this draw
+layout(constant_id = 2) const uint kLook = 0;
+const uint kSurfaceSlots = kLook == kSurfaceLook ? 2 : 0;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 layout(binding = 0, scalar) readonly buffer Vertices { ViewVertex vertices[]; };
 layout(binding = 1, scalar) readonly buffer Sums { ivec3 sums[]; };
@@ -16,20 +18,21 @@ layout(binding = 3, scalar) readonly buffer Scale { LightScale light; };
 invariant gl_Position;
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
-layout(location = 2) out vec2 uv;
-layout(location = 3) out vec4 color;
-layout(location = 4) out vec3 tuple[kTerms];
+// The tuple, and where the surface is looked at (uv, r), (g, b, a), in as few varyings as serve: each costs time.
+layout(location = 2) out vec3 slots[kTerms + kSurfaceSlots];
 
 void main() {
     const ViewVertex vertex = vertices[gl_VertexIndex];
     position = vertex.position;
     normal = vertex.normal;
-    uv = vertex.uv;
-    color = vertex.color;
+    if (kLook == kSurfaceLook) {
+        slots[kTerms] = vec3(vertex.uv, vertex.color.r);
+        slots[kTerms + 1] = vertex.color.gba;
+    }
     gl_Position = push.clipFromWorld * vec4(vertex.position, 1);
 
     const uint firstRow = gl_VertexIndex * push.terms + push.firstTerm;
     for (uint k = 0; k < kTerms; k++)
-        tuple[k] = vec3(sums[firstRow + k]) * (light.scale * rowScales[firstRow + k]) /
+        slots[k] = vec3(sums[firstRow + k]) * (light.scale * rowScales[firstRow + k]) /
                    vec3(kCoefficientMaximum);
 }

@@ -50,6 +50,13 @@ std::vector<shared::ViewVertex> verticesOf(const Mesh& mesh) {
     return vertices;
 }
 
+// The least of the shader's ways that serves these layers.
+uint32_t lookOf(const std::vector<shared::ViewLayer>& layers) {
+    for (const shared::ViewLayer& layer : layers)
+        if (layer.channel >= 0 || layer.isTextured) return shared::kSurfaceLook;
+    return layers.size() == 1 ? shared::kSingleLook : shared::kLayersLook;
+}
+
 } // namespace
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
@@ -123,9 +130,12 @@ void ViewPass::planDraws(Set& set) {
         throw Error("{}: {} terms need several draws, and the device cannot blend float images; bake at most "
                     "{} terms for it",
                     mDevice.name(), set.terms, mTermsPerDraw);
-    for (uint32_t term = 0; term < set.terms; term += mTermsPerDraw)
-        set.draws.push_back(
-            {term, &program(std::min(mTermsPerDraw, set.terms - term), term == 0, !set.clamps)});
+    for (uint32_t term = 0; term < set.terms; term += mTermsPerDraw) {
+        Draw& draw = set.draws.emplace_back(Draw{term, {}});
+        for (uint32_t look : {shared::kSingleLook, shared::kLayersLook, shared::kSurfaceLook})
+            draw.programs[look] =
+                &program(std::min(mTermsPerDraw, set.terms - term), term == 0, !set.clamps, look);
+    }
 }
 
 void ViewPass::setAppearance(const Appearance& appearance) {
@@ -137,18 +147,19 @@ void ViewPass::setAppearance(const Appearance& appearance) {
         for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
             part.wornLayers.push_back({uint32_t(layer.layer) * part.sets[part.worn.set].terms, layer.channel,
                                        layer.textured, layer.weight});
+        part.look = lookOf(part.wornLayers);
     }
 }
 
-const vk::GraphicsProgram& ViewPass::program(uint32_t terms, bool first, bool clamps) {
-    vk::GraphicsProgram& program = mPrograms[{terms, first, clamps}];
+const vk::GraphicsProgram& ViewPass::program(uint32_t terms, bool first, bool clamps, uint32_t look) {
+    vk::GraphicsProgram& program = mPrograms[{terms, first, clamps, look}];
     if (program.pipeline()) return program;
     const vk::GraphicsOptions options{.colorFormat = kColorFormat,
                                       .depthFormat = kDepthFormat,
                                       .depthCompare = first ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_EQUAL,
                                       .depthWrite = first,
                                       .blend = first ? vk::Blend::None : vk::Blend::Add};
-    program = vk::GraphicsProgram(mDevice, view_vert_spirv, view_frag_spirv, {terms, uint32_t(clamps)},
+    program = vk::GraphicsProgram(mDevice, view_vert_spirv, view_frag_spirv, {terms, uint32_t(clamps), look},
                                   options, fmt::format("view of {} terms", terms));
     return program;
 }
@@ -163,20 +174,25 @@ void ViewPass::resize(int width, int height) {
     mDepth = vk::Image(mDevice, options, "view depth");
 }
 
-void ViewPass::draw(vk::Commands& commands, const Part& part, const Draw& step, bool sampled,
-                    const mat4& clipFromWorld, vec3 eye, const vk::Buffer& sums,
+void ViewPass::draw(vk::Commands& commands, const Frame& frame, const Part& part, uint32_t firstTerm,
+                    const vk::GraphicsProgram& program, const vk::Buffer& sums,
                     const LightPass& light) const {
     const Set& set = wornSet(part);
-    const shared::ViewPush push{clipFromWorld,
-                                eye,
+    const bool isSingle = part.look == shared::kSingleLook;
+    const shared::ViewPush push{frame.clipFromWorld,
+                                frame.eye,
                                 set.terms,
-                                step.firstTerm,
+                                firstTerm,
                                 uint32_t(set.mapping),
+                                isSingle ? part.wornLayers[0].firstMap : 0,
+                                isSingle ? part.wornLayers[0].weight : 0,
                                 uint32_t(part.wornLayers.size()),
                                 part.worn.painted ? part.paint : shared::kUnpainted,
                                 set.materials};
-    if (sampled)
-        commands.bind(*step.program,
+    if (&program == &mClampProgram)
+        commands.bind(program, {part.vertices, sums, set.rowScales, light.scale()}, push);
+    else
+        commands.bind(program,
                       {part.vertices,
                        sums,
                        set.rowScales,
@@ -186,8 +202,6 @@ void ViewPass::draw(vk::Commands& commands, const Part& part, const Draw& step, 
                        {part.baseColor, mSurfaceSampler},
                        {part.materialMap, mSurfaceSampler}},
                       push);
-    else
-        commands.bind(*step.program, {part.vertices, sums, set.rowScales, light.scale()}, push);
     commands.drawIndexed(part.indices, part.indexCount, 1);
 }
 
@@ -195,14 +209,16 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
                       const LightPass& light) const {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const float aspect = float(mColor.options().width) / float(mColor.options().height);
-    const mat4 clipFromWorld = camera.clipFromWorld(aspect, mBounds);
+    const Frame frame{camera.clipFromWorld(aspect, mBounds), camera.eye};
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)
         if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
     commands.barrier(Stage::Transfer, Stage::Draw);
-    const auto drawPart = [&](size_t i, const Draw& step, bool sampled) {
-        draw(commands, mParts[i], step, sampled, clipFromWorld, camera.eye,
-             relighter.sums(i, mParts[i].worn.set), light);
+    const auto drawPart = [&](size_t i, uint32_t firstTerm, const vk::GraphicsProgram& program) {
+        draw(commands, frame, mParts[i], firstTerm, program, relighter.sums(i, mParts[i].worn.set), light);
+    };
+    const auto drawTerms = [&](size_t i, const Draw& step) {
+        drawPart(i, step.firstTerm, *step.programs[mParts[i].look]);
     };
     commands.pass("view", [&] {
         commands.transition(mColor, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -211,11 +227,11 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
                             Stage::Color, Stage::Color);
         commands.render({.color = &mColor, .depth = &mDepth}, [&] {
             // Depth is settled over all parts before any adds to what it shows.
-            for (size_t i = 0; i < mParts.size(); i++) drawPart(i, wornSet(mParts[i]).draws[0], true);
+            for (size_t i = 0; i < mParts.size(); i++) drawTerms(i, wornSet(mParts[i]).draws[0]);
             for (size_t i = 0; i < mParts.size(); i++) {
                 const Set& set = wornSet(mParts[i]);
-                for (size_t d = 1; d < set.draws.size(); d++) drawPart(i, set.draws[d], true);
-                if (set.clamps) drawPart(i, {0, &mClampProgram}, false);
+                for (size_t d = 1; d < set.draws.size(); d++) drawTerms(i, set.draws[d]);
+                if (set.clamps) drawPart(i, 0, mClampProgram);
             }
         });
         commands.transition(mColor, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,

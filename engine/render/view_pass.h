@@ -48,7 +48,7 @@ class ViewPass {
     // is equal, and a last one clamps at zero; a part whose terms fit one draw clamps in the shader.
     struct Draw {
         uint32_t firstTerm;
-        const vk::GraphicsProgram* program;
+        std::array<const vk::GraphicsProgram*, 3> programs; // by look; made ahead, so that no swap waits
     };
     struct Set {
         vk::Buffer rowScales;
@@ -66,6 +66,7 @@ class ViewPass {
         std::vector<Set> sets;
         vk::Buffer layers; // shared::ViewLayer, as many as can be worn
         PartAppearance worn;
+        uint32_t look = 0; // what that asks of the shader
         std::vector<shared::ViewLayer> wornLayers;
     };
 
@@ -73,15 +74,20 @@ class ViewPass {
     Set makeSet(const MaterialSet& source, const std::string& name);
     void planDraws(Set& set);
     static const Set& wornSet(const Part& part) { return part.sets[part.worn.set]; }
-    void draw(vk::Commands& commands, const Part& part, const Draw& step, bool sampled,
-              const mat4& clipFromWorld, vec3 eye, const vk::Buffer& sums, const LightPass& light) const;
-    const vk::GraphicsProgram& program(uint32_t terms, bool first, bool clamps);
+    struct Frame {
+        mat4 clipFromWorld;
+        vec3 eye;
+    };
+    void draw(vk::Commands& commands, const Frame& frame, const Part& part, uint32_t firstTerm,
+              const vk::GraphicsProgram& program, const vk::Buffer& sums, const LightPass& light) const;
+    // `look`: shared::kSingleLook and so on.
+    const vk::GraphicsProgram& program(uint32_t terms, bool first, bool clamps, uint32_t look);
 
     const vk::Device& mDevice;
     const Asset& mAsset;
     Bounds mBounds;
     uint32_t mTermsPerDraw;
-    std::map<std::array<uint32_t, 3>, vk::GraphicsProgram> mPrograms; // by program()'s arguments
+    std::map<std::array<uint32_t, 4>, vk::GraphicsProgram> mPrograms; // by program()'s arguments
     vk::GraphicsProgram mClampProgram;
     vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
     std::vector<Part> mParts;

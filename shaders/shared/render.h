@@ -65,6 +65,11 @@ struct ViewLayer {
 };
 RELUME_SHARED_SIZE(ViewLayer, 16)
 
+// What a draw's fragments look at, the least that serves what a part wears.
+const uint kSingleLook = 0;  // one layer and a constant
+const uint kLayersLook = 1;  // several layers and constants
+const uint kSurfaceLook = 2; // paint or a texture as well
+
 // Where a part's paint comes from.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
 
@@ -74,11 +79,13 @@ struct ViewPush {
     uint terms;     // K of the part
     uint firstTerm; // of this draw
     uint mapping;   // of the view maps: DiskMapping
+    uint firstMap;  // kSingleLook: of the layer,
+    float weight;   // and how much of it
     uint layers;    // that are worn
     uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
     uint materials; // of the worn set: no more than these share the paint
 };
-RELUME_SHARED_SIZE(ViewPush, 100)
+RELUME_SHARED_SIZE(ViewPush, 108)
 
 RELUME_SHARED_END
 
