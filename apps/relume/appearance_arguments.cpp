@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -9,15 +10,15 @@ namespace relume {
 
 namespace {
 
-// NAME, or NAME=WEIGHT.
-WeightedMaterial parse(const std::string& text) {
+// NAME, or NAME=WEIGHT where no material has that whole text as its name.
+WeightedMaterial parse(const std::string& text, const std::vector<std::string>& names) {
     const size_t equals = text.rfind('=');
-    if (equals == std::string::npos) return {text};
+    if (equals == std::string::npos || std::ranges::find(names, text) != names.end()) return {text};
     WeightedMaterial material{text.substr(0, equals)};
     const char* end = text.data() + text.size();
     const auto [rest, failure] = std::from_chars(text.data() + equals + 1, end, material.weight);
-    if (failure != std::errc() || rest != end || !(material.weight >= 0 && material.weight <= 1))
-        throw UsageError("--material {}: expected a weight from 0 to 1 after the equals sign", text);
+    if (failure != std::errc() || rest != end || !(material.weight >= 0 && material.weight <= 1e6f))
+        throw UsageError("--material {}: expected a weight of 0 or more after the equals sign", text);
     return material;
 }
 
@@ -26,17 +27,27 @@ WeightedMaterial parse(const std::string& text) {
 void AppearanceArguments::add(CLI::App& command) {
     command
         .add_option("-m,--material", mMaterials,
-                    "Wear this material of the bake, wherever a part has it; several with weights are "
-                    "blended, if they are of one set: -m clay=0.3 -m gold=0.7")
+                    "Wear this material of the bake, wherever a part has it; several of one set are blended "
+                    "by their weights (default 1) over the sum of these: -m clay=0.3 -m gold=0.7")
         ->type_name("NAME[=WEIGHT]")
-        ->take_all();
+        ->allow_extra_args(false); // one each: FILE may follow
 }
 
 Appearance AppearanceArguments::appearance(const Asset& asset) const {
     Appearance appearance = defaultAppearance(asset);
+    if (mMaterials.empty()) return appearance;
+    const std::vector<std::string> names = materialNames(asset);
     std::vector<WeightedMaterial> blend;
-    for (const std::string& material : mMaterials) blend.push_back(parse(material));
-    if (!blend.empty()) wear(appearance, asset, blend);
+    float sum = 0;
+    for (const std::string& text : mMaterials) {
+        blend.push_back(parse(text, names));
+        sum += blend.back().weight;
+        if (std::ranges::count(blend, blend.back().name, &WeightedMaterial::name) > 1)
+            throw UsageError("--material: \"{}\" is named twice", blend.back().name);
+    }
+    if (sum == 0) throw UsageError("--material: expected at least one weight above 0");
+    for (WeightedMaterial& material : blend) material.weight /= sum;
+    wear(appearance, asset, blend);
     return appearance;
 }
 

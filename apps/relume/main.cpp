@@ -1,6 +1,8 @@
 #include "apps/relume/commands.h"
 #include "engine/base/error.h"
 
+#include <cstdio>
+#include <iostream>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -12,6 +14,9 @@ namespace {
 int run(CLI::App& program, int argc, char** argv) {
     try {
         program.parse(argc, argv);
+        std::cout.flush();
+        if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw Error("standard output: cannot be written; is its disk full, or its reader gone?");
         return kExitDone;
     } catch (const CLI::Success& success) { // --help, --version
         return program.exit(success);

@@ -21,7 +21,7 @@ void SceneArguments::add(CLI::App& command) {
                                       "Preset, model, file, or JSON object with parameters; several, or a "
                                       "{\"set\": […]}, share one bake and can be swapped and blended")
                           ->type_name("MATERIAL")
-                          ->take_all()
+                          ->allow_extra_args(false) // one each: INPUT may follow
                           ->default_str(fmt::format("the file's own (glTF), else {}", kDefaultMaterial));
     command.add_flag("--separate", mSeparate,
                      "Bake several materials each on its own: larger, more exact, swapped but not blended");
@@ -76,7 +76,9 @@ std::optional<std::string> SceneArguments::chosenMaterial() const {
     nlohmann::json list = nlohmann::json::array();
     for (const std::string& material : mMaterials)
         list.push_back(looksLikeJson(material) ? parseMaterial(material) : nlohmann::json(material));
-    return nlohmann::json{{mSeparate ? "separate" : "set", list}}.dump();
+    // Bytes that are not UTF-8 lead to an unknown name.
+    return nlohmann::json{{mSeparate ? "separate" : "set", list}}.dump(
+        -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void SceneArguments::checkMaterials(const Scene& scene) const {

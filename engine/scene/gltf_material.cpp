@@ -129,12 +129,16 @@ GltfMaterial GltfMaterials::read(int index) {
     for (double* value : {&base[0], &base[1], &base[2], &metallic, &roughness})
         *value = std::clamp(*value, 0.0, 1.0);
     noteIgnored(json, place);
+    std::string printable = material.name; // names are written on command lines
+    for (char& letter : printable)
+        if (uint8_t(letter) < 0x20 || letter == 0x7f) letter = ' ';
     material.text = nlohmann::ordered_json{
+        {"name", printable},
         {"model", "gltf"},
         {"base_color", base},
         {"metallic", metallic},
         {"roughness",
-         roughness}}.dump();
+         roughness}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return material;
 }
 

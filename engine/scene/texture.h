@@ -38,7 +38,8 @@ vec4 sample(const Texture& texture, vec2 uv);
 // The mean of all texels, linear.
 vec4 meanOf(const Texture& texture);
 
-// Reads PNG or JPEG by content. Throws Error for anything truncated, corrupt, empty or absurd (more than
+// Reads PNG or JPEG by content. Where the file has no alpha it is 1 in an sRGB image, and 0 in a linear one,
+// whose channels are weights. Throws Error for anything truncated, corrupt, empty or absurd (more than
 // kLongestTextureSide a side, more than the bytes can hold).
 Texture readTexture(const std::filesystem::path& path, bool srgb);
 

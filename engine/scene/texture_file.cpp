@@ -45,6 +45,10 @@ Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name,
     for (size_t i = 0; i < texture.texelCount(); i++)
         for (int channel = 0; channel < 4; channel++)
             texture.texels[i] |= uint32_t(pixels.get()[4 * i + size_t(channel)]) << (8 * channel);
+    // The library fills a missing alpha with 255; a weight that is not there is none.
+    const bool hasAlpha = channels == 2 || channels == 4;
+    if (!srgb && !hasAlpha)
+        for (uint32_t& texel : texture.texels) texel &= 0x00ffffff;
     return texture;
 }
 

@@ -142,11 +142,16 @@ void checkMaterials(const AssetPart& part, const std::string& where) {
     std::vector<std::string_view> names;
     for (const MaterialSet& set : part.sets) {
         expect(!set.materials.empty(), where, "at least one material in a set");
+        int layer = 0; // every layer belongs to one material, in order
         for (const AssetMaterial& material : set.materials) {
             names.push_back(material.name);
-            expectRange(material.layer, 0, set.brdf.layers - material.layers(), where, "a material's layer");
+            expectRange(material.layer, layer, layer, where, "a material's layer");
+            layer += material.layers();
+            expect(std::ranges::none_of(material.name, [](char c) { return uint8_t(c) < 0x20 || c == 0x7f; }),
+                   where, "material names without control characters");
             expect(!material.hasBase || part.baseColor, where, "a base colour texture for a material's base");
         }
+        expectRange(set.brdf.layers, layer, layer, where, "layers of view maps");
     }
     std::ranges::sort(names);
     expect(std::ranges::adjacent_find(names) == names.end(), where, "materials of different names");

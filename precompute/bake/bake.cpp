@@ -86,6 +86,22 @@ void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& o
     for (const auto& [name, seconds] : commands.times()) vk::addTime(times.device, name, seconds);
 }
 
+// Says where paint cannot show.
+void checkPaint(const AssetPart& part) {
+    constexpr size_t kPaintedMaterials = 4;
+    if (!part.isPainted()) return;
+    for (const MaterialSet& set : part.sets) {
+        const std::string& first = set.materials.front().name;
+        if (set.materials.size() == 1)
+            spdlog::warn("{}: painted, but \"{}\" is alone in its set; the paint changes nothing", part.name,
+                         first);
+        if (set.materials.size() > kPaintedMaterials)
+            spdlog::warn(
+                "{}: paint has weights for {} materials; \"{}\" and what follows it cannot be painted",
+                part.name, kPaintedMaterials, set.materials[kPaintedMaterials].name);
+    }
+}
+
 nlohmann::json describe(const BakeOptions& options) {
     const FactorizationOptions& factorization = options.factorization;
     return {{"terms", factorization.terms},
@@ -146,6 +162,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, co
             materials.make(part.material, part.materialFolder, part.baseColor.has_value());
         asset.parts.push_back({part.name, std::move(part.mesh), std::move(sets), std::move(part.baseColor),
                                std::move(part.materialMap), part.paintedByColors});
+        checkPaint(asset.parts.back());
     }
     times.factorisation = secondsSince(stage);
 

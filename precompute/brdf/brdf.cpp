@@ -20,6 +20,7 @@ constexpr size_t kMaxPathLength = 4096;
 
 std::unique_ptr<Brdf> makeFromJson(const std::string& text, const std::filesystem::path& folder) {
     json object = parseMaterial(text);
+    if (object.is_object() && object.contains("name") && object["name"].is_string()) object.erase("name");
     if (object.is_object() && object.contains("measured")) {
         MaterialParameters parameters("measured", std::move(object));
         return makeMeasured(parameters, folder);

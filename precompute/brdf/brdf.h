@@ -31,11 +31,11 @@ class Brdf {
     virtual nlohmann::json describe() const = 0;
 };
 
-// From a preset's name ("clay"), a model's name ("ashikhmin-shirley"), a JSON object as text ({"model":
-// "ashikhmin-shirley", "nu": 10} or {"measured": "steel.binary"}), the path of a file of such JSON (.json),
-// or that of measured data (.binary, .brdf). A relative path starts at `folder`, one in a .json file at that
-// file's folder. Throws UsageError naming the nearest valid name, or the valid range of a parameter; Error
-// for a file that cannot be used.
+// An object may also have a "name", which says nothing about the BRDF. From a preset's name ("clay"), a
+// model's name ("ashikhmin-shirley"), a JSON object as text ({"model": "ashikhmin-shirley", "nu": 10} or
+// {"measured": "steel.binary"}), the path of a file of such JSON (.json), or that of measured data (.binary,
+// .brdf). A relative path starts at `folder`, one in a .json file at that file's folder. Throws UsageError
+// naming the nearest valid name, or the valid range of a parameter; Error for a file that cannot be used.
 std::unique_ptr<Brdf> makeBrdf(const std::string& material, const std::filesystem::path& folder = {});
 
 // Names of all presets, with a line of description each, and their model.

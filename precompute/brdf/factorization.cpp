@@ -205,15 +205,15 @@ FactoredBrdf assemble(std::span<const BrdfTable> tables, const std::array<Channe
 // The least number of terms whose error is at or below `wanted`, for every layer.
 int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf& brdf) {
     std::vector<float> worst(size_t(brdf.terms), 0);
-    for (int layer = 0; layer < brdf.layers; layer++) {
-        const std::vector<float> errors = expectedErrors(tables[size_t(layer)], brdf, layer);
+    for (const std::vector<float>& errors : expectedErrors(tables, brdf))
         for (size_t k = 0; k < worst.size(); k++) worst[k] = std::max(worst[k], errors[k]);
-    }
     const auto enough =
         std::find_if(worst.begin(), worst.end(), [&](float error) { return error <= wanted; });
     if (enough != worst.end()) return int(enough - worst.begin()) + 1;
-    spdlog::warn("an error of {} asks for more than {} BRDF terms, which leave {:.3g}; going on with these",
-                 wanted, brdf.terms, worst.back());
+    spdlog::warn(
+        "an error of {} is not reached: {} BRDF terms, all there are to choose from, leave {:.3g}; going "
+        "on with these",
+        wanted, brdf.terms, worst.back());
     return brdf.terms;
 }
 

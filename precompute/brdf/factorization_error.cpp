@@ -55,6 +55,22 @@ std::vector<float> relative(const VectorXd& residuals, double total) {
     return errors;
 }
 
+std::vector<float> expectedErrorsOf(const BrdfTable& table, const MatrixXf& lights, const VectorXf& views,
+                                    const FactoredBrdf& factored, int layer) {
+    VectorXd residuals = VectorXd::Zero(factored.terms);
+    double total = 0;
+    for (int c = 0; c < 3; c++) {
+        const MatrixXf seen = table.channels[size_t(c)] * views.asDiagonal();
+        const MatrixXf target = lights.triangularView<Eigen::Upper>() * seen;
+        ChannelMaps maps = mapsOf(table, factored, layer, c);
+        maps.light = (lights.triangularView<Eigen::Upper>() * maps.light).eval();
+        maps.view = (views.asDiagonal() * maps.view).eval();
+        residuals += squaredResiduals(target, maps);
+        total += target.cast<double>().squaredNorm();
+    }
+    return relative(residuals, total);
+}
+
 } // namespace
 
 std::vector<float> frobeniusResiduals(const BrdfTable& table, const FactoredBrdf& factored, int layer) {
@@ -69,20 +85,18 @@ std::vector<float> frobeniusResiduals(const BrdfTable& table, const FactoredBrdf
 }
 
 std::vector<float> expectedErrors(const BrdfTable& table, const FactoredBrdf& factored, int layer) {
-    const MatrixXf lights = lightMetric(table);
-    const VectorXf views = viewMetric(table);
-    VectorXd residuals = VectorXd::Zero(factored.terms);
-    double total = 0;
-    for (int c = 0; c < 3; c++) {
-        const MatrixXf seen = table.channels[size_t(c)] * views.asDiagonal();
-        const MatrixXf target = lights.triangularView<Eigen::Upper>() * seen;
-        ChannelMaps maps = mapsOf(table, factored, layer, c);
-        maps.light = (lights.triangularView<Eigen::Upper>() * maps.light).eval();
-        maps.view = (views.asDiagonal() * maps.view).eval();
-        residuals += squaredResiduals(target, maps);
-        total += target.cast<double>().squaredNorm();
-    }
-    return relative(residuals, total);
+    return expectedErrorsOf(table, lightMetric(table), viewMetric(table), factored, layer);
+}
+
+std::vector<std::vector<float>> expectedErrors(std::span<const BrdfTable> tables,
+                                               const FactoredBrdf& factored) {
+    RELUME_CHECK_EQ(tables.size(), size_t(factored.layers));
+    const MatrixXf lights = lightMetric(tables[0]); // the same for all
+    const VectorXf views = viewMetric(tables[0]);
+    std::vector<std::vector<float>> errors;
+    for (size_t layer = 0; layer < tables.size(); layer++)
+        errors.push_back(expectedErrorsOf(tables[layer], lights, views, factored, int(layer)));
+    return errors;
 }
 
 RmsErrors rmsErrors(const Brdf& brdf, const FactoredBrdf& factored, int layer, int layers, int pairs) {

@@ -18,6 +18,9 @@ std::vector<float> frobeniusResiduals(const BrdfTable& table, const FactoredBrdf
 // general, in the pixels of a convex object: sqrt(Σ ‖Y (M - M̃) Q‖² / Σ ‖Y M Q‖²) over channels, Y and Q of
 // light_metric.h.
 std::vector<float> expectedErrors(const BrdfTable& table, const FactoredBrdf& factored, int layer = 0);
+// That of every layer, whose tables these are.
+std::vector<std::vector<float>> expectedErrors(std::span<const BrdfTable> tables,
+                                               const FactoredBrdf& factored);
 
 // sqrt(mean (f̃ - f)² cos²θi cos²θo) over `pairs` random pairs of directions, uniform on the hemisphere, as
 // bilinear lookups return f̃, and that over the same of f; means over channels. The sum of `layers` layers

@@ -12,12 +12,12 @@ std::vector<MaterialSet> MaterialFactory::make(const std::string& material,
     if (!isNew) return known->second;
     for (const std::vector<NamedMaterial>& materials : readMaterials(material, folder))
         known->second.push_back(factor(materials, isTextured));
-    const auto hasBase = [](const MaterialSet& set) {
-        return std::ranges::any_of(set.materials, &AssetMaterial::hasBase);
-    };
-    if (isTextured && std::ranges::none_of(known->second, hasBase))
-        spdlog::warn("{}: has no base colour that a texture could multiply; the texture shows nowhere",
-                     known->second.front().materials.front().name);
+    for (const MaterialSet& set : known->second)
+        for (const AssetMaterial& made : set.materials)
+            if (isTextured && !made.hasBase)
+                spdlog::warn(
+                    "{}: has no base colour that a texture could multiply; the texture does not show in it",
+                    made.name);
     return known->second;
 }
 

@@ -17,8 +17,8 @@ class MaterialFactory {
         : mOptions(options), mMapSize(mapSize), mMapping(mapping) {}
 
     // The sets that readMaterials() gives, without transport. For a part with a texture of base colours,
-    // BRDFs that have a base are split into it and the rest; where none has one, the log says that the
-    // texture shows nowhere.
+    // BRDFs that have a base are split into it and the rest; the log names those without, in which the
+    // texture does not show.
     std::vector<MaterialSet> make(const std::string& material, const std::filesystem::path& folder,
                                   bool isTextured);
 

@@ -12,21 +12,45 @@ using nlohmann::json;
 
 namespace {
 
+// A material's JSON, or its name as a JSON string; and where paths in it start.
+struct Source {
+    json value;
+    std::filesystem::path folder;
+    std::string file; // that it was read from, for names and errors; empty for none
+};
+
+// Reads a .json file once: what it holds is JSON and cannot name another file in its own place.
+Source resolve(const json& value, const std::filesystem::path& folder) {
+    if (!value.is_string()) return {value, folder, ""};
+    const std::string text = value;
+    const auto file = readMaterialFile(text, folder);
+    if (!file) return {value, folder, ""};
+    const std::string path = (folder / text).generic_string();
+    try {
+        json content = parseMaterial(file->text);
+        if (!content.is_object()) throw UsageError("expected an object, found {}", content.type_name());
+        return {std::move(content), file->folder, path};
+    } catch (const UsageError& wrong) {
+        throw Error("{}: {}", path, wrong.what());
+    }
+}
+
+// Names are printed, and written on command lines.
+void checkName(const std::string& name) {
+    const auto isControl = [](char letter) { return uint8_t(letter) < 0x20 || letter == 0x7f; };
+    if (name.empty() || std::ranges::any_of(name, isControl))
+        throw UsageError(
+            "materials in JSON: \"name\": expected text that is not empty, without control characters");
+}
+
 class ListReader {
   public:
     MaterialSets read(const std::string& text, const std::filesystem::path& folder) {
-        if (const auto file = readMaterialFile(text, folder)) {
-            try {
-                return read(file->text, file->folder);
-            } catch (const UsageError& wrong) {
-                throw Error("{}: {}", (folder / text).generic_string(), wrong.what());
-            }
-        }
-        const json value = looksLikeJson(text) ? parseMaterial(text) : json(text);
-        if (const json* list = listOf(value, "separate")) {
-            for (const json& element : *list) readSet(element, folder);
+        const Source source = resolve(looksLikeJson(text) ? parseMaterial(text) : json(text), folder);
+        if (const json* list = listOf(source.value, "separate")) {
+            for (const json& element : *list) readSet(resolve(element, source.folder));
         } else {
-            readSet(value, folder);
+            readSet(source);
         }
         return std::move(mSets);
     }
@@ -36,37 +60,50 @@ class ListReader {
     static const json* listOf(const json& value, const char* key) {
         if (!value.is_object() || !value.contains(key)) return nullptr;
         const json& list = value[key];
-        if (value.size() != 1 || !list.is_array() || list.empty())
+        if (value.size() != 1)
             throw UsageError("materials in JSON: expected {{\"{}\": [MATERIAL, …]}} and nothing else", key);
+        if (!list.is_array() || list.empty())
+            throw UsageError("materials in JSON: \"{}\": expected a list of one material or more, found {}",
+                             key, list.is_array() ? "an empty one" : list.type_name());
         return &list;
     }
 
-    void readSet(const json& value, const std::filesystem::path& folder) {
+    void readSet(const Source& source) {
         mSets.emplace_back();
-        const json* list = listOf(value, "set");
-        if (!list) return add(value, folder);
-        for (const json& element : *list) add(element, folder);
+        const json* list = listOf(source.value, "set");
+        if (!list) return add(source);
+        for (const json& element : *list) add(resolve(element, source.folder));
+        if (mSets.back().size() > kMostSetMaterials)
+            throw UsageError("{} materials in a set, which can hold {}: make several sets of them, "
+                             "{{\"separate\": [{{\"set\": […]}}, …]}}",
+                             mSets.back().size(), kMostSetMaterials);
     }
 
-    void add(json value, const std::filesystem::path& folder) {
+    void add(const Source& source) {
+        const json& value = source.value;
         if (mNames.size() == kMostMaterials)
             throw UsageError("more than {} materials for a part", kMostMaterials);
-        std::string name;
-        if (value.is_object() && value.contains("name")) {
-            if (!value["name"].is_string() || value["name"].get<std::string>().empty())
-                throw UsageError("materials in JSON: \"name\": expected text");
-            name = value["name"];
-            if (std::ranges::find(mNames, name) != mNames.end())
-                throw UsageError("two materials are called \"{}\"", name);
-            value.erase("name");
-        } else {
-            name = unusedName(defaultName(value));
-        }
         if (!value.is_string() && !value.is_object())
             throw UsageError("materials in JSON: expected a name or an object, found {}", value.type_name());
+        std::string name;
+        if (value.is_object() && value.contains("name")) {
+            if (value["name"].is_string()) name = value["name"];
+            checkName(name);
+            if (std::ranges::find(mNames, name) != mNames.end())
+                throw UsageError("two materials are called \"{}\": give one another \"name\"", name);
+        } else {
+            name = unusedName(source.file.empty() ? defaultName(value)
+                                                  : std::filesystem::path(source.file).stem().string());
+            checkName(name);
+        }
         mNames.push_back(name);
-        mSets.back().push_back(
-            {name, makeBrdf(value.is_string() ? value.get<std::string>() : value.dump(), folder)});
+        try {
+            mSets.back().push_back(
+                {name, makeBrdf(value.is_string() ? value.get<std::string>() : value.dump(), source.folder)});
+        } catch (const UsageError& wrong) {
+            if (source.file.empty()) throw;
+            throw Error("{}: {}", source.file, wrong.what());
+        }
     }
 
     static std::string defaultName(const json& value) {

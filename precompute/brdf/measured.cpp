@@ -56,21 +56,24 @@ IsotropicTable parse(const std::vector<std::byte>& bytes, const std::filesystem:
 } // namespace
 
 std::unique_ptr<Brdf> makeMeasured(MaterialParameters& parameters, const std::filesystem::path& folder) {
-    const std::filesystem::path path = (folder / readPath(parameters)).lexically_normal();
+    // Absolute, so that a bake finds its material from any folder.
+    const std::filesystem::path path =
+        std::filesystem::absolute(folder / readPath(parameters)).lexically_normal();
     const float scale = parameters.number("scale", 1, {0, 1000});
     const std::string expected = parameters.text("hash", "");
     parameters.rejectUnknownKeys();
     std::error_code failure;
     if (!std::filesystem::exists(path, failure))
-        throw Error(
-            "{}: measured material not found; give the path of a MERL (.binary) or Cornell (.brdf) file",
-            path.generic_string());
+        throw Error("{}: measured material not found; give the path of a MERL (.binary) or Cornell (.brdf) "
+                    "file, or put "
+                    "the one that a bake was made of back there",
+                    path.generic_string());
     const std::vector<std::byte> bytes = readFile(path, kMaxFileSize);
     const std::string hash = hashText(bytes);
     if (!expected.empty() && hash != expected)
         throw Error(
             "{}: is not the file that the material was made from: its hash is {}, not {}; restore that "
-            "file, or leave \"hash\" out to use this one",
+            "file, or make the material from this one (bake again, or leave \"hash\" out)",
             path.generic_string(), hash, expected.substr(0, 60));
     return std::make_unique<Measured>(parse(bytes, path), scale, path.generic_string(), hash);
 }

@@ -179,6 +179,34 @@ TEST_CASE("cli: brdf measures terms, after each of them, and draws them") {
     CHECK(says(runRelume(folder, "brdf clay --size 8 --terms 2").out, "Frobenius"));
 }
 
+TEST_CASE(
+    "cli: materials of a bake are worn, blended by weights over their sum, and named when there are none") {
+    const TemporaryFolder folder;
+    const std::string bake = std::string(kSmallBake) + R"(-m clay -m '{"name": "a=1", "model": "plastic"}' )";
+    REQUIRE_EQ(runRelume(folder, bake + "-o set.relume").exitCode, 0);
+    const auto draws = [&](const std::string& materials) {
+        const Outcome drawn = runRelume(folder, "render " + materials + " set.relume -o x.exr --size 24x18");
+        CHECK_EQ(drawn.exitCode, 0); // options before the file do not swallow it
+        return contents(folder.path() / "x.exr");
+    };
+    const std::string clay = draws(""), plastic = draws("-m a=1"), half = draws("-m clay -m a=1=1");
+    CHECK(clay == draws("-m clay=3"));
+    CHECK(half == draws("-m clay=.5 -m a=1=0.5"));
+    CHECK(clay != plastic);
+    CHECK(half != clay);
+    const auto refuses = [&](const std::string& materials, const char* why) {
+        const Outcome drawn = runRelume(folder, "render " + materials + " set.relume -o y.exr");
+        CHECK_EQ(drawn.exitCode, 2);
+        CHECK(says(drawn.err, why));
+        CHECK_FALSE(std::filesystem::exists(folder.path() / "y.exr"));
+    };
+    refuses("-m cly", "did you mean \"clay\"");
+    refuses("-m clay=0", "above 0");
+    refuses("-m clay=-1", "0 or more");
+    refuses("-m clay=nan", "0 or more");
+    refuses("-m clay -m clay", "named twice");
+}
+
 TEST_CASE("cli: a material that cannot be used is named before the work") {
     const TemporaryFolder folder;
     std::ofstream(folder.path() / "cut.binary") << "x";

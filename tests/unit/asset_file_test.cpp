@@ -421,6 +421,9 @@ TEST_CASE("asset file: an asset that could not be read back is not written") {
     refuses([](Asset& a) { a.parts[0].sets[0].brdf.mapping = DiskMapping(3); });
     refuses([](Asset& a) { a.parts[0].sets.clear(); });
     refuses([](Asset& a) { a.parts[0].sets[0].materials.clear(); });
+    refuses([](Asset& a) { a.parts[0].sets[0].materials[1].layer = 0; });
+    refuses([](Asset& a) { a.parts[0].sets[0].materials.pop_back(); }); // two layers of nobody
+    refuses([](Asset& a) { a.parts[0].sets[0].materials[0].name = "a\x1b[2J"; });
     refuses([](Asset& a) { a.parts[0].baseColor.reset(); });
     refuses([](Asset& a) { a.parts[0].baseColor->texels.pop_back(); });
     refuses([&](Asset& a) { a.parts[0].mesh.uvs[3].x = nan; });

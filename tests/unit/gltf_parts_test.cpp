@@ -36,12 +36,15 @@ TEST_CASE("glTF parts: two textured materials come in apart, each with its own")
     REQUIRE(file.parts.size() == 2);
     const GltfPart &red = file.parts[0], &blue = file.parts[1];
     CHECK(red.name == "red");
-    CHECK(red.material == R"({"model":"gltf","base_color":[0.5,0.25,1.0],"metallic":0.0,"roughness":0.75})");
+    CHECK(red.material ==
+          R"({"name":"red","model":"gltf","base_color":[0.5,0.25,1.0],"metallic":0.0,"roughness":0.75})");
     REQUIRE(red.baseColor);
     CHECK(red.baseColor->srgb);
     CHECK(red.baseColor->texels == TexturedGlb::kRed.texels);
     CHECK(blue.name == "material 1");
-    CHECK(blue.material == R"({"model":"gltf","base_color":[1.0,1.0,1.0],"metallic":1.0,"roughness":1.0})");
+    CHECK(
+        blue.material ==
+        R"({"name":"material 1","model":"gltf","base_color":[1.0,1.0,1.0],"metallic":1.0,"roughness":1.0})");
     REQUIRE(blue.baseColor);
     CHECK(blue.baseColor->texels == TexturedGlb::kBlue.texels);
     CHECK(file.images.empty());
@@ -123,8 +126,9 @@ TEST_CASE("glTF parts: what is not supported is ignored; factors are clamped") {
         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":3}}}])";
     const GltfParts file = decode(glb.bytes());
     REQUIRE(file.parts.size() == 2);
-    CHECK(file.parts[0].material ==
-          R"({"model":"gltf","base_color":[1.0,0.0,0.5],"metallic":1.0,"roughness":1.0})");
+    CHECK(
+        file.parts[0].material ==
+        R"({"name":"material 0","model":"gltf","base_color":[1.0,0.0,0.5],"metallic":1.0,"roughness":1.0})");
     CHECK(!file.parts[1].baseColor); // there is no TEXCOORD_3
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":3}])";
     const GltfParts bare = decode(glb.bytes());

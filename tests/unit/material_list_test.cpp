@@ -48,11 +48,27 @@ TEST_CASE("material list: a file may hold any of these, and paths in it start at
     CHECK(sets[0][1].brdf->describe()["model"] == "phong");
 }
 
+TEST_CASE("material list: a file that is no object is refused, even one that names itself") {
+    const TemporaryFolder folder;
+    for (const char* content : {"loop.json", "\"loop.json\"", "gold", "[\"gold\"]", ""}) {
+        folder.write("loop.json", content);
+        CHECK_THROWS_WITH_AS(readMaterials("loop.json", folder.path()), doctest::Contains("loop.json: "),
+                             Error);
+    }
+    folder.write("set.json", R"({"set": ["clay", {"name": "coat", "model": "plastic"}]})");
+    CHECK(namesOf(readMaterials(R"({"separate": ["set.json", "gold"]})", folder.path())) ==
+          Names{{"clay", "coat"}, {"gold"}});
+    folder.write("named.json", R"({"name": "mine", "model": "plastic"})");
+    CHECK(namesOf(readMaterials("named.json", folder.path())) == Names{{"mine"}});
+    CHECK(makeBrdf("named.json", folder.path())->describe()["model"] == "plastic");
+}
+
 TEST_CASE("material list: what makes no sense is refused, and says why") {
     const auto refuses = [](const std::string& text, const char* why) {
         CHECK_THROWS_WITH_AS(readMaterials(text), doctest::Contains(why), Error);
     };
-    refuses(R"({"set": []})", "expected {\"set\"");
+    refuses(R"({"set": []})", "an empty one");
+    refuses(R"({"set": "gold"})", "found string");
     refuses(R"({"set": ["clay"], "name": "x"})", "nothing else");
     refuses(R"({"set": [7]})", "expected a name or an object");
     refuses(R"({"set": [{"set": ["clay"]}]})", "several materials");
@@ -63,6 +79,8 @@ TEST_CASE("material list: what makes no sense is refused, and says why") {
     std::string many = R"({"set": [)";
     for (int i = 0; i < 17; i++) many += std::string(i ? "," : "") + "\"clay\"";
     refuses(many + "]}", "more than 16");
+    refuses(R"({"set": ["clay","clay","clay","clay","clay","clay","clay","clay","clay"]})", "can hold 8");
+    refuses(R"({"set": [{"name": "a\u0000b", "model": "plastic"}]})", "control characters");
 }
 
 TEST_CASE("material factory: members of a set share light maps; each has its view maps") {

@@ -72,7 +72,10 @@ TEST_CASE("texture: PNG exactly, JPEG nearly, from a file or from bytes") {
     CHECK(png.texels == texture.texels);
     const Texture jpeg = decode(sampleJpeg(texture));
     REQUIRE(jpeg.texelCount() == texture.texelCount());
-    for (int i = 0; i < 24; i++) CHECK(isNear(fetch(jpeg, i, i), fetch(texture, i, i), 0.05f));
+    for (int i = 0; i < 24; i++) {
+        const vec4 expected(vec3(fetch(texture, i, i)), 0); // a linear image without alpha
+        CHECK(isNear(fetch(jpeg, i, i), expected, 0.05f));
+    }
     const TemporaryFolder folder;
     CHECK(readTexture(folder.write("a.png", samplePng(texture)), false).texels == texture.texels);
     CHECK_THROWS_AS(readTexture(folder.path() / "missing.png", false), Error);
@@ -122,4 +125,16 @@ TEST_CASE("texture: with any bit flipped, a texture or an Error") {
                 damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
             failureOf(damaged);
         }
+}
+
+TEST_CASE("texture: where a file has no alpha, a colour is opaque and a fourth weight nothing") {
+    const unsigned char pixel[3] = {10, 20, 30};
+    std::string png;
+    stbi_write_png_to_func(appendTo, &png, 1, 1, 3, pixel, 0);
+    const auto bytes = std::as_bytes(std::span(png));
+    CHECK(decodeTexture(bytes, "rgb", true).texels[0] == 0xff1e140a);
+    CHECK(decodeTexture(bytes, "rgb", false).texels[0] == 0x001e140a);
+    const Texture withAlpha{1, 1, {0x801e140a}, false};
+    const std::string four = samplePng(withAlpha);
+    CHECK(decodeTexture(std::as_bytes(std::span(four)), "rgba", false).texels == withAlpha.texels);
 }
