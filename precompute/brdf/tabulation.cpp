@@ -42,9 +42,12 @@ class Tabulator {
     Tabulator(const Brdf& brdf, BrdfPart part, TexelValue value, BrdfTable& table)
         : mBrdf(brdf), mPart(part), mValue(value), mTable(table) {}
 
-    // Every value of one outgoing direction: a column, contiguous in Eigen's order.
+    // Every value of one outgoing direction; of a reciprocal BRDF those up to the diagonal, and their mirror
+    // images.
     void tabulateColumn(int outgoing) const {
-        for (int i = 0; i < int(mTable.directions.size()); i++) {
+        const bool mirrors = mBrdf.isReciprocal();
+        const int end = mirrors ? outgoing + 1 : int(mTable.directions.size());
+        for (int i = 0; i < end; i++) {
             const vec3 value = mValue == TexelValue::Mean ? mean(i, outgoing)
                                                           : evaluate(mTable.directions[size_t(i)],
                                                                      mTable.directions[size_t(outgoing)]);
@@ -52,6 +55,7 @@ class Tabulator {
                 RELUME_CHECK_LE(0.0f, value[c]); // fails for NaN too
                 RELUME_CHECK_LT(value[c], std::numeric_limits<float>::infinity());
                 mTable.channels[size_t(c)](i, outgoing) = value[c];
+                if (mirrors) mTable.channels[size_t(c)](outgoing, i) = value[c];
             }
         }
     }
@@ -65,7 +69,8 @@ class Tabulator {
     }
 
     vec3 mean(int incoming, int outgoing) const {
-        // The places are those of the swapped pair, swapped: the table of a reciprocal f stays symmetric.
+        // The places are those of the swapped pair, swapped: what is nearly reciprocal stays nearly
+        // symmetric.
         const auto [first, second] = std::minmax(incoming, outgoing);
         const uint64_t bits = mix(uint64_t(first) << 32 | uint64_t(second));
         glm::dvec4 place(bits & 0xffff, bits >> 16 & 0xffff, bits >> 32 & 0xffff, bits >> 48);
