@@ -1,8 +1,8 @@
 #version 460
 // Reflected radiance: view maps of the worn layers, looked up in the local view direction, times the interpolated
-// tuple. C++ twins: lookupMap() in engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The sampler does the bilinear lookup, in
-// three quarters of the time of four fetches on lavapipe; devices may round its weights to 8 bits, which the eye
-// forgives and a bake would not.
+// tuple. C++ twins: lookupMap() in engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The
+// sampler does the bilinear lookup, in three quarters of the time of four fetches on lavapipe; devices may round its
+// weights to 8 bits, which the eye forgives and a bake would not.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/disk_map.glsl"
@@ -13,6 +13,8 @@ layout(constant_id = 0) const uint kTerms = 4;     // of this draw
 layout(constant_id = 1) const bool kClamps = true; // this draw has all terms of its part
 layout(constant_id = 2) const uint kLook = 0;
 const uint kSurfaceSlots = kLook == kSurfaceLook ? 2 : 0;
+const uint kUvSlot = kLook == kSurfaceLook ? kTerms : 0; // within the array even where nothing looks there
+const uint kColorSlot = kLook == kSurfaceLook ? kTerms + 1 : 0;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 layout(binding = 4) uniform sampler2DArray viewMaps; // layer after layer of K maps
 layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
@@ -41,8 +43,8 @@ vec4 paintWeights(vec2 uv, vec4 color) {
 }
 
 vec3 reflectedBySurface(vec2 place) {
-    const vec2 uv = slots[kTerms].xy;
-    const vec4 paint = paintWeights(uv, vec4(slots[kTerms].z, slots[kTerms + 1]));
+    const vec2 uv = slots[kUvSlot].xy;
+    const vec4 paint = paintWeights(uv, vec4(slots[kUvSlot].z, slots[kColorSlot]));
     const vec3 base = texture(baseColor, vec3(uv, 0)).rgb;
     vec3 sum = vec3(0);
     for (uint i = 0; i < push.layers; i++) {

@@ -8,6 +8,8 @@
 layout(constant_id = 0) const uint kTerms = 4; // of this draw
 layout(constant_id = 2) const uint kLook = 0;
 const uint kSurfaceSlots = kLook == kSurfaceLook ? 2 : 0;
+const uint kUvSlot = kLook == kSurfaceLook ? kTerms : 0; // within the array even where nothing is written there
+const uint kColorSlot = kLook == kSurfaceLook ? kTerms + 1 : 0;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 layout(binding = 0, scalar) readonly buffer Vertices { ViewVertex vertices[]; };
 layout(binding = 1, scalar) readonly buffer Sums { ivec3 sums[]; };
@@ -26,8 +28,8 @@ void main() {
     position = vertex.position;
     normal = vertex.normal;
     if (kLook == kSurfaceLook) {
-        slots[kTerms] = vec3(vertex.uv, vertex.color.r);
-        slots[kTerms + 1] = vertex.color.gba;
+        slots[kUvSlot] = vec3(vertex.uv, vertex.color.r);
+        slots[kColorSlot] = vertex.color.gba;
     }
     gl_Position = push.clipFromWorld * vec4(vertex.position, 1);
 
