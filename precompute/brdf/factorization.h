@@ -16,8 +16,7 @@ enum class Factorization {
     // Of f times cosθ √solid angle on either side: least squares of f cosθi cosθo over both hemispheres.
     Cosine,
     // Singular triplets of f weighted by what environments and pixels ask for (light_metric.h): least squares
-    // of
-    // reflected radiance as it is seen.
+    // of reflected radiance as it is seen.
     Environment,
     // As Cosine, with maps that are nowhere negative: sums cannot undershoot, for a larger error.
     NonNegative,
