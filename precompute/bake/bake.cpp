@@ -1,12 +1,9 @@
 #include "precompute/bake/bake.h"
 
-#include "engine/vk/result.h"
-#include "precompute/bake/batch_plan.h"
-#include "precompute/bake/transport_pass.h"
+#include "precompute/bake/part_passes.h"
 #include "precompute/bake/vertex_order.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/visibility/occluder.h"
-#include "precompute/visibility/raster_visibility.h"
 
 #include <chrono>
 #include <cmath>
@@ -23,41 +20,6 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The passes of one part with their buffers, for batches of a given size.
-struct PartPasses {
-    PartPasses(const vk::Device& device, const Asset& asset, const AssetPart& part,
-               const BakeOptions& options, uint32_t capacity)
-        : batch(capacity), visibility(device, asset.occluder, uint32_t(options.visibilitySize), capacity,
-                                      visibilityNearDistance(asset.visibilityOffset)),
-          points(device, capacity * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points"),
-          bits(device, capacity * RasterVisibility::bytesPerPoint(uint32_t(options.visibilitySize)),
-               vk::BufferUse::Device, "visibility bits") {
-        for (const MaterialSet& set : part.sets) transports.emplace_back(device, set.brdf, options, capacity);
-    }
-
-    uint32_t batch;
-    RasterVisibility visibility;
-    std::vector<TransportPass> transports; // per set
-    vk::Buffer points, bits;
-};
-
-// Makes the passes for the planned batch, or half of it as often as memory asks for.
-std::unique_ptr<PartPasses> makePasses(const vk::Device& device, const Asset& asset, const AssetPart& part,
-                                       const BakeOptions& options) {
-    int terms = 0;
-    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
-    const auto vertices = uint32_t(part.mesh.vertexCount());
-    for (uint32_t batch = std::min(planBatch(device, options, terms), vertices);; batch /= 2) {
-        try {
-            return std::make_unique<PartPasses>(device, asset, part, options, batch);
-        } catch (const vk::OutOfMemory& failure) {
-            if (batch <= 1) throw;
-            spdlog::warn("{}; going on with batches of {} vertices instead of {}", failure.what(), batch / 2,
-                         batch);
-        }
-    }
-}
-
 void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& options, AssetPart& part,
               TransportLosses& losses, BakeTimes& times, const BakeProgress& progress) {
     const auto vertices = uint32_t(part.mesh.vertexCount());
@@ -66,24 +28,20 @@ void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& o
         set.transport.terms = uint32_t(set.brdf.terms);
         set.transport.rowStarts = {0};
     }
-    const std::unique_ptr<PartPasses> passes = makePasses(device, asset, part, options);
-    times.batch = std::max(times.batch, passes->batch);
-    vk::Commands commands(device, "bake");
-    for (uint32_t first = 0; first < vertices; first += passes->batch) {
-        const uint32_t count = std::min(passes->batch, vertices - first);
-        for (uint32_t i = 0; i < count; i++)
-            passes->points.map<shared::BakePoint>()[i] =
-                bakePoint(part.mesh, first + i, asset.visibilityOffset);
-        commands.begin();
-        passes->visibility.record(commands, passes->points, count, passes->bits);
-        for (const TransportPass& transport : passes->transports)
-            transport.record(commands, passes->points, count, passes->bits);
-        commands.submitAndWait();
-        for (size_t set = 0; set < part.sets.size(); set++)
-            passes->transports[set].collect(count, part.sets[set].transport, losses);
-        if (progress) progress(first + count);
+    PartPasses passes(device, asset, part, options);
+    times.batch = std::max(times.batch, passes.batch());
+    std::vector<SparseTransport*> transports;
+    for (MaterialSet& set : part.sets) transports.push_back(&set.transport);
+    std::vector<shared::BakePoint> points;
+    for (uint32_t first = 0; first < vertices; first += passes.batch()) {
+        const uint32_t end = std::min(vertices, first + passes.batch());
+        points.clear();
+        for (uint32_t vertex = first; vertex < end; vertex++)
+            points.push_back(bakePoint(part.mesh, vertex, asset.visibilityOffset));
+        passes.bake(points, transports, losses);
+        if (progress) progress(end);
     }
-    for (const auto& [name, seconds] : commands.times()) vk::addTime(times.device, name, seconds);
+    for (const auto& [name, seconds] : passes.times()) vk::addTime(times.device, name, seconds);
 }
 
 // Says where paint cannot show.
@@ -114,7 +72,7 @@ nlohmann::json describe(const BakeOptions& options) {
             {"visibility_size", options.visibilitySize},
             {"transport_samples", options.transportSamples},
             {"occluder_triangles", options.occluderTriangles},
-            {"visibility", "raster"},
+            {"visibility", visibilityMethodName(options.visibilityMethod)},
             {"vertex_order", "morton"}};
 }
 

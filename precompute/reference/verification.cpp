@@ -49,7 +49,7 @@ class DeviceStages {
         const uint32_t together = TransportPass::largestBatch(device, options) / mTerms;
         const uint32_t batch = std::max(1u, std::min(planBatch(device, options, mTerms), together));
         const auto size = uint32_t(asset.visibilitySize);
-        const uint64_t bitBytes = RasterVisibility::bytesPerPoint(size);
+        const uint64_t bitBytes = visibilityBytes(size);
 
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
         const RasterVisibility visibility(device, asset.occluder, size, batch,

@@ -120,7 +120,7 @@ void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, 
         commands.barrier(Compute, Transfer);
         commands.copy(mTarget, mBlocked, layers);
         commands.barrier(Transfer, Compute);
-        const auto words = uint32_t(count * bytesPerPoint(mSize) / 4);
+        const auto words = uint32_t(count * visibilityBytes(mSize) / 4);
         commands.dispatch(mPack, {points, mBlocked, bits}, shared::PackVisibilityPush{words}, {words, 1, 1});
     });
 }

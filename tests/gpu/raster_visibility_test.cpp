@@ -17,7 +17,7 @@ std::vector<std::vector<uint8_t>> visibilityOf(const vk::Device& device, const M
                                                uint32_t batch, float nearDistance) {
     const vk::Buffer pointBuffer(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
     const RasterVisibility visibility(device, occluder, size, batch, nearDistance);
-    const uint64_t pointBytes = RasterVisibility::bytesPerPoint(size);
+    const uint64_t pointBytes = visibilityBytes(size);
     const vk::Buffer bits(device, batch * pointBytes, vk::BufferUse::Device, "bits");
     const vk::Buffer back(device, batch * pointBytes, vk::BufferUse::Readback, "bits back");
     vk::Commands commands(device, "visibility test");

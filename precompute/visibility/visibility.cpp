@@ -1,0 +1,18 @@
+#include "precompute/visibility/visibility.h"
+
+#include "precompute/visibility/raster_visibility.h"
+
+namespace relume {
+
+std::string_view visibilityMethodName(VisibilityMethod method) {
+    return method == VisibilityMethod::Raster ? "raster" : "traced";
+}
+
+std::unique_ptr<Visibility> makeVisibility(const vk::Device& device, VisibilityMethod method,
+                                           const Mesh& occluder, uint32_t size, uint32_t capacity,
+                                           float nearDistance) {
+    RELUME_CHECK(method == VisibilityMethod::Raster);
+    return std::make_unique<RasterVisibility>(device, occluder, size, capacity, nearDistance);
+}
+
+} // namespace relume
