@@ -8,6 +8,7 @@
 #include "shaders/shared/bake.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kCull = true; // false: every cluster is drawn into every face
 layout(push_constant, scalar) uniform Push { CullPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Clusters { TriangleCluster clusters[]; };
@@ -15,20 +16,19 @@ layout(binding = 1, scalar) readonly buffer Clusters { TriangleCluster clusters[
 layout(binding = 2, scalar) buffer Draws { uint draws[][5]; };
 layout(binding = 3, scalar) writeonly buffer Layers { uint instanceLayers[]; };
 
+bool canShow(BakePoint point, TriangleCluster sphere, uint face) {
+    const vec3 centre = sphere.centre - point.origin;
+    if (dot(centre, point.normal) < -sphere.radius) return false;
+    // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z; its side planes have normals (±1, 0, 1) / √2.
+    const vec3 local = centre * kFaceAxes[face];
+    const float reach = sphere.radius * 1.41421357;
+    return local.z >= -sphere.radius && abs(local.x) - local.z <= reach && abs(local.y) - local.z <= reach;
+}
+
 void main() {
     const uint layer = gl_GlobalInvocationID.x, cluster = gl_GlobalInvocationID.y;
     if (layer >= push.layers) return;
-    const BakePoint point = points[layer / 6];
-    const TriangleCluster sphere = clusters[cluster];
-    const vec3 centre = sphere.centre - point.origin;
-    if (dot(centre, point.normal) < -sphere.radius) return;
-
-    // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z; its side planes have normals (±1, 0, 1) / √2.
-    const vec3 local = centre * kFaceAxes[layer % 6];
-    const float reach = sphere.radius * 1.41421357;
-    if (local.z < -sphere.radius) return;
-    if (abs(local.x) - local.z > reach || abs(local.y) - local.z > reach) return;
-
+    if (kCull && !canShow(points[layer / 6], clusters[cluster], layer % 6)) return;
     const uint slot = atomicAdd(draws[cluster][1], 1);
     instanceLayers[cluster * push.layers + slot] = layer;
 }

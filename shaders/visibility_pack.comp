@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/cubemap.glsl"
+#include "shaders/lib/horizon.glsl"
 #include "shaders/shared/bake.h"
 
 layout(local_size_x = 64) in;
@@ -25,15 +26,7 @@ void main() {
     const uint layer = texel / (kSize * kSize);
     const uint y = texel / kSize % kSize, x = texel % kSize;
 
-    // The cosine is linear along a row, up to the direction's length: its sign needs no normalisation.
-    const vec3 normal = points[layer / 6].normal * kFaceAxes[layer % 6];
-    const float texelWidth = 2.0 / kSize;
-    const float v = (float(y) + 0.5) * texelWidth - 1;
-    const float rowStart = normal.y * v + normal.z + normal.x * ((float(x) + 0.5) * texelWidth - 1);
-    const float rowStep = normal.x * texelWidth;
-    uint above = 0;
-    for (int i = 0; i < 32; i++) above |= uint(rowStart + rowStep * float(i) > 0) << i;
-
+    const uint above = aboveHorizon(points[layer / 6].normal * kFaceAxes[layer % 6], x, y, kSize);
     uint free = 0;
     if (above != 0) free = ~(gather(blocked[2 * word]) | gather(blocked[2 * word + 1]) << 16);
     visible[word] = free & above;

@@ -111,6 +111,12 @@ void BakeArguments::add(CLI::App& command) {
         ->type_name("V")
         ->capture_default_str();
     command
+        .add_option("--visibility", mVisibility,
+                    "How visibility is found: raster (by drawing) or traced (by rays)")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"raster", "traced"}))
+        ->capture_default_str();
+    command
         .add_option("--transport-samples", options.transportSamples,
                     "BRDF evaluations per lighting texel: 1, 4 or 16")
         ->type_name("COUNT")
@@ -125,6 +131,7 @@ void BakeArguments::resolve() {
     mFactorization.resolve();
     options.factorization = mFactorization.options;
     options.mapping = mFactorization.mapping;
+    options.visibilityMethod = mVisibility == "raster" ? VisibilityMethod::Raster : VisibilityMethod::Traced;
     options.occluderTriangles = 0;
     if (mOccluder != "full") {
         const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&

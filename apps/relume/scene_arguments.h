@@ -49,7 +49,7 @@ struct BakeArguments {
 
   private:
     FactorizationArguments mFactorization;
-    std::string mOccluder = "full";
+    std::string mOccluder = "full", mVisibility = "traced";
 };
 
 // Bakes with progress on stderr, and says afterwards what was made.

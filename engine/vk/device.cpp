@@ -188,6 +188,8 @@ void Device::createDevice() {
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
     features13.maintenance4 = VK_TRUE;
+    features13.subgroupSizeControl = VK_TRUE; // both are there in every Vulkan 1.3
+    features13.computeFullSubgroups = VK_TRUE;
     VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                                 &features13};
     features12.scalarBlockLayout = VK_TRUE;

@@ -22,6 +22,8 @@ struct DeviceInfo {
     uint64_t largestHeap;   // bytes
     uint64_t largestAllocation, largestStorageBuffer;
     uint32_t largestLayerCount, sharedMemory, subgroupSize;
+    bool subgroupBallot;            // in compute shaders
+    bool subgroupSizeCanBeAskedFor; // by a compute program
 };
 
 // All Vulkan devices of this machine, in the loader's order. Empty when there is no driver.

@@ -53,8 +53,10 @@ static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion)
 
 DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     VkPhysicalDeviceVulkan11Properties properties11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
-    VkPhysicalDeviceVulkan12Properties properties12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
+    VkPhysicalDeviceVulkan13Properties properties13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES,
                                                     &properties11};
+    VkPhysicalDeviceVulkan12Properties properties12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
+                                                    &properties13};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &properties12};
     vkGetPhysicalDeviceProperties2(physical, &properties);
     VkPhysicalDeviceMemoryProperties memory;
@@ -78,6 +80,10 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     info.largestLayerCount = std::min(core.limits.maxImageArrayLayers, core.limits.maxFramebufferLayers);
     info.sharedMemory = core.limits.maxComputeSharedMemorySize;
     info.subgroupSize = properties11.subgroupSize;
+    info.subgroupBallot = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                          (properties11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT);
+    info.subgroupSizeCanBeAskedFor =
+        (properties13.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
     return info;
 }
 

@@ -107,7 +107,7 @@ void Program::destroy() {
 }
 
 ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> spirv,
-                               const Constants& constants, std::string_view name) {
+                               const Constants& constants, std::string_view name, Subgroups subgroups) {
     const ShaderInterface interface = reflect(spirv, constants);
     createLayout(device, {&interface, 1}, name);
     mGroupSize = interface.groupSize;
@@ -119,6 +119,14 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialisation.info);
     create.layout = mLayout;
+    const VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
+        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO, nullptr,
+        device.info().subgroupSize};
+    if (subgroups == Subgroups::Full) {
+        RELUME_CHECK_EQ(mGroupSize[0] % device.info().subgroupSize, 0u);
+        create.stage.flags |= VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+        if (device.info().subgroupSizeCanBeAskedFor) create.stage.pNext = &size;
+    }
     RELUME_VK(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &mPipeline));
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
 }

@@ -41,8 +41,11 @@ class Program {
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;
+    // Subgroups::Full: every subgroup has DeviceInfo::subgroupSize invocations, of which the group size must
+    // be a multiple.
+    enum class Subgroups { Any, Full };
     ComputeProgram(const Device& device, std::span<const uint32_t> spirv, const Constants& constants,
-                   std::string_view name);
+                   std::string_view name, Subgroups subgroups = Subgroups::Any);
 };
 
 // How a fragment's colour meets what is there; alpha takes the larger unless it is replaced.

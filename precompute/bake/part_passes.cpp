@@ -47,6 +47,7 @@ void PartPasses::bake(std::span<const shared::BakePoint> points, std::span<Spars
         mVisibility->record(mCommands, mPoints, count, mBits);
         for (const TransportPass& transport : mTransports) transport.record(mCommands, mPoints, count, mBits);
         mCommands.submitAndWait();
+        mVisibility->check();
         for (size_t set = 0; set < mTransports.size(); set++)
             mTransports[set].collect(count, *transports[set], losses);
         points = points.subspan(count);

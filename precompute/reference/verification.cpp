@@ -7,11 +7,12 @@
 #include "precompute/brdf/factorization_error.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"
-#include "precompute/visibility/raster_visibility.h"
+#include "precompute/visibility/visibility.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 
 namespace relume {
@@ -34,6 +35,14 @@ struct Sums {
     double brdf = 0;
 };
 
+// How the asset's visibility was found.
+VisibilityMethod bakedMethod(const Asset& asset) {
+    const auto options = nlohmann::json::parse(asset.provenance.options, nullptr, false);
+    const bool raster = options.is_object() && options.value("visibility", nlohmann::json()) ==
+                                                   visibilityMethodName(VisibilityMethod::Raster);
+    return raster ? VisibilityMethod::Raster : VisibilityMethod::Traced;
+}
+
 // What the device makes of some points of a part: bits and all coefficients, back on the host.
 class DeviceStages {
   public:
@@ -52,8 +61,8 @@ class DeviceStages {
         const uint64_t bitBytes = visibilityBytes(size);
 
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
-        const RasterVisibility visibility(device, asset.occluder, size, batch,
-                                          visibilityNearDistance(asset.visibilityOffset));
+        const auto visibility = makeVisibility(device, bakedMethod(asset), asset.occluder, size, batch,
+                                               visibilityNearDistance(asset.visibilityOffset));
         const TransportPass transport(device, set.brdf, options, batch);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
@@ -67,13 +76,14 @@ class DeviceStages {
                 points.map<shared::BakePoint>()[i] =
                     bakePoint(part.mesh, vertices[first + i], asset.visibilityOffset);
             commands.begin();
-            visibility.record(commands, points, count, bits);
+            visibility->record(commands, points, count, bits);
             transport.record(commands, points, count, bits);
             commands.barrier(vk::Stage::Compute, vk::Stage::Transfer);
             commands.copy(bits, bitsBack, count * bitBytes);
             commands.copy(transport.coefficients(), coefficientsBack, count * coefficientBytes / batch);
             commands.barrier(vk::Stage::Transfer, vk::Stage::Host);
             commands.submitAndWait();
+            visibility->check();
             for (uint32_t point = 0; point < count; point++) {
                 const auto words = bitsBack.map<uint32_t>().subspan(point * bitBytes / 4, bitBytes / 4);
                 std::vector<uint8_t>& cube = mVisibility.emplace_back(words.size() * 32);

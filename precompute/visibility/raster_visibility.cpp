@@ -50,7 +50,7 @@ std::vector<shared::TriangleCluster> makeClusters(const Mesh& mesh, std::vector<
 } // namespace
 
 RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size,
-                                   uint32_t capacity, float nearDistance)
+                                   uint32_t capacity, float nearDistance, Culling culling)
     : mSize(size), mCapacity(capacity), mNearDistance(nearDistance) {
     RELUME_CHECK_EQ(size % 32, 0u);
     RELUME_CHECK_LE(6 * capacity, device.info().largestLayerCount);
@@ -63,7 +63,7 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
                "visibility target"};
     mReset = {device, visibility_cull_reset_comp_spirv, {}, "visibility cull reset"};
-    mCull = {device, visibility_cull_comp_spirv, {}, "visibility cull"};
+    mCull = {device, visibility_cull_comp_spirv, {culling == Culling::On}, "visibility cull"};
     mPack = {device, visibility_pack_comp_spirv, {size}, "visibility pack"};
     vk::GraphicsOptions options;
     options.colorFormat = VK_FORMAT_R8_UINT;

@@ -9,9 +9,12 @@ namespace relume {
 // six layers a point.
 class RasterVisibility : public Visibility {
   public:
+    // Whether clusters that cannot show in a face are left out; the bits are the same.
+    enum class Culling { On, Off };
+
     // As makeVisibility; six layers a point must fit an image.
     RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
-                     float nearDistance);
+                     float nearDistance, Culling culling = Culling::On);
 
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const override;

@@ -1,6 +1,7 @@
 #include "precompute/visibility/visibility.h"
 
 #include "precompute/visibility/raster_visibility.h"
+#include "precompute/visibility/traced_visibility.h"
 
 namespace relume {
 
@@ -11,7 +12,7 @@ std::string_view visibilityMethodName(VisibilityMethod method) {
 std::unique_ptr<Visibility> makeVisibility(const vk::Device& device, VisibilityMethod method,
                                            const Mesh& occluder, uint32_t size, uint32_t capacity,
                                            float nearDistance) {
-    RELUME_CHECK(method == VisibilityMethod::Raster);
+    if (method == VisibilityMethod::Traced) return std::make_unique<TracedVisibility>(device, occluder, size);
     return std::make_unique<RasterVisibility>(device, occluder, size, capacity, nearDistance);
 }
 

@@ -36,6 +36,9 @@ class Visibility {
     // Records the visibility of the first `count` BakePoints into the front of `bits`.
     virtual void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                         const vk::Buffer& bits) const = 0;
+
+    // After the submission. Throws Error when the device gave up before the end.
+    virtual void check() const {}
 };
 
 // How visibility is found: by the fixed-function rasteriser or by rays in a compute shader.

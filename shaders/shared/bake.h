@@ -36,6 +36,24 @@ struct PackVisibilityPush {
 };
 RELUME_SHARED_SIZE(PackVisibilityPush, 4)
 
+struct TracePush {
+    uint loopTest; // turns of a loop that shows whether the device still takes loops seriously
+};
+RELUME_SHARED_SIZE(TracePush, 4)
+
+// One of the eight children of a node of the bounding volume hierarchy. `entry` is what traversal keeps of it: a
+// node's number, or kBvhLeaf with the number of triangles - 1 in five bits and the first of them in 26.
+struct BvhChild {
+    vec3 low;
+    uint entry;
+    vec3 high; // Below `low` where there is no child
+    uint unused;
+};
+RELUME_SHARED_SIZE(BvhChild, 32)
+const uint kBvhWidth = 8;
+const uint kBvhLeaf = 0x80000000u;
+const uint kBvhCountShift = 26;
+
 struct TransportPush {
     uint firstTerm; // of this dispatch; its rows are point-major: (point, term of the dispatch)
     uint terms;
