@@ -2,9 +2,11 @@
 
 #include "engine/base/check.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -79,7 +81,10 @@ CpuBakeTimes& CpuBakeTimes::operator+=(const CpuBakeTimes& other) {
     return *this;
 }
 
-int CpuBaker::threads() { return tbb::this_task_arena::max_concurrency(); }
+int CpuBaker::threads() {
+    const size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::min(tbb::this_task_arena::max_concurrency(), int(allowed));
+}
 
 CpuBaker::CpuBaker(const Asset& asset, const AssetPart& part, const BakeOptions& options)
     : mVisibility(asset.occluder, options.visibilitySize),

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
 using namespace relume;
 
@@ -216,4 +217,28 @@ TEST_CASE("cpu baker: rows are the twin's, for every size and sampling") {
     for (const Case& c : {Case{{4}, 64, 256, 1, 96}, Case{{1}, 64, 256, 4, 96}, Case{{2, 3}, 32, 64, 1, 33},
                           Case{{6}, 32, 128, 1, 1}, Case{{1, 1}, 32, 64, 4, 6 * 32 * 32}})
         checkCase(c);
+}
+
+TEST_CASE("cpu baker: any number of threads gives the same rows") {
+    const Asset asset = makeAsset({{2}, 32, 64, 1, 48});
+    const Mesh& mesh = asset.parts[0].mesh;
+    std::vector<shared::BakePoint> points;
+    for (size_t i = 0; i < 40; i++) points.push_back(bakePoint(mesh, 9 * i, asset.visibilityOffset));
+    const auto rowsWith = [&](size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        SparseTransport rows{uint32_t(points.size()), 2, {0}, {}, {}, {}};
+        TransportLosses losses;
+        CpuBaker(asset, asset.parts[0], optionsOf(asset)).bake(points, std::array{&rows}, losses);
+        return std::pair(rows, losses);
+    };
+    const auto [alone, lossesAlone] = rowsWith(1);
+    const auto [together, lossesTogether] = rowsWith(4);
+    REQUIRE_EQ(alone.rows(), 80u);
+    CHECK(alone.rowStarts == together.rowStarts);
+    CHECK(alone.scales == together.scales);
+    CHECK(alone.indices == together.indices);
+    CHECK(alone.values == together.values);
+    CHECK_EQ(lossesAlone.total, lossesTogether.total);
+    CHECK_EQ(lossesAlone.dropped, lossesTogether.dropped);
+    CHECK_EQ(lossesAlone.quantised, lossesTogether.quantised);
 }
