@@ -1,10 +1,11 @@
 #include "apps/relume/commands.h"
+#include "apps/relume/median.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
+#include "engine/base/error.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 
-#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -23,11 +24,6 @@ struct Arguments {
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
 
 // Median wall-clock milliseconds of recording, submitting and waiting for `work`, after one warm-up.
 template <typename Work>
@@ -133,7 +129,13 @@ void addBenchCommand(CLI::App& program) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
-    command->callback([arguments] { run(*arguments); });
+    command->footer(
+        "`relume bench bake --help`: baking on the CPU beside the device's ways, stage by stage.");
+    addBenchBakeCommand(*command);
+    // CLI11 runs this after a subcommand's own callback too.
+    command->callback([arguments, command] {
+        if (command->get_subcommands().empty()) run(*arguments);
+    });
 }
 
 } // namespace relume

@@ -15,5 +15,6 @@ void addMaterialsCommand(CLI::App& program);
 void addBrdfCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
+void addBenchBakeCommand(CLI::App& bench);
 
 } // namespace relume

@@ -106,4 +106,31 @@ void RayTracer::occluded(vec3 origin, std::span<const vec3> directions, std::spa
     }
 }
 
+void RayTracer::occluded(vec3 origin, const float* x, const float* y, const float* z,
+                         std::span<float> reach) const {
+    RELUME_CHECK_LE(reach.size(), kStream);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    // What no ray changes; an occlusion query writes tfar alone, whatever Embree's signature says.
+    static const std::array<float, kStream> zeros{};
+    static const std::array<unsigned, kStream> noFlags{};
+    static const std::array<unsigned, kStream> allMasks = [] {
+        std::array<unsigned, kStream> masks;
+        masks.fill(~0u);
+        return masks;
+    }();
+    std::array<float, kStream> originX, originY, originZ;
+    originX.fill(origin.x), originY.fill(origin.y), originZ.fill(origin.z);
+    const auto readOnly = []<typename T>(const T* values) { return const_cast<T*>(values); };
+    RTCRayNp rays;
+    rays.org_x = originX.data(), rays.org_y = originY.data(), rays.org_z = originZ.data();
+    rays.dir_x = readOnly(x), rays.dir_y = readOnly(y), rays.dir_z = readOnly(z);
+    rays.tnear = rays.time = readOnly(zeros.data());
+    rays.tfar = reach.data();
+    rays.mask = readOnly(allMasks.data());
+    rays.id = rays.flags = readOnly(noFlags.data());
+    rtcOccludedNp(mImpl->scene, &context, &rays, unsigned(reach.size()));
+}
+
 } // namespace relume

@@ -35,6 +35,12 @@ class RayTracer {
     // in sequence are fastest. Thread-safe.
     void occluded(vec3 origin, std::span<const vec3> directions, std::span<uint8_t> blocked) const;
 
+    // The same for at most kStream directions in separate arrays of reach.size() values, without copying
+    // them. A ray is traced where `reach` is infinite and left out where it is negative; -infinity comes back
+    // where something is hit. Thread-safe.
+    static constexpr size_t kStream = 256;
+    void occluded(vec3 origin, const float* x, const float* y, const float* z, std::span<float> reach) const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> mImpl;

@@ -125,4 +125,11 @@ void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, 
     });
 }
 
+uint64_t RasterVisibility::drawnTriangles(const vk::Device& device) const {
+    uint64_t triangles = 0;
+    for (const auto& draw : vk::download<VkDrawIndexedIndirectCommand>(device, mDraws, mClusterCount))
+        triangles += uint64_t(draw.indexCount / 3) * draw.instanceCount;
+    return triangles;
+}
+
 } // namespace relume

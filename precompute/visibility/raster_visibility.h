@@ -19,6 +19,10 @@ class RasterVisibility : public Visibility {
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const override;
 
+    // Triangles that the last finished submission drew, over all faces of its points. Reads back: for
+    // measurements.
+    uint64_t drawnTriangles(const vk::Device& device) const;
+
   private:
     void createGeometry(const vk::Device& device, const Mesh& occluder);
 

@@ -276,3 +276,48 @@ TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, witho
     REQUIRE_EQ(verify.exitCode, 0);
     CHECK_EQ(nlohmann::json::parse(verify.out)["relight_bits"], 0);
 }
+
+TEST_CASE("cli: bench bake prints every path's figures as JSON") {
+    const TemporaryFolder folder;
+    const std::string scene = "sphere --ground --ground-tessellation 4 -K 2 -N 32 --visibility-size 64 "
+                              "--face-size 32 --map-size 16 --vertices 40 --repeats 1 ";
+    const Outcome outcome = runRelume(folder, "bench bake " + scene + "--json");
+    REQUIRE_EQ(outcome.exitCode, 0);
+    const auto found = nlohmann::json::parse(outcome.out);
+    CHECK_EQ(found["repeats"], 1);
+    CHECK_GE(found["threads"], 1);
+    CHECK_EQ(found["options"]["coefficients"], 32);
+    uint64_t sampled = 0;
+    for (const auto& part : found["scene"]["parts"]) sampled += part["sampled"].get<uint64_t>();
+    CHECK_EQ(found["vertices"], sampled);
+    CHECK_GT(found["bandwidth"]["device_gb_per_s"], 0);
+    CHECK_GT(found["bandwidth"]["host_gb_per_s"], 0);
+    for (const auto& [path, throughput] :
+         {std::pair("cpu", "rays_per_second"), std::pair("raster", "triangles_per_second")}) {
+        CAPTURE(path);
+        const auto& figures = found["paths"][path];
+        CHECK_GT(figures["ms_per_vertex"], 0);
+        CHECK_GT(figures["ratio_to_cpu"], 0);
+        CHECK_GT(figures[throughput], 0);
+        // The same rows but for silhouettes and exchanges at the N-th place: equal work.
+        CHECK_LE(figures["difference_to_cpu"], 0.1);
+        double stages = 0;
+        for (const auto& stage : figures["stages"]) {
+            stages += stage["ms_per_vertex"].get<double>();
+            if (stage.contains("bytes_per_vertex")) CHECK_GT(stage["floor_ms_per_vertex"], 0);
+        }
+        CHECK(stages == doctest::Approx(figures["ms_per_vertex"].get<double>()).epsilon(0.02));
+    }
+    CHECK_EQ(found["paths"]["cpu"]["ratio_to_cpu"], 1);
+    CHECK_EQ(found["paths"]["cpu"]["difference_to_cpu"], 0);
+    CHECK_GT(found["paths"]["raster"]["difference_to_cpu"], 0); // truly another implementation's
+
+    const Outcome table = runRelume(folder, "bench bake " + scene);
+    CHECK_EQ(table.exitCode, 0);
+    CHECK(says(table.out, "raster"));
+    CHECK(says(table.out, "triangles per second"));
+    const Outcome misplaced = runRelume(folder, "bench --json bake " + scene);
+    CHECK_EQ(misplaced.exitCode, 2);
+    CHECK(says(misplaced.err, "--json"));
+    CHECK_EQ(runRelume(folder, "bench bake --vertices 0").exitCode, 2);
+}

@@ -1,0 +1,232 @@
+#include "apps/relume/bake_bench.h"
+
+#include "precompute/bake/part_passes.h"
+#include "precompute/bake/vertex_order.h"
+#include "precompute/brdf/material_factory.h"
+#include "precompute/cpu/cpu_baker.h"
+#include "precompute/visibility/occluder.h"
+#include "precompute/visibility/raster_visibility.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+constexpr uint64_t kRun = 64; // neighbours
+
+int termsOf(const AssetPart& part) {
+    int terms = 0;
+    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
+    return terms;
+}
+
+// What precedes baking in bake().
+Asset prepare(Scene scene, const BakeOptions& options) {
+    for (Part& part : scene.parts) orderVertices(part.mesh);
+    Asset asset;
+    asset.faceSize = options.faceSize;
+    asset.visibilitySize = options.visibilitySize;
+    Occluder occluder = makeOccluder(scene, options.occluderTriangles);
+    asset.visibilityOffset = visibilityOffset(occluder, boundsOf(scene));
+    asset.occluder = std::move(occluder.mesh);
+    MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
+    for (Part& part : scene.parts)
+        asset.parts.push_back(
+            {part.name, std::move(part.mesh),
+             materials.make(part.material, part.materialFolder, part.baseColor.has_value())});
+    return asset;
+}
+
+// Indices of about `wanted` vertices out of `count`.
+std::vector<uint64_t> sampleIndices(uint64_t count, uint64_t wanted) {
+    wanted = std::clamp<uint64_t>(wanted, 1, count);
+    const uint64_t run = std::min(kRun, wanted), runs = std::min((wanted + run / 2) / run, count / run);
+    std::vector<uint64_t> indices;
+    for (uint64_t i = 0; i < runs; i++) {
+        // In the middle of the i-th of `runs` equal stretches, none of which is shorter than a run.
+        const uint64_t first = (2 * i + 1) * (count - runs * run) / (2 * runs) + i * run;
+        for (uint64_t j = 0; j < run; j++) indices.push_back(first + j);
+    }
+    return indices;
+}
+
+std::vector<SparseTransport> emptyRows(const AssetPart& part, size_t vertices) {
+    std::vector<SparseTransport> rows;
+    for (const MaterialSet& set : part.sets)
+        rows.push_back({uint32_t(vertices), uint32_t(set.brdf.terms), {0}, {}, {}, {}});
+    return rows;
+}
+
+// A run of a path whose `bakePart(part, points, transports)` bakes one part.
+template <typename BakePart>
+SampleRun timeRun(const BakeSample& sample, const BakePart& bakePart) {
+    SampleRun run;
+    const auto start = std::chrono::steady_clock::now();
+    for (size_t part = 0; part < sample.points.size(); part++) {
+        run.rows.push_back(emptyRows(sample.asset.parts[part], sample.points[part].size()));
+        std::vector<SparseTransport*> transports;
+        for (SparseTransport& rows : run.rows.back()) transports.push_back(&rows);
+        bakePart(part, std::span(sample.points[part]), std::span<SparseTransport* const>(transports));
+    }
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return run;
+}
+
+void addRest(SampleRun& run, const char* name) {
+    vk::addTime(run.stages, name, std::max(0.0, run.seconds - vk::secondsOf(run.stages)));
+}
+
+} // namespace
+
+uint64_t BakeSample::vertices() const {
+    uint64_t count = 0;
+    for (const AssetPart& part : asset.parts) count += part.mesh.vertexCount();
+    return count;
+}
+
+uint64_t BakeSample::sampled() const {
+    uint64_t count = 0;
+    for (const auto& part : points) count += part.size();
+    return count;
+}
+
+double BakeSample::termsPerVertex() const {
+    double terms = 0;
+    for (size_t part = 0; part < points.size(); part++)
+        terms += double(points[part].size()) * termsOf(asset.parts[part]);
+    return terms / double(sampled());
+}
+
+BakeSample sampleBake(Scene scene, const BakeOptions& options, uint64_t vertices) {
+    BakeSample sample{prepare(std::move(scene), options), {}};
+    const uint64_t all = sample.vertices();
+    for (const AssetPart& part : sample.asset.parts) {
+        const uint64_t count = part.mesh.vertexCount();
+        const double share = double(vertices) * double(count) / double(all);
+        std::vector<shared::BakePoint>& points = sample.points.emplace_back();
+        for (uint64_t vertex : sampleIndices(count, uint64_t(std::llround(share))))
+            points.push_back(bakePoint(part.mesh, vertex, sample.asset.visibilityOffset));
+    }
+    return sample;
+}
+
+double relativeDifference(const SampleRows& a, const SampleRows& b, int faceSize) {
+    const vec3 maxima(kRedMaximum, kGreenMaximum, kBlueMaximum);
+    std::vector<vec3> dense(6 * size_t(faceSize) * size_t(faceSize), vec3(0));
+    const auto addRow = [&](const SparseTransport& rows, size_t row, float sign) {
+        for (uint64_t e = rows.rowStarts[row]; e < rows.rowStarts[row + 1]; e++)
+            dense[rows.indices[e]] +=
+                sign * vec3(unpackCoefficient(rows.values[e])) * (rows.scales[row] / maxima);
+    };
+    // Adds up and clears what a row has left in `dense`.
+    const auto takeEnergy = [&](const SparseTransport& rows, size_t row) {
+        double energy = 0;
+        for (uint64_t e = rows.rowStarts[row]; e < rows.rowStarts[row + 1]; e++) {
+            vec3& value = dense[rows.indices[e]];
+            energy += double(glm::dot(value, value));
+            value = vec3(0);
+        }
+        return energy;
+    };
+    double difference = 0, size = 0;
+    for (size_t part = 0; part < b.size(); part++)
+        for (size_t set = 0; set < b[part].size(); set++) {
+            const SparseTransport &left = a[part][set], &right = b[part][set];
+            RELUME_CHECK_EQ(left.rows(), right.rows());
+            for (size_t row = 0; row < right.rows(); row++) {
+                addRow(right, row, 1);
+                size += takeEnergy(right, row);
+                addRow(left, row, 1);
+                addRow(right, row, -1);
+                difference += takeEnergy(left, row) + takeEnergy(right, row);
+            }
+        }
+    return size > 0 ? std::sqrt(difference / size) : 0;
+}
+
+struct CpuPath::Part {
+    CpuBaker baker;
+};
+
+CpuPath::CpuPath(const BakeSample& sample, const BakeOptions& options) : mSample(sample) {
+    for (const AssetPart& part : sample.asset.parts)
+        mParts.push_back({CpuBaker(sample.asset, part, options)});
+}
+
+CpuPath::~CpuPath() = default;
+
+SampleRun CpuPath::run() {
+    CpuBakeTimes before, after;
+    for (const Part& part : mParts) before += part.baker.times();
+    TransportLosses losses;
+    SampleRun run = timeRun(mSample, [&](size_t part, auto points, auto transports) {
+        mParts[part].baker.bake(points, transports, losses);
+    });
+    for (const Part& part : mParts) after += part.baker.times();
+    mRays = after.rays - before.rays;
+    const auto addStage = [&](const char* name, double CpuBakeTimes::*stage) {
+        vk::addTime(run.stages, name, (after.*stage - before.*stage) / CpuBaker::threads());
+    };
+    addStage("visibility", &CpuBakeTimes::visibility);
+    addStage("transport", &CpuBakeTimes::transport);
+    addStage("haar", &CpuBakeTimes::haar);
+    addStage("select and pack", &CpuBakeTimes::pack);
+    addRest(run, "output and idle threads");
+    return run;
+}
+
+struct DevicePath::Part {
+    std::unique_ptr<PartPasses> passes;
+};
+
+DevicePath::DevicePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options,
+                       VisibilityMethod method)
+    : mSample(sample) {
+    BakeOptions own = options;
+    own.visibilityMethod = method;
+    for (const AssetPart& part : sample.asset.parts)
+        mParts.push_back({std::make_unique<PartPasses>(device, sample.asset, part, own)});
+}
+
+DevicePath::~DevicePath() = default;
+
+SampleRun DevicePath::run() {
+    vk::PassTimes before;
+    for (const Part& part : mParts)
+        for (const auto& [name, seconds] : part.passes->times()) vk::addTime(before, name, -seconds);
+    TransportLosses losses;
+    SampleRun run = timeRun(mSample, [&](size_t part, auto points, auto transports) {
+        mParts[part].passes->bake(points, transports, losses);
+    });
+    run.stages = before;
+    for (const Part& part : mParts)
+        for (const auto& [name, seconds] : part.passes->times()) vk::addTime(run.stages, name, seconds);
+    addRest(run, "host and submission");
+    return run;
+}
+
+uint64_t countDrawnTriangles(const vk::Device& device, const BakeSample& sample, const BakeOptions& options) {
+    constexpr uint32_t kBatch = 16;
+    const auto size = uint32_t(options.visibilitySize);
+    const RasterVisibility visibility(device, sample.asset.occluder, size, kBatch,
+                                      visibilityNearDistance(sample.asset.visibilityOffset));
+    const vk::Buffer points(device, kBatch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
+    const vk::Buffer bits(device, kBatch * visibilityBytes(size), vk::BufferUse::Device, "visibility bits");
+    vk::Commands commands(device, "count triangles");
+    uint64_t triangles = 0;
+    for (std::span<const shared::BakePoint> part : sample.points)
+        for (; !part.empty(); part = part.subspan(std::min<size_t>(part.size(), kBatch))) {
+            const auto count = std::min<size_t>(part.size(), kBatch);
+            std::ranges::copy(part.first(count), points.map<shared::BakePoint>().begin());
+            commands.begin();
+            visibility.record(commands, points, uint32_t(count), bits);
+            commands.submitAndWait();
+            triangles += visibility.drawnTriangles(device);
+        }
+    return triangles;
+}
+
+} // namespace relume

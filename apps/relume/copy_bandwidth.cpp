@@ -1,0 +1,64 @@
+#include "apps/relume/copy_bandwidth.h"
+
+#include "engine/vk/commands.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <thread>
+
+namespace relume {
+
+namespace {
+
+constexpr uint64_t kBytes = 64 << 20;
+constexpr int kCopies = 7;
+
+template <typename Copy>
+double bestBandwidth(const Copy& copy) {
+    copy(); // pages are touched, code is compiled
+    double best = 0;
+    for (int i = 0; i < kCopies; i++) {
+        const auto start = std::chrono::steady_clock::now();
+        copy();
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        best = std::max(best, double(2 * kBytes) / elapsed.count());
+    }
+    return best;
+}
+
+} // namespace
+
+double deviceCopyBandwidth(const vk::Device& device) {
+    // Many copies a submission: on a GPU a single one drowns in the time to submit it.
+    constexpr int kTogether = 8;
+    const vk::Buffer from(device, kBytes, vk::BufferUse::Device, "copied from");
+    const vk::Buffer to(device, kBytes, vk::BufferUse::Device, "copied to");
+    vk::Commands commands(device, "copy bandwidth");
+    commands.begin();
+    commands.fill(from, 0);
+    commands.submitAndWait();
+    return kTogether * bestBandwidth([&] {
+               commands.begin();
+               for (int i = 0; i < kTogether; i++) {
+                   commands.barrier(vk::Stage::Transfer, vk::Stage::Transfer);
+                   commands.copy(from, to, kBytes);
+               }
+               commands.submitAndWait();
+           });
+}
+
+double hostCopyBandwidth(int threads) {
+    const auto from = std::make_unique<std::byte[]>(kBytes), to = std::make_unique<std::byte[]>(kBytes);
+    const uint64_t share = kBytes / uint64_t(threads);
+    return bestBandwidth([&] {
+        std::vector<std::jthread> workers;
+        for (int i = 0; i < threads; i++)
+            workers.emplace_back([&, first = uint64_t(i) * share] {
+                std::memcpy(to.get() + first, from.get() + first, share);
+            });
+    });
+}
+
+} // namespace relume

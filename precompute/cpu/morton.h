@@ -1,0 +1,21 @@
+// The order in which the CPU baker walks a cube face: along a Morton curve, so that every aligned square
+// whose side is a power of two is a run of neighbours.
+#pragma once
+
+#include "engine/math/vector.h"
+
+namespace relume {
+
+// The place on a face of the index-th texel of the curve: even bits are x, odd bits y.
+inline ivec2 mortonPlace(uint32_t index) {
+    const auto evenBits = [](uint32_t bits) {
+        bits &= 0x55555555u;
+        bits = (bits | bits >> 1) & 0x33333333u;
+        bits = (bits | bits >> 2) & 0x0f0f0f0fu;
+        bits = (bits | bits >> 4) & 0x00ff00ffu;
+        return int((bits | bits >> 8) & 0x0000ffffu);
+    };
+    return {evenBits(index), evenBits(index >> 1)};
+}
+
+} // namespace relume
