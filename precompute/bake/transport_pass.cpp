@@ -1,7 +1,8 @@
 #include "precompute/bake/transport_pass.h"
 
-#include "engine/render/map_texture.h"
+#include "engine/vk/upload.h"
 #include "shaders/compact_comp.h"
+#include "shaders/haar_comp.h"
 #include "shaders/quantise_comp.h"
 #include "shaders/row_starts_comp.h"
 #include "shaders/select_comp.h"
@@ -20,12 +21,44 @@ uint64_t rowBytes(const BakeOptions& options) {
     return 6ull * uint64_t(options.faceSize) * uint64_t(options.faceSize) * kCoefficientBytes;
 }
 
+// Blocks of coefficients that have a summary: shaders/lib/haar_block.glsl.
+uint64_t rowBlocks(uint64_t faceSize) {
+    const uint64_t fine = faceSize / 4, coarse = faceSize / 16;
+    return 6 * (fine * fine + coarse * coarse + 1);
+}
+
+// For lookups of one fetch a channel: three layers a term, one a channel, whose texel (x, y) holds what a
+// lookup between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
+vk::Image makeCornerTexture(const vk::Device& device, const FactoredBrdf& brdf) {
+    const int side = brdf.size + 1;
+    const auto column = [&](int x) {
+        return brdf.mapping == DiskMapping::Polar ? (x + brdf.size) % brdf.size
+                                                  : std::clamp(x, 0, brdf.size - 1);
+    };
+    std::vector<vec4> texels;
+    texels.reserve(size_t(brdf.terms) * 3 * size_t(side) * size_t(side));
+    for (int term = 0; term < brdf.terms; term++)
+        for (int channel = 0; channel < 3; channel++)
+            for (int y = 0; y < side; y++)
+                for (int x = 0; x < side; x++) {
+                    const vec3* above = brdf.lightMap(term) + std::max(y - 1, 0) * brdf.size;
+                    const vec3* below = brdf.lightMap(term) + std::min(y, brdf.size - 1) * brdf.size;
+                    texels.emplace_back(above[column(x - 1)][channel], above[column(x)][channel],
+                                        below[column(x - 1)][channel], below[column(x)][channel]);
+                }
+    return vk::uploadImage(
+        device, {.width = uint32_t(side), .height = uint32_t(side), .layers = 3 * uint32_t(brdf.terms)},
+        std::as_bytes(std::span(texels)), "light map corners");
+}
+
 } // namespace
 
 uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
     const auto entries = uint64_t(options.coefficients);
     // Coefficients, selected, values; entries as they come back.
-    return uint64_t(terms) * (rowBytes(options) + 8 * entries + 8 * entries);
+    return uint64_t(terms) *
+           (rowBytes(options) + rowBlocks(uint64_t(options.faceSize)) * sizeof(shared::BlockSummary) +
+            16 * entries);
 }
 
 uint32_t TransportPass::largestBatch(const vk::Device& device, const BakeOptions& options) {
@@ -57,17 +90,21 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
     mValues = {device, rows * mKept * 4, Device, "packed values"};
     mStarts = {device, rows * 4, Device, "row starts"};
 
-    mLightMaps = makeMapTexture(device, brdf.lightMaps, uint32_t(brdf.size), terms, "light maps");
+    mBlocks = {device, rows * rowBlocks(mFaceSize) * sizeof(shared::BlockSummary), Device,
+               "coefficient blocks"};
+
+    mLightMaps = makeCornerTexture(device, brdf);
     mSampler = {device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                 "light maps"};
-    const uint32_t lanes = mFaceSize / 4 * mFaceSize / 4, count = 6 * mFaceSize * mFaceSize;
+    const uint32_t count = 6 * mFaceSize * mFaceSize;
     const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
     mTransport = {device,
                   transport_comp_spirv,
                   {mFaceSize, uint32_t(options.visibilitySize), samplesPerSide, uint32_t(brdf.size),
-                   uint32_t(brdf.mapping), lanes},
+                   uint32_t(brdf.mapping)},
                   "transport"};
-    mSelect = {device, select_comp_spirv, {count}, "select"};
+    mHaar = {device, haar_comp_spirv, {mFaceSize, 6 * (mFaceSize / 16) * (mFaceSize / 16)}, "haar"};
+    mSelect = {device, select_comp_spirv, {mFaceSize}, "select"};
     mQuantise = {device, quantise_comp_spirv, {count}, "quantise"};
     mRowStarts = {device, row_starts_comp_spirv, {}, "row starts"};
     mCompact = {device, compact_comp_spirv, {}, "compact"};
@@ -89,14 +126,18 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
     };
     commands.barrier(Compute, Compute);
     commands.pass("transport", [&] {
-        commands.dispatch(mTransport, {points, bits, {mLightMaps, mSampler}, mCoefficients},
+        commands.dispatch(mTransport, {points, bits, {mLightMaps, mSampler}, mCoefficients, mBlocks},
                           shared::TransportPush{group.firstTerm, group.terms},
-                          {mTransport.groupSize()[0], 6, rowCount});
+                          {mFaceSize / 4 * mFaceSize / 4, 6, count});
+    });
+    commands.barrier(Compute, Compute);
+    commands.pass("haar", [&] {
+        commands.dispatch(mHaar, {mCoefficients, mBlocks}, rows, groupPerRow(mHaar));
     });
     commands.barrier(Compute, Compute);
     commands.pass("select", [&] {
-        commands.dispatch(mSelect, {mCoefficients, mSelected, mSelectedCounts, group.statistics}, rows,
-                          groupPerRow(mSelect));
+        commands.dispatch(mSelect, {mCoefficients, mBlocks, mSelected, mSelectedCounts, group.statistics},
+                          rows, groupPerRow(mSelect));
     });
     commands.barrier(Compute, Compute);
     commands.pass("quantise", [&] {

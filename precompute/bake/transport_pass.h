@@ -30,7 +30,8 @@ class TransportPass {
     // After the submission: appends the batch's rows.
     void collect(uint32_t count, SparseTransport& transport, TransportLosses& losses) const;
 
-    // The coefficients of the last term group, row by row, for parity tests: see record()'s kernels.
+    // The coefficients of the last term group, row by row, for parity tests: see record()'s kernels. Blocks
+    // of texels that nothing reaches are left as they were.
     const vk::Buffer& coefficients() const { return mCoefficients; }
 
     // Device and host-visible bytes that one point of a batch takes; and points that fit one storage buffer.
@@ -50,8 +51,8 @@ class TransportPass {
     vk::Image mLightMaps;
     vk::Sampler mSampler;
     std::vector<TermGroup> mGroups;
-    vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts;
-    vk::ComputeProgram mTransport, mSelect, mQuantise, mRowStarts, mCompact;
+    vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mBlocks;
+    vk::ComputeProgram mTransport, mHaar, mSelect, mQuantise, mRowStarts, mCompact;
 };
 
 } // namespace relume

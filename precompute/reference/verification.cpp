@@ -76,6 +76,8 @@ class DeviceStages {
                 points.map<shared::BakePoint>()[i] =
                     bakePoint(part.mesh, vertices[first + i], asset.visibilityOffset);
             commands.begin();
+            commands.fill(transport.coefficients(), 0); // what is zero is not written
+            commands.barrier(vk::Stage::Transfer, vk::Stage::Compute);
             visibility->record(commands, points, count, bits);
             transport.record(commands, points, count, bits);
             commands.barrier(vk::Stage::Compute, vk::Stage::Transfer);

@@ -60,6 +60,13 @@ struct TransportPush {
 };
 RELUME_SHARED_SIZE(TransportPush, 8)
 
+// What selection asks of a block of coefficients (lib/haar_block.glsl) before it looks inside.
+struct BlockSummary {
+    float largest; // squared magnitude of a coefficient
+    float energy;  // sum of the squared magnitudes
+};
+RELUME_SHARED_SIZE(BlockSummary, 8)
+
 struct RowsPush {
     uint rows;
     uint kept; // N

@@ -6,8 +6,10 @@
 #include "shaders/select_comp.h"
 #include "tests/support/test_device.h"
 
+#include <bit>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <random>
 
 using namespace relume;
@@ -32,14 +34,15 @@ FactoredBrdf makeMaps(int terms, int size, DiskMapping mapping) {
     return brdf;
 }
 
-// Random points, and for each a visibility cube with blobs of blocked texels, none below the horizon free.
+// Random points, and for each a visibility cube with a disk of blocked texels whose rim has the cosine
+// `free`, none below the horizon free.
 struct Samples {
     std::vector<shared::BakePoint> points;
     std::vector<std::vector<uint8_t>> visibility;
     std::vector<uint32_t> bits;
 };
 
-Samples makeSamples(int count, int size) {
+Samples makeSamples(int count, int size, float free = 0.6f) {
     std::mt19937 random(7);
     std::normal_distribution<float> gauss;
     const auto direction = [&] { return glm::normalize(vec3(gauss(random), gauss(random), gauss(random))); };
@@ -51,7 +54,7 @@ Samples makeSamples(int count, int size) {
         for (int texel = 0; texel < 6 * size * size; texel++) {
             const vec3 towards =
                 cubeTexelDirection(texel / (size * size), texel % size, texel / size % size, size);
-            cube.push_back(glm::dot(towards, normal) > 0 && glm::dot(towards, blocker) < 0.6f);
+            cube.push_back(glm::dot(towards, normal) > 0 && glm::dot(towards, blocker) < free);
         }
         for (size_t word = 0; word < cube.size() / 32; word++) {
             uint32_t packed = 0;
@@ -151,6 +154,45 @@ TEST_CASE("transport pass: lossless selection keeps every coefficient that does 
     checkCase(device, {32, 64, 1, 6 * 32 * 32, 3});
 }
 
+namespace {
+
+struct Rows {
+    SparseTransport transport;
+    TransportLosses losses;
+};
+
+// The rows of all samples, `batch` points a submission.
+Rows bakeSamples(const vk::Device& device, const TransportPass& pass, const Samples& samples, size_t batch) {
+    const size_t wordsPerPoint = samples.bits.size() / samples.points.size();
+    vk::Commands commands(device, "transport test");
+    Rows rows;
+    rows.transport.rowStarts = {0};
+    for (size_t first = 0; first < samples.points.size(); first += batch) {
+        const size_t count = std::min(batch, samples.points.size() - first);
+        const auto points =
+            vk::upload<shared::BakePoint>(device, std::span(samples.points).subspan(first, count), "points");
+        const auto bits = vk::upload<uint32_t>(
+            device, std::span(samples.bits).subspan(first * wordsPerPoint, count * wordsPerPoint), "bits");
+        commands.begin();
+        pass.record(commands, points, uint32_t(count), bits);
+        commands.submitAndWait();
+        pass.collect(uint32_t(count), rows.transport, rows.losses);
+    }
+    return rows;
+}
+
+void checkSame(const Rows& a, const Rows& b) {
+    CHECK(a.transport.rowStarts == b.transport.rowStarts);
+    CHECK(a.transport.scales == b.transport.scales);
+    CHECK(a.transport.indices == b.transport.indices);
+    CHECK(a.transport.values == b.transport.values);
+    CHECK_EQ(a.losses.total, b.losses.total);
+    CHECK_EQ(a.losses.dropped, b.losses.dropped);
+    CHECK_EQ(a.losses.quantised, b.losses.quantised);
+}
+
+} // namespace
+
 TEST_CASE("transport pass: more terms than fit one buffer take turns") {
     const TestDevice device;
     BakeOptions options;
@@ -158,53 +200,97 @@ TEST_CASE("transport pass: more terms than fit one buffer take turns") {
     // Enough capacity that 32 terms of it exceed the largest storage buffer on lavapipe (128 MiB).
     const uint32_t capacity = std::min(64u, TransportPass::largestBatch(device, options));
     const Samples samples = makeSamples(2, 256);
-    const auto points = vk::upload<shared::BakePoint>(device, samples.points, "points");
-    const auto bits = vk::upload<uint32_t>(device, samples.bits, "bits");
-    const auto rowsOf = [&](uint32_t batch) {
-        const TransportPass pass(device, brdf, options, batch);
-        vk::Commands commands(device, "term groups");
-        commands.begin();
-        pass.record(commands, points, 2, bits);
-        commands.submitAndWait();
-        SparseTransport transport;
-        transport.rowStarts = {0};
-        TransportLosses losses;
-        pass.collect(2, transport, losses);
-        return transport;
-    };
-    const SparseTransport apart = rowsOf(capacity), together = rowsOf(2);
-    CHECK_EQ(together.scales.size(), 64u);
-    CHECK(apart.rowStarts == together.rowStarts);
-    CHECK(apart.scales == together.scales);
-    CHECK(apart.indices == together.indices);
-    CHECK(apart.values == together.values);
+    const Rows apart = bakeSamples(device, {device, brdf, options, capacity}, samples, 2);
+    CHECK_EQ(apart.transport.scales.size(), 64u);
+    checkSame(apart, bakeSamples(device, {device, brdf, options, 2}, samples, 2));
 }
 
-TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
+TEST_CASE("transport pass: any batch gives the same rows, whatever an earlier one left behind") {
     const TestDevice device;
-    const vk::Device& vulkan = device;
-    constexpr uint32_t kCount = 6 * 32 * 32;
+    BakeOptions options;
+    options.visibilitySize = 128;
+    const FactoredBrdf brdf = makeMaps(5, 16, DiskMapping::EqualArea);
+    const Samples samples = makeSamples(5, 128), open = makeSamples(5, 128, 2),
+                  shut = makeSamples(5, 128, -2);
+    const Rows expected = bakeSamples(device, {device, brdf, options, 5}, samples, 5);
+    const TransportPass pass(device, brdf, options, 5);
+    bakeSamples(device, pass, open, 5);
+    checkSame(bakeSamples(device, pass, samples, 2), expected);
+    // Where nothing is visible there is nothing to keep.
+    const Rows nothing = bakeSamples(device, pass, shut, 3);
+    CHECK_EQ(nothing.transport.scales, std::vector<float>(25, 0.0f));
+    CHECK(nothing.transport.values.empty());
+    CHECK_EQ(nothing.losses.total, 0);
+}
+
+namespace {
+
+// The block, of those that are numbered in shaders/lib/haar_block.glsl, that a coefficient belongs to: found
+// from the level, whose width in coefficients is the highest power of two in x or y.
+size_t blockOf(size_t coefficient, size_t faceSize) {
+    const size_t face = coefficient / (faceSize * faceSize), y = coefficient / faceSize % faceSize,
+                 x = coefficient % faceSize;
+    const size_t level = std::bit_floor(std::max(x, y));
+    size_t first = 0;
+    for (const size_t side : {faceSize / 4, faceSize / 16, size_t(1)}) {
+        const auto inStage = [&](size_t bx, size_t by) { return first + (face * side + by) * side + bx; };
+        if (level == 2 * side) return inStage(x % level / 2, y % level / 2);
+        if (level == side) return inStage(x % level, y % level);
+        first += 6 * side * side;
+    }
+    return first - 6 + face; // the average
+}
+
+// What select.comp reads of rows of coefficients: blocks of zeros are not written.
+struct SelectInput {
+    std::vector<vec4> coefficients;
+    std::vector<shared::BlockSummary> blocks;
+};
+SelectInput makeSelectInput(const std::vector<std::vector<vec3>>& rows, size_t faceSize) {
+    const size_t count = 6 * faceSize * faceSize;
+    const size_t rowBlocks = 6 * (faceSize * faceSize / 16 + faceSize * faceSize / 256 + 1);
+    SelectInput input;
+    for (const std::vector<vec3>& row : rows) {
+        std::vector<shared::BlockSummary> blocks(rowBlocks, {0, 0});
+        const auto squared = [](vec3 c) { return c.x * c.x + c.y * c.y + c.z * c.z; };
+        for (size_t i = 0; i < count; i++) {
+            shared::BlockSummary& block = blocks[blockOf(i, faceSize)];
+            block.largest = std::max(block.largest, squared(row[i]));
+            block.energy += squared(row[i]);
+        }
+        for (size_t i = 0; i < count; i++)
+            input.coefficients.push_back(blocks[blockOf(i, faceSize)].largest > 0
+                                             ? vec4(row[i], squared(row[i]))
+                                             : vec4(std::numeric_limits<float>::quiet_NaN()));
+        input.blocks.insert(input.blocks.end(), blocks.begin(), blocks.end());
+    }
+    return input;
+}
+
+void checkSelect(const vk::Device& device, uint32_t faceSize) {
+    const uint32_t count = 6 * faceSize * faceSize;
+    CAPTURE(faceSize);
     std::mt19937 random(11);
-    std::vector<std::vector<vec3>> rows(6, std::vector<vec3>(kCount, vec3(0)));
+    std::vector<std::vector<vec3>> rows(7, std::vector<vec3>(count, vec3(0)));
     for (vec3& value : rows[0]) value = vec3(float(random() % 4), 0, 0);              // many ties, many zeros
     for (vec3& value : rows[1]) value = vec3(1);                                      // all equal
     for (uint32_t i = 0; i < 5; i++) rows[3][i * 1000 + 17] = vec3(0, 1e-3f, -1e-3f); // row 2: zeros; few
     for (vec3& value : rows[4]) value = vec3(std::ldexp(1.0f, -int(random() % 60)));  // all magnitudes
     for (vec3& value : rows[5]) value = vec3(float(random()), -float(random()), float(random()));
-    std::vector<vec4> coefficients;
-    for (const std::vector<vec3>& row : rows)
-        for (const vec3& c : row) coefficients.emplace_back(c, c.x * c.x + c.y * c.y + c.z * c.z);
+    for (uint32_t i = 0; i < count; i += 97) rows[6][i] = vec3(float(i % 7), 0, 1); // few in few blocks
 
-    const vk::ComputeProgram select(vulkan, select_comp_spirv, {kCount}, "select");
-    const auto input = vk::upload<vec4>(vulkan, coefficients, "coefficients");
-    for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 3000u, kCount}) {
+    const vk::ComputeProgram select(device, select_comp_spirv, {faceSize}, "select");
+    const SelectInput input = makeSelectInput(rows, faceSize);
+    const auto coefficients = vk::upload<vec4>(device, input.coefficients, "coefficients");
+    const auto blocks = vk::upload<shared::BlockSummary>(device, input.blocks, "blocks");
+    for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 3000u, count}) {
         CAPTURE(kept);
-        const vk::Buffer selected(vulkan, rows.size() * kept * 4, vk::BufferUse::Readback, "selected");
-        const vk::Buffer counts(vulkan, rows.size() * 4, vk::BufferUse::Readback, "counts");
-        const vk::Buffer statistics(vulkan, rows.size() * 12, vk::BufferUse::Readback, "statistics");
-        vk::Commands commands(vulkan, "select test");
+        const vk::Buffer selected(device, rows.size() * kept * 4, vk::BufferUse::Readback, "selected");
+        const vk::Buffer counts(device, rows.size() * 4, vk::BufferUse::Readback, "counts");
+        const vk::Buffer statistics(device, rows.size() * 12, vk::BufferUse::Readback, "statistics");
+        vk::Commands commands(device, "select test");
         commands.begin();
-        commands.dispatch(select, {input, selected, counts, statistics},
+        commands.dispatch(select, {coefficients, blocks, selected, counts, statistics},
                           shared::RowsPush{uint32_t(rows.size()), kept},
                           {uint32_t(rows.size()) * select.groupSize()[0], 1, 1});
         commands.barrier(vk::Stage::Compute, vk::Stage::Host);
@@ -214,6 +300,23 @@ TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
             const std::vector<uint16_t> expected = selectLargest(rows[row], int(kept));
             const auto found = selected.map<uint32_t>().subspan(row * kept, counts.map<uint32_t>()[row]);
             CHECK(std::vector<uint16_t>(found.begin(), found.end()) == expected);
+            double dropped = 0;
+            for (size_t i = 0, next = 0; i < count; i++) {
+                if (next < expected.size() && expected[next] == i)
+                    next++;
+                else
+                    dropped += double(glm::dot(rows[row][i], rows[row][i]));
+            }
+            CHECK_LE(std::abs(double(statistics.map<shared::RowStatistics>()[row].dropped) - dropped),
+                     1e-4 * dropped);
         }
     }
+}
+
+} // namespace
+
+TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
+    const TestDevice device;
+    checkSelect(device, 32);
+    checkSelect(device, 64);
 }
