@@ -142,9 +142,11 @@ void checkCase(const vk::Device& device, const Case& c) {
 
 TEST_CASE("transport pass: every size and sampling gives its CPU twin's rows") {
     const TestDevice device;
-    for (const Case& c : {Case{64, 256, 1, 96, 2}, Case{64, 256, 4, 96, 1}, Case{64, 256, 16, 96, 1},
-                          Case{64, 128, 4, 33, 1}, Case{64, 64, 1, 1, 2}, Case{32, 256, 1, 300, 1},
-                          Case{32, 128, 16, 96, 1}, Case{32, 64, 4, 96, 1, DiskMapping::Polar}})
+    for (const Case& c :
+         {Case{64, 256, 1, 96, 2}, Case{64, 256, 4, 96, 1}, Case{64, 256, 16, 96, 1}, Case{64, 128, 4, 33, 1},
+          Case{64, 64, 1, 1, 2}, Case{32, 256, 1, 300, 1}, Case{32, 128, 16, 96, 5},
+          Case{32, 64, 4, 96, 1, DiskMapping::Polar}, Case{64, 128, 1, 96, 2, DiskMapping::Polar},
+          Case{64, 128, 1, 96, 5, DiskMapping::EqualArea}, Case{32, 64, 1, 96, 32, DiskMapping::EqualArea}})
         checkCase(device, c);
 }
 
