@@ -18,6 +18,8 @@ layout(constant_id = 1) const uint kVisibilitySize = 256; // a multiple of F, at
 layout(constant_id = 2) const uint kSamplesPerSide = 1;  // evaluations a side of a lighting texel
 layout(constant_id = 3) const uint kMapSize = 48;
 layout(constant_id = 4) const uint kMapping = 0;
+// Without a loop over terms, the places of all 16 lookups need not be kept: a quarter faster on lavapipe.
+layout(constant_id = 5) const bool kOneTerm = false;
 
 layout(push_constant, scalar) uniform Push { TransportPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
@@ -99,7 +101,7 @@ void main() {
         Place places[16];
         if (kSamplesPerSide == 1)
             for (uint i = 0; i < 16; i++) places[i] = placeOf(block, uvec2(i % 4, i / 4), face, frame);
-        for (uint term = 0; term < push.terms; term++) {
+        for (uint term = 0; term < (kOneTerm ? 1 : push.terms); term++) {
             const int layer = int(3 * (push.firstTerm + term));
             vec3 texels[16];
             for (uint i = 0; i < 16; i++) {

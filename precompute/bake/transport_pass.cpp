@@ -101,7 +101,7 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
     mTransport = {device,
                   transport_comp_spirv,
                   {mFaceSize, uint32_t(options.visibilitySize), samplesPerSide, uint32_t(brdf.size),
-                   uint32_t(brdf.mapping)},
+                   uint32_t(brdf.mapping), uint32_t(terms == 1)},
                   "transport"};
     mHaar = {device, haar_comp_spirv, {mFaceSize, 6 * (mFaceSize / 16) * (mFaceSize / 16)}, "haar"};
     mSelect = {device, select_comp_spirv, {mFaceSize}, "select"};
