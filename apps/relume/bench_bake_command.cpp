@@ -29,7 +29,7 @@ struct Arguments {
     bool json = false;
 };
 
-constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Raster};
+constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Raster, VisibilityMethod::Traced};
 
 // Every figure of one path, a value for each repetition.
 struct PathSeries {

@@ -293,7 +293,8 @@ TEST_CASE("cli: bench bake prints every path's figures as JSON") {
     CHECK_GT(found["bandwidth"]["device_gb_per_s"], 0);
     CHECK_GT(found["bandwidth"]["host_gb_per_s"], 0);
     for (const auto& [path, throughput] :
-         {std::pair("cpu", "rays_per_second"), std::pair("raster", "triangles_per_second")}) {
+         {std::pair("cpu", "rays_per_second"), std::pair("raster", "triangles_per_second"),
+          std::pair("traced", "rays_per_second")}) {
         CAPTURE(path);
         const auto& figures = found["paths"][path];
         CHECK_GT(figures["ms_per_vertex"], 0);
