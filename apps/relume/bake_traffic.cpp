@@ -20,11 +20,13 @@ std::optional<double> BakeTraffic::cpu(const std::string& stage) const {
 
 std::optional<double> BakeTraffic::device(const std::string& stage) const {
     constexpr double kTriangleIndices = 12, kCoefficient = 16, kIndex = 4, kValue = 4;
+    const double summaries = mCoefficients / 15 * 8; // a block of 15 coefficients each
     if (stage == "visibility draw") return mTexels + mTriangles * kTriangleIndices; // a byte a texel
     if (stage == "visibility pack") return 3 * mTexels + mTexels / 8;               // copied, then packed
     if (stage == "visibility trace") return mTexels / 8;
-    if (stage == "transport") return mTexels / 8 + mCoefficients * kCoefficient;
-    if (stage == "select") return mCoefficients * kCoefficient + mKept * kIndex;
+    if (stage == "transport") return mTexels / 8 + mCoefficients * kCoefficient + summaries;
+    if (stage == "haar") return 2 * mCoefficients / 16 * kCoefficient; // of averages
+    if (stage == "select") return summaries + mKept * (kCoefficient + kIndex);
     if (stage == "quantise") return mKept * (kIndex + kCoefficient + kValue);
     if (stage == "compact") return mKept * 2 * (kIndex + kValue);
     return std::nullopt;
