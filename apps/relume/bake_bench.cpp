@@ -197,9 +197,11 @@ SampleRun DevicePath::run() {
     vk::PassTimes before;
     for (const Part& part : mParts)
         for (const auto& [name, seconds] : part.passes->times()) vk::addTime(before, name, -seconds);
-    TransportLosses losses;
     SampleRun run = timeRun(mSample, [&](size_t part, auto points, auto transports) {
-        mParts[part].passes->bake(points, transports, losses);
+        std::vector<BakedRows> rows;
+        for (const SparseTransport* transport : transports) rows.emplace_back(transport->terms);
+        mParts[part].passes->bake(points, rows);
+        for (size_t set = 0; set < rows.size(); set++) *transports[set] = std::move(rows[set].transport);
     });
     run.stages = before;
     for (const Part& part : mParts)

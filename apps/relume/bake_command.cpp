@@ -1,9 +1,14 @@
+#include "apps/relume/bake_report.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/interrupt.h"
+#include "precompute/thread_limit.h"
 
+#include <algorithm>
+#include <optional>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -15,7 +20,9 @@ struct Arguments {
     BakeArguments bake;
     DeviceArguments device;
     std::filesystem::path output, timings;
-    bool quiet = false;
+    BakeLimits limits;
+    int threads = 0; // as many as there are
+    bool quiet = false, json = false;
 };
 
 // Outputs are tried before the work, not after it.
@@ -27,9 +34,39 @@ void checkOutputs(const Arguments& arguments) {
     if (!arguments.timings.empty()) expectWritable(arguments.timings);
 }
 
+// Bakes, and says what was made; ends the command where it was stopped.
+BakeSummary bakeStoppably(const vk::Device& device, Scene scene, const Arguments& arguments,
+                          ReportStyle style) {
+    BakeReport report(style, true);
+    try {
+        const BakeSummary summary = bakeToFile(device, std::move(scene), arguments.bake.options,
+                                               arguments.output, arguments.limits, report);
+        const auto bytes = std::filesystem::file_size(arguments.output);
+        const uint64_t baked = summary.vertices - summary.resumed;
+        report.event("done", {{"output", arguments.output.string()},
+                              {"bytes", bytes},
+                              {"vertices", summary.vertices},
+                              {"baked", baked},
+                              {"seconds", summary.times.total}});
+        spdlog::info("{}: {:.1f} MB, {} vertices in {:.1f} s ({:.2f} ms each) on {}",
+                     arguments.output.string(), double(bytes) * 1e-6, baked, summary.times.total,
+                     1e3 * summary.times.total / double(std::max<uint64_t>(baked, 1)), device.name());
+        return summary;
+    } catch (const BakeStopped&) {
+        report.event("stopped", {{"signal", caughtInterrupt()},
+                                 {"done", report.done()},
+                                 {"vertices", report.vertices()},
+                                 {"checkpoint", checkpointPath(arguments.output).string()}});
+        spdlog::warn("stopped after {} of {} vertices, kept in {}; the same command goes on from there",
+                     report.done(), report.vertices(), checkpointPath(arguments.output).string());
+        throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
+    }
+}
+
 void run(Arguments& arguments) {
     arguments.bake.resolve();
-    const BakeOptions& options = arguments.bake.options;
+    std::optional<ThreadLimit> threadLimit;
+    if (arguments.threads > 0) threadLimit.emplace(arguments.threads);
     checkOutputs(arguments);
     Scene scene = arguments.scene.load();
     const std::unique_ptr<vk::Device> device = arguments.device.open();
@@ -37,16 +74,14 @@ void run(Arguments& arguments) {
         spdlog::info("{}: {} vertices, {} triangles, {}", part.name, part.mesh.vertexCount(),
                      part.mesh.triangleCount(), part.material);
 
-    BakeTimes times;
-    Asset asset = bakeWithProgress(*device, std::move(scene), options, arguments.quiet, times);
-    asset.provenance.program = "relume " RELUME_VERSION;
-    writeAsset(arguments.output, asset);
-    const uint64_t vertices = vertexCount(asset);
-    spdlog::info("{}: {:.1f} MB, {} vertices in {:.1f} s ({:.2f} ms each) on {}", arguments.output.string(),
-                 double(std::filesystem::file_size(arguments.output)) * 1e-6, vertices, times.total,
-                 1e3 * times.total / double(vertices), device->name());
+    const ReportStyle style = arguments.json    ? ReportStyle::Json
+                              : arguments.quiet ? ReportStyle::Quiet
+                                                : ReportStyle::Text;
+    const BakeSummary summary = bakeStoppably(*device, std::move(scene), arguments, style);
+    const BakeTimes& times = summary.times;
+    const uint64_t baked = std::max<uint64_t>(summary.vertices - summary.resumed, 1);
     if (!arguments.timings.empty())
-        writeFileAtomically(arguments.timings, describeTimes(times, vertices).dump(2) + "\n");
+        writeFileAtomically(arguments.timings, describeTimes(times, baked).dump(2) + "\n");
     DeviceArguments::expectNoMessages(*device);
 }
 
@@ -62,11 +97,24 @@ void addBakeCommand(CLI::App& program) {
     arguments->bake.add(*command);
     arguments->device.add(*command);
     command->add_option("--timings", arguments->timings, "Write stage timings as JSON")->type_name("FILE");
+    command
+        ->add_option("--memory", arguments->limits.memory,
+                     "Most memory that a batch of vertices may take, on device and host: 512M, 2G")
+        ->type_name("SIZE")
+        ->transform(CLI::AsSizeValue(false));
+    command->add_option("--threads", arguments->threads, "Most host threads that work at a time")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
+    command->add_flag("--json", arguments->json,
+                      "Print events on stdout, a JSON object a line: docs/baking.md lists them");
     command->footer(
         "With no INPUT it bakes a built-in torus knot: relume bake -o knot.relume\n"
         "A material with parameters: -m '{\"model\": \"ashikhmin-shirley\", \"nu\": 50, \"nv\": 50}'\n"
-        "`relume materials` lists presets and models.");
+        "`relume materials` lists presets and models.\n"
+        "What is baked is kept in FILE.checkpoint until all is done: after Ctrl-C, a crash or a full disk "
+        "the\n"
+        "same command goes on from there. Stopped by Ctrl-C it exits with 130, by SIGTERM with 143.");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -54,7 +54,8 @@ int main(int argc, char** argv) {
     program.footer(
         "Try: relume bake -o knot.relume && relume render knot.relume -o knot.png\n"
         "`relume COMMAND --help` explains each command.\n"
-        "Exit codes: 0 done, 1 failed, 2 usage, 3 comparison over its threshold, 4 no usable device.");
+        "Exit codes: 0 done, 1 failed, 2 usage, 3 comparison over its threshold, 4 no usable device,\n"
+        "130 stopped by Ctrl-C, 143 stopped by SIGTERM.");
     addBakeCommand(program);
     addRenderCommand(program);
     addReferenceCommand(program);

@@ -1,8 +1,8 @@
 #include "apps/relume/scene_arguments.h"
 
+#include "apps/relume/bake_report.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
-#include "engine/base/progress.h"
 #include "precompute/brdf/material_json.h"
 #include "precompute/brdf/material_list.h"
 
@@ -146,11 +146,8 @@ void BakeArguments::resolve() {
 
 Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions& options, bool quiet,
                        BakeTimes& times) {
-    uint64_t vertices = 0;
-    for (const Part& part : scene.parts) vertices += part.mesh.vertexCount();
-    Progress progress("baking", vertices, "vertices", quiet);
-    return bake(
-        device, std::move(scene), options, [&](uint64_t done) { progress.update(done); }, &times);
+    BakeReport report(quiet ? ReportStyle::Quiet : ReportStyle::Text, false);
+    return bake(device, std::move(scene), options, report, &times);
 }
 
 uint64_t vertexCount(const Asset& asset) {

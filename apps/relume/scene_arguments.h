@@ -52,7 +52,7 @@ struct BakeArguments {
     std::string mOccluder = "full", mVisibility = "traced";
 };
 
-// Bakes with progress on stderr, and says afterwards what was made.
+// Bakes in memory with progress on stderr.
 Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions& options, bool quiet,
                        BakeTimes& times);
 

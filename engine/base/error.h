@@ -14,6 +14,7 @@ enum ExitCode : int {
     kExitUsage = 2,
     kExitOverThreshold = 3,
     kExitNoDevice = 4,
+    kExitStopped = 128, // + the signal's number
 };
 
 // Bad input or a failing environment: exit code 1.

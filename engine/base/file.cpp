@@ -30,13 +30,18 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit)
     return bytes;
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
+// Refuses what is no regular file, and follows symbolic links to the file that is to be replaced.
+void AtomicFile::resolve() {
     std::error_code failure;
     const auto status = std::filesystem::status(mPath, failure);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         throw Error("{}: cannot be written: it is a folder, pipe or device; name a regular file",
                     mPath.string());
     if (std::filesystem::is_symlink(mPath, failure)) mPath = std::filesystem::weakly_canonical(mPath);
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
+    resolve();
     std::string pattern = mPath.string() + ".XXXXXX";
     mDescriptor = mkstemp(pattern.data());
     if (mDescriptor < 0)
@@ -47,6 +52,15 @@ AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
     const mode_t mask = umask(0);
     umask(mask);
     (void)fchmod(mDescriptor, 0666 & ~mask);
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path, const std::string& suffix) : mPath(std::move(path)) {
+    resolve();
+    mTemporary = mPath.string() + suffix;
+    mDescriptor = open(mTemporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (mDescriptor < 0)
+        throw Error("{}: cannot be written: {}; is its folder there and writable?", mTemporary.string(),
+                    std::strerror(errno));
 }
 
 AtomicFile::~AtomicFile() {
@@ -73,6 +87,12 @@ void AtomicFile::commit() {
         throw Error("{}: cannot be written: {}", mPath.string(), std::strerror(errno));
     close(mDescriptor);
     mDescriptor = -1;
+    // The new name outlives a crash of the machine only once its folder is on the disk.
+    const std::filesystem::path folder = mPath.parent_path();
+    const int directory = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+    if (directory < 0) return;
+    (void)fsync(directory);
+    close(directory);
 }
 
 void expectWritable(const std::filesystem::path& path) { const AtomicFile probe(path); }

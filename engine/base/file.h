@@ -20,6 +20,9 @@ class AtomicFile {
     // Creates the temporary file, beside the file that a symbolic link leads to. Throws Error when the folder
     // cannot be written, or `path` is something else than a regular file (a device, a folder).
     explicit AtomicFile(std::filesystem::path path);
+    // The same with a temporary file of a name of its own, `path` + `suffix`, so that one left behind by a
+    // killed process is used again. The caller keeps others from writing the same file.
+    AtomicFile(std::filesystem::path path, const std::string& suffix);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -34,6 +37,8 @@ class AtomicFile {
     void commit();
 
   private:
+    void resolve();
+
     std::filesystem::path mPath;
     std::filesystem::path mTemporary;
     int mDescriptor = -1;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -13,5 +14,18 @@ uint64_t hash64(std::span<const std::byte> bytes);
 
 // 128-bit content hash of the bytes, as 32 hexadecimal digits.
 std::string hashText(std::span<const std::byte> bytes);
+
+// The same of bytes that come piece by piece.
+class Hasher {
+  public:
+    Hasher();
+    ~Hasher();
+    void add(std::span<const std::byte> bytes);
+    std::string text() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
 
 } // namespace relume

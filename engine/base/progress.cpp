@@ -1,5 +1,6 @@
 #include "engine/base/progress.h"
 
+#include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -34,38 +35,52 @@ Progress::~Progress() {
 }
 
 void Progress::update(uint64_t done) {
-    if (mQuiet || mTotal == 0) return;
-    const Clock::time_point now = Clock::now();
-    const double seconds = secondsBetween(mStart, now);
-    if (seconds < kSilentSeconds) return;
-    if (mTerminal) {
-        if (done < mTotal && secondsBetween(mLastPrint, now) < kRedrawSeconds) return;
-    } else {
-        if (done * 10 < mTotal * mNextTenth) return;
-        mNextTenth = done * 10 / mTotal + 1;
-    }
-    mLastPrint = now;
-    print(done, seconds);
+    if (mTotal == 0) return;
+    const double seconds = secondsBetween(mStart, Clock::now());
+    const double fraction = double(done) / double(mTotal);
+    update({done, fraction, seconds > 0 ? double(done) / seconds : 0,
+            done > 0 ? seconds / fraction - seconds : 0});
 }
 
-void Progress::print(uint64_t done, double seconds) {
-    const double fraction = double(done) / double(mTotal);
-    const double rate = double(done) / seconds;
-    const std::string left = done == 0 || done >= mTotal
+void Progress::update(const State& state) {
+    if (mQuiet || mTotal == 0) return;
+    const Clock::time_point now = Clock::now();
+    if (secondsBetween(mStart, now) < kSilentSeconds) return;
+    if (mTerminal) {
+        if (state.done < mTotal && secondsBetween(mLastPrint, now) < kRedrawSeconds) return;
+    } else {
+        const auto tenths = uint64_t(state.fraction * 10);
+        if (tenths < mNextTenth) return;
+        mNextTenth = tenths + 1;
+    }
+    mLastPrint = now;
+    print(state);
+}
+
+void Progress::setTitle(std::string title) {
+    mTitle = std::move(title);
+    if (mQuiet || !mTerminal) return;
+    fmt::print(stderr, "\r{}\033[K", mTitle);
+    std::fflush(stderr);
+    mLineOpen = true;
+}
+
+void Progress::print(const State& state) {
+    const std::string left = state.done == 0 || state.done >= mTotal
                                  ? ""
-                                 : fmt::format(", {} left", durationText(seconds / fraction - seconds));
-    const std::string text = fmt::format("{} {:3.0f} %  {}/{} {}, {:.0f}/s{}", mTitle, 100 * fraction, done,
-                                         mTotal, mUnit, rate, left);
+                                 : fmt::format(", {} left", durationText(state.secondsLeft));
+    const std::string text = fmt::format("{} {:3.0f} %  {}/{} {}, {:.0f}/s{}", mTitle, 100 * state.fraction,
+                                         state.done, mTotal, mUnit, state.perSecond, left);
     if (!mTerminal) {
         fmt::print(stderr, "{}\n", text);
         return;
     }
     constexpr int kWidth = 24;
-    const int filled = int(fraction * kWidth);
+    const int filled = int(state.fraction * kWidth);
     fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(size_t(filled), '='),
                std::string(size_t(kWidth - filled), ' '), text);
     mLineOpen = true;
-    if (done >= mTotal) {
+    if (state.done >= mTotal) {
         fmt::print(stderr, "\n");
         mLineOpen = false;
     }

@@ -17,11 +17,21 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    // Where work stands whose items differ in cost.
+    struct State {
+        uint64_t done;
+        double fraction, perSecond, secondsLeft;
+    };
+
     // Says that `done` items are finished.
     void update(uint64_t done);
+    void update(const State& state);
+
+    // The stage in hand: shown at once on a terminal.
+    void setTitle(std::string title);
 
   private:
-    void print(uint64_t done, double seconds);
+    void print(const State& state);
 
     std::string mTitle, mUnit;
     uint64_t mTotal;

@@ -1,11 +1,22 @@
 #include "engine/transport/asset.h"
 
+#include "engine/transport/transport_chunk.h"
+
+#include <algorithm>
+
 namespace relume {
 
 Bounds boundsOf(const Asset& asset) {
     Bounds bounds;
     for (const AssetPart& part : asset.parts) bounds.add(boundsOf(part.mesh));
     return bounds;
+}
+
+uint32_t blockVertices(const Asset& asset) {
+    int terms = 1;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets) terms = std::max(terms, set.brdf.terms);
+    return blockVertices(asset.coefficients, terms);
 }
 
 } // namespace relume

@@ -69,6 +69,9 @@ struct Asset {
 
 Bounds boundsOf(const Asset& asset);
 
+// Vertices of a block of this asset (transport_chunk.h).
+uint32_t blockVertices(const Asset& asset);
+
 // Bytes of the file. The same asset gives the same bytes.
 std::vector<std::byte> encodeAsset(const Asset& asset);
 

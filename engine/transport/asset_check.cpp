@@ -85,33 +85,6 @@ bool isWithinMaxima(uint32_t packed) {
     return value.x >= -kRedMaximum && value.y >= -kGreenMaximum && value.z >= -kBlueMaximum;
 }
 
-void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
-                    const std::string& where) {
-    expectCount(transport.rowStarts.size(), transport.rows() + 1, where, "row starts");
-    expectCount(transport.scales.size(), transport.rows(), where, "scales");
-    expectCount(transport.indices.size(), transport.entries(), where, "indices");
-    expect(transport.rowStarts.front() == 0 && transport.rowStarts.back() == transport.entries(), where,
-           "rows that span all entries");
-    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
-           "scales that are finite and not negative");
-    for (size_t row = 0; row < transport.rows(); row++) {
-        const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
-        if (end < start || end - start > longestRow || end > transport.entries())
-            throw Error("{}: row {}: expected at most {} entries, found entries {} to {}", where, row,
-                        longestRow, start, end);
-        uint32_t next = 0;
-        for (uint64_t entry = start; entry < end; entry++) {
-            const uint32_t index = transport.indices[entry];
-            if (index < next || index >= coefficients)
-                throw Error("{}: row {}: expected rising indices below {}, found {}", where, row,
-                            coefficients, index);
-            next = index + 1;
-        }
-    }
-    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
-           "values within ±1023 in red and green and ±511 in blue");
-}
-
 void checkTexture(const Texture& texture, const Mesh& mesh, const std::string& where) {
     expectRange(texture.width, 1, kLongestTextureSide, where, "a texture's width");
     expectRange(texture.height, 1, kLongestTextureSide, where, "a texture's height");
@@ -157,25 +130,64 @@ void checkMaterials(const AssetPart& part, const std::string& where) {
     expect(std::ranges::adjacent_find(names) == names.end(), where, "materials of different names");
 }
 
+std::string partName(const Asset& asset, size_t number, const std::string& name) {
+    return fmt::format("{}: part {} (\"{}\")", name, number, asset.parts[number].name);
+}
+
 } // namespace
 
-void checkAsset(const Asset& asset, const std::string& name) {
+void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
+                    const std::string& where) {
+    expectCount(transport.rowStarts.size(), transport.rows() + 1, where, "row starts");
+    expectCount(transport.scales.size(), transport.rows(), where, "scales");
+    expectCount(transport.indices.size(), transport.entries(), where, "indices");
+    expect(transport.rowStarts.front() == 0 && transport.rowStarts.back() == transport.entries(), where,
+           "rows that span all entries");
+    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
+           "scales that are finite and not negative");
+    for (size_t row = 0; row < transport.rows(); row++) {
+        const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
+        if (end < start || end - start > longestRow || end > transport.entries())
+            throw Error("{}: row {}: expected at most {} entries, found entries {} to {}", where, row,
+                        longestRow, start, end);
+        uint32_t next = 0;
+        for (uint64_t entry = start; entry < end; entry++) {
+            const uint32_t index = transport.indices[entry];
+            if (index < next || index >= coefficients)
+                throw Error("{}: row {}: expected rising indices below {}, found {}", where, row,
+                            coefficients, index);
+            next = index + 1;
+        }
+    }
+    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
+           "values within ±1023 in red and green and ±511 in blue");
+}
+
+void checkSkeleton(const Asset& asset, const std::string& name) {
     checkSettings(asset, name);
     checkTriangles(asset.occluder, name + ": occluder");
     expect(!asset.parts.empty(), name, "at least one part");
+    for (size_t i = 0; i < asset.parts.size(); i++) {
+        const AssetPart& part = asset.parts[i];
+        const std::string where = partName(asset, i, name);
+        checkMesh(part.mesh, where);
+        checkPaint(part, where);
+        for (const MaterialSet& set : part.sets) checkBrdf(set.brdf, where);
+        checkMaterials(part, where);
+    }
+}
+
+void checkAsset(const Asset& asset, const std::string& name) {
+    checkSkeleton(asset, name);
     const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
     for (size_t i = 0; i < asset.parts.size(); i++) {
         const AssetPart& part = asset.parts[i];
-        const std::string where = fmt::format("{}: part {} (\"{}\")", name, i, part.name);
-        checkMesh(part.mesh, where);
-        checkPaint(part, where);
+        const std::string where = partName(asset, i, name);
         for (const MaterialSet& set : part.sets) {
-            checkBrdf(set.brdf, where);
             expectCount(set.transport.vertices, part.mesh.vertexCount(), where, "vertices with transport");
             expectCount(set.transport.terms, size_t(set.brdf.terms), where, "transport terms");
             checkTransport(set.transport, coefficients, uint64_t(asset.coefficients), where);
         }
-        checkMaterials(part, where);
     }
 }
 

@@ -1,11 +1,12 @@
 // From an asset to the bytes of its file and back: docs/asset_format.md.
+#include "engine/transport/asset_file.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/transport/asset.h"
+#include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
 #include "engine/transport/byte_stream.h"
-#include "engine/transport/chunk_file.h"
 #include "engine/transport/transport_chunk.h"
 
 #include <algorithm>
@@ -15,14 +16,6 @@ namespace relume {
 
 namespace {
 
-constexpr ChunkTag kMeta = chunkTag("META");
-constexpr ChunkTag kOccluderPositions = chunkTag("OPOS"), kOccluderTriangles = chunkTag("OTRI");
-constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), kTriangles = chunkTag("MTRI"),
-                   kUvs = chunkTag("MUVS"), kColors = chunkTag("MCOL");
-constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
-constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
-                   kEigenvalues = chunkTag("EIGV");
-constexpr ChunkTag kTransport = chunkTag("TRAN");
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals, kTriangles, kUvs, kColors, kBaseColor, kMaterialMap};
 constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport};
@@ -47,11 +40,10 @@ void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector
     }
 }
 
-void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport) {
-    VertexRun run{0, 0};
-    for (uint32_t number = 0; run.end < transport.vertices; number++) {
-        run = nextRun(transport, run.end);
-        file.add(kTransport, owner, number, encodeRun(transport, run));
+void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport, uint32_t block) {
+    for (uint32_t run = 0; run * uint64_t(block) < transport.vertices; run++) {
+        const uint32_t first = run * block, end = std::min(transport.vertices - first, block) + first;
+        file.add(kTransport, owner, run, encodeRun(transport, {first, end}));
     }
 }
 
@@ -159,33 +151,32 @@ void checkTags(const ChunkFile& file, size_t parts, size_t sets) {
 
 } // namespace
 
-std::vector<std::byte> encodeAsset(const Asset& asset) {
-    checkAsset(asset, "the bake");
-    ChunkWriter file;
-    const std::string meta = encodeMeta(asset);
+void addChunks(ChunkWriter& file, const Asset& asset, std::span<const uint64_t> setEntries,
+               const std::function<void(uint32_t set)>& addTransport) {
+    const std::string meta = encodeMeta(asset, setEntries);
     file.add(kMeta, kWholeFile, 0, std::as_bytes(std::span(meta)));
-    addArray(file, kOccluderPositions, kWholeFile, asset.occluder.positions);
-    addArray(file, kOccluderTriangles, kWholeFile, asset.occluder.triangles);
-    uint32_t setNumber = 0;
-    for (uint32_t number = 0; number < asset.parts.size(); number++) {
-        const AssetPart& part = asset.parts[number];
-        addArray(file, kPositions, number, part.mesh.positions);
-        addArray(file, kNormals, number, part.mesh.normals);
-        addArray(file, kTriangles, number, part.mesh.triangles);
-        addArray(file, kUvs, number, part.mesh.uvs);
-        addArray(file, kColors, number, part.mesh.colors);
-        if (part.baseColor) addArray(file, kBaseColor, number, part.baseColor->texels);
-        if (part.materialMap) addArray(file, kMaterialMap, number, part.materialMap->texels);
-        for (const MaterialSet& set : part.sets) {
-            addArray(file, kLightMaps, setNumber, set.brdf.lightMaps);
-            addArray(file, kViewMaps, setNumber, set.brdf.viewMaps);
-            addArray(file, kEigenvalues, setNumber, set.brdf.eigenvalues);
-            addTransport(file, setNumber, set.transport);
-            setNumber++;
-        }
-    }
-    return file.finish();
+    forEachArray(
+        asset,
+        [&](ChunkTag tag, uint32_t owner, const auto& elements) { addArray(file, tag, owner, elements); },
+        [&](uint32_t number, const MaterialSet&) { addTransport(number); });
 }
+
+static ChunkWriter chunksOf(const Asset& asset) {
+    checkAsset(asset, "the bake");
+    std::vector<const SparseTransport*> transports;
+    std::vector<uint64_t> entries;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets) {
+            transports.push_back(&set.transport);
+            entries.push_back(set.transport.entries());
+        }
+    ChunkWriter file;
+    const uint32_t block = blockVertices(asset);
+    addChunks(file, asset, entries, [&](uint32_t set) { addTransport(file, set, *transports[set], block); });
+    return file;
+}
+
+std::vector<std::byte> encodeAsset(const Asset& asset) { return chunksOf(asset).finish(); }
 
 Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
     const ChunkFile file(bytes, name);
@@ -208,7 +199,9 @@ Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
 }
 
 void writeAsset(const std::filesystem::path& path, const Asset& asset) {
-    writeFileAtomically(path, encodeAsset(asset));
+    AtomicFile file(path);
+    chunksOf(asset).finish([&](std::span<const std::byte> bytes) { file.write(bytes); });
+    file.commit();
 }
 
 Asset readAsset(const std::filesystem::path& path) { return decodeAsset(readFile(path), path.string()); }

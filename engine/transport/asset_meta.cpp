@@ -77,7 +77,7 @@ class Reader {
     std::string mWhere;
 };
 
-Json setJson(const MaterialSet& set) {
+Json setJson(const MaterialSet& set, uint64_t entries) {
     Json materials = Json::array();
     for (const AssetMaterial& material : set.materials)
         materials.push_back({{"name", material.name},
@@ -89,14 +89,15 @@ Json setJson(const MaterialSet& set) {
             {"layers", set.brdf.layers},
             {"mapSize", set.brdf.size},
             {"mapping", diskMappingName(set.brdf.mapping)},
-            {"entries", set.transport.entries()}};
+            {"entries", entries}};
 }
 
 Json textureJson(const Texture& texture) {
     return {{"width", texture.width}, {"height", texture.height}, {"srgb", texture.srgb}};
 }
 
-Json partJson(const AssetPart& part) {
+// Takes the entries of the part's sets off the front of `setEntries`.
+Json partJson(const AssetPart& part, std::span<const uint64_t>& setEntries) {
     Json json = {{"name", part.name},
                  {"vertices", part.mesh.vertexCount()},
                  {"triangles", part.mesh.triangleCount()},
@@ -106,7 +107,10 @@ Json partJson(const AssetPart& part) {
     if (part.baseColor) json["baseColor"] = textureJson(*part.baseColor);
     if (part.materialMap) json["materialMap"] = textureJson(*part.materialMap);
     json["sets"] = Json::array();
-    for (const MaterialSet& set : part.sets) json["sets"].push_back(setJson(set));
+    for (const MaterialSet& set : part.sets) {
+        json["sets"].push_back(setJson(set, setEntries.front()));
+        setEntries = setEntries.subspan(1);
+    }
     return json;
 }
 
@@ -169,9 +173,9 @@ Json parseBounded(std::string_view text, const std::string& where) {
 
 } // namespace
 
-std::string encodeMeta(const Asset& asset) {
+std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries) {
     Json parts = Json::array();
-    for (const AssetPart& part : asset.parts) parts.push_back(partJson(part));
+    for (const AssetPart& part : asset.parts) parts.push_back(partJson(part, setEntries));
     const Json meta = {
         {"faceSize", asset.faceSize},
         {"visibilitySize", asset.visibilitySize},

@@ -3,6 +3,7 @@
 
 #include "engine/transport/asset.h"
 
+#include <span>
 #include <string_view>
 
 namespace relume {
@@ -25,8 +26,9 @@ struct AssetMeta {
     std::vector<uint64_t> setEntries;  // one per set, over all parts: entries of its transport
 };
 
-// Bytes that are not UTF-8 become U+FFFD. Throws Error when the text passes kLargestMeta.
-std::string encodeMeta(const Asset& asset);
+// `setEntries`: one per set, over all parts: entries of its transport. Bytes that are not UTF-8 become
+// U+FFFD. Throws Error when the text passes kLargestMeta.
+std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries);
 
 // Throws Error for anything that is not such JSON, or with numbers that do not fit their fields; whether
 // they make sense together is for checkAsset to say. `name` stands for the file in errors.

@@ -68,38 +68,63 @@ std::string tagText(ChunkTag tag) {
     return text;
 }
 
-void ChunkWriter::add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw) {
+StoredChunk storeChunk(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw) {
     RELUME_CHECK(!raw.empty() && raw.size() <= kLargestChunk);
-    const size_t start = mData.size();
-    mData.resize(start + ZSTD_compressBound(raw.size()));
-    size_t stored =
-        ZSTD_compress(mData.data() + start, mData.size() - start, raw.data(), raw.size(), kCompressionLevel);
+    std::vector<std::byte> bytes(ZSTD_compressBound(raw.size()));
+    const size_t stored =
+        ZSTD_compress(bytes.data(), bytes.size(), raw.data(), raw.size(), kCompressionLevel);
     if (ZSTD_isError(stored)) throw Error("compression failed: {}", ZSTD_getErrorName(stored));
-    if (stored >= raw.size() || !withinRatio(raw.size(), stored)) {
-        std::copy(raw.begin(), raw.end(), mData.begin() + ptrdiff_t(start));
-        stored = raw.size();
+    if (stored >= raw.size() || !withinRatio(raw.size(), stored))
+        bytes.assign(raw.begin(), raw.end());
+    else
+        bytes.resize(stored);
+    const ChunkEntry entry{tag, owner, run, 0, bytes.size(), raw.size(), hash64(bytes)};
+    return {entry, std::move(bytes)};
+}
+
+void ChunkWriter::add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw) {
+    StoredChunk chunk = storeChunk(tag, owner, run, raw);
+    chunk.entry.offset = mData.size();
+    mData.insert(mData.end(), chunk.bytes.begin(), chunk.bytes.end());
+    mPieces.push_back({chunk.entry, nullptr});
+}
+
+void ChunkWriter::addStored(const ChunkEntry& entry, Load load) {
+    mPieces.push_back({entry, std::move(load)});
+}
+
+void ChunkWriter::finish(const Output& output) {
+    uint64_t offset = kHeaderBytes + mPieces.size() * kEntryBytes;
+    ByteWriter table;
+    for (const Piece& piece : mPieces) {
+        ChunkEntry entry = piece.entry;
+        entry.offset = offset;
+        offset += entry.storedSize;
+        putEntry(table, entry);
     }
-    mData.resize(start + stored);
-    mEntries.push_back(
-        {tag, owner, run, start, stored, raw.size(), hash64(std::span(mData).subspan(start, stored))});
+    ByteWriter header;
+    header.put(std::as_bytes(std::span(kMagic)));
+    header.put(kAssetFormatVersion);
+    header.put(uint32_t(mPieces.size()));
+    header.put(offset);
+    header.put(headerChecksum(header.bytes(), table.bytes()));
+    output(header.bytes());
+    output(table.bytes());
+    for (const Piece& piece : mPieces) {
+        if (!piece.load) {
+            output(std::span(mData).subspan(piece.entry.offset, piece.entry.storedSize));
+            continue;
+        }
+        const std::vector<std::byte> bytes = piece.load();
+        RELUME_CHECK_EQ(bytes.size(), piece.entry.storedSize);
+        output(bytes);
+    }
 }
 
 std::vector<std::byte> ChunkWriter::finish() {
-    const uint64_t dataStart = kHeaderBytes + mEntries.size() * kEntryBytes;
-    ByteWriter table;
-    for (ChunkEntry entry : mEntries) {
-        entry.offset += dataStart;
-        putEntry(table, entry);
-    }
-    ByteWriter file;
-    file.put(std::as_bytes(std::span(kMagic)));
-    file.put(kAssetFormatVersion);
-    file.put(uint32_t(mEntries.size()));
-    file.put(dataStart + mData.size());
-    file.put(headerChecksum(file.bytes(), table.bytes()));
-    file.put(table.bytes());
-    file.put(mData);
-    return file.take();
+    std::vector<std::byte> file;
+    finish([&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+    return file;
 }
 
 ChunkFile::ChunkFile(std::span<const std::byte> bytes, std::string name)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -41,16 +42,36 @@ struct ChunkEntry {
     uint64_t checksum = 0;
 };
 
-// Collects chunks, compressing each as it comes, and gives the bytes of the file.
+// A chunk as it lies in a file, wherever that will be: its entry's offset is yet to be set.
+struct StoredChunk {
+    ChunkEntry entry;
+    std::vector<std::byte> bytes;
+};
+
+// Compresses 1 to kLargestChunk bytes.
+StoredChunk storeChunk(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw);
+
+// Collects chunks in file order, compressing each as it comes, and gives the bytes of the file.
 class ChunkWriter {
   public:
-    // 1 to kLargestChunk bytes.
-    void add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw);
+    // Gives the stored bytes of a chunk that is kept elsewhere.
+    using Load = std::function<std::vector<std::byte>()>;
+    // Takes the next bytes of the file.
+    using Output = std::function<void(std::span<const std::byte>)>;
 
+    void add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw);
+    // `load` is called once, by finish(), when the chunk's turn comes: no two are held at a time.
+    void addStored(const ChunkEntry& entry, Load load);
+
+    void finish(const Output& output);
     std::vector<std::byte> finish();
 
   private:
-    std::vector<ChunkEntry> mEntries;
+    struct Piece {
+        ChunkEntry entry; // without `load`, its offset is one into mData
+        Load load;
+    };
+    std::vector<Piece> mPieces;
     std::vector<std::byte> mData;
 };
 

@@ -1,6 +1,5 @@
 #include "engine/transport/transport_chunk.h"
 
-#include "engine/base/check.h"
 #include "engine/transport/byte_stream.h"
 
 #include <algorithm>
@@ -34,18 +33,12 @@ uint32_t correlate(uint32_t stored) {
     return packCoefficient({red + green, green, blue + (green >> 1)});
 }
 
-VertexRun nextRun(const SparseTransport& transport, uint32_t first) {
-    const size_t terms = transport.terms;
-    const uint64_t start = transport.rowStarts[first * terms];
-    uint32_t end = first;
-    while (end < transport.vertices && (end + 1 - first) * terms <= kRunRows &&
-           transport.rowStarts[(end + 1) * terms] - start <= kRunEntries)
-        end++;
-    RELUME_CHECK_LT(first, end);
-    return {first, end};
+uint32_t blockVertices(int coefficients, int terms) {
+    const size_t most = std::max<size_t>(kRunEntries / (size_t(coefficients) * size_t(terms)), 1);
+    return std::min(kMostBlockVertices, uint32_t(std::bit_floor(most)));
 }
 
-std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run) {
+std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run, uint32_t offset) {
     const size_t firstRow = size_t(run.first) * transport.terms, endRow = size_t(run.end) * transport.terms;
     const uint64_t start = transport.rowStarts[firstRow], end = transport.rowStarts[endRow];
     std::vector<uint16_t> lengths, gaps(end - start);
@@ -61,7 +54,7 @@ std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run
     }
     for (size_t i = 0; i < values.size(); i++) values[i] = decorrelate(transport.values[start + i]);
     ByteWriter out;
-    out.put(run.first);
+    out.put(offset + run.first);
     out.put(run.end - run.first);
     out.put(uint32_t(end - start));
     out.putPlanes<uint16_t>(lengths);

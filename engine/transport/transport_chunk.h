@@ -9,10 +9,16 @@
 
 namespace relume {
 
-// A run ends before the vertex that would take it past either limit; one vertex, at most 32 rows of
-// 24,576 entries, always fits.
+// Most entries and rows of a run that is written.
 constexpr size_t kRunEntries = size_t(1) << 20;
-constexpr size_t kRunRows = size_t(1) << 18;
+constexpr uint32_t kMostBlockVertices = 64;
+constexpr size_t kRunRows = kMostBlockVertices * size_t(32);
+
+// Vertices of a block: what is baked, kept in a checkpoint and written as one run. The largest power of two
+// up to kMostBlockVertices of which `terms` rows each of `coefficients` entries stay within kRunEntries; a
+// part's last block may be shorter. It depends on nothing else, so that neither a device nor an interruption
+// shows in a file.
+uint32_t blockVertices(int coefficients, int terms);
 
 // Bytes of a run before compression.
 constexpr size_t kRunHeaderBytes = 12, kRunRowBytes = 6, kRunEntryBytes = 6;
@@ -22,11 +28,8 @@ struct VertexRun {
     uint32_t first, end;
 };
 
-// The longest run from `first` on.
-VertexRun nextRun(const SparseTransport& transport, uint32_t first);
-
-// Wants valid rows: checkAsset comes first.
-std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run);
+// Wants valid rows (asset_check.h). Vertex 0 of `transport` is vertex `offset` of its set.
+std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run, uint32_t offset = 0);
 
 // Appends a run to `transport`, whose vertices and terms are set; rowStarts holds one more than the rows read
 // so far. Entries must have indices below `coefficients`, and must not pass `entryLimit` in all. `where`

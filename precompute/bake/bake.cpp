@@ -1,14 +1,13 @@
 #include "precompute/bake/bake.h"
 
-#include "precompute/bake/part_passes.h"
-#include "precompute/bake/vertex_order.h"
-#include "precompute/brdf/material_factory.h"
-#include "precompute/visibility/occluder.h"
+#include "engine/base/file.h"
+#include "engine/transport/asset_file.h"
+#include "engine/transport/transport_chunk.h"
+#include "precompute/bake/checkpoint.h"
 
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <spdlog/spdlog.h>
+#include <numeric>
 
 namespace relume {
 
@@ -16,127 +15,166 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void bakePart(const vk::Device& device, const Asset& asset, const BakeOptions& options, AssetPart& part,
-              TransportLosses& losses, BakeTimes& times, const BakeProgress& progress) {
-    const auto vertices = uint32_t(part.mesh.vertexCount());
-    for (MaterialSet& set : part.sets) {
-        set.transport.vertices = vertices;
-        set.transport.terms = uint32_t(set.brdf.terms);
-        set.transport.rowStarts = {0};
-    }
-    PartPasses passes(device, asset, part, options);
-    times.batch = std::max(times.batch, passes.batch());
-    std::vector<SparseTransport*> transports;
-    for (MaterialSet& set : part.sets) transports.push_back(&set.transport);
-    std::vector<shared::BakePoint> points;
-    for (uint32_t first = 0; first < vertices; first += passes.batch()) {
-        const uint32_t end = std::min(vertices, first + passes.batch());
-        points.clear();
-        for (uint32_t vertex = first; vertex < end; vertex++)
-            points.push_back(bakePoint(part.mesh, vertex, asset.visibilityOffset));
-        passes.bake(points, transports, losses);
-        if (progress) progress(end);
-    }
-    for (const auto& [name, seconds] : passes.times()) vk::addTime(times.device, name, seconds);
-}
-
-// Says where paint cannot show.
-void checkPaint(const AssetPart& part) {
-    constexpr size_t kPaintedMaterials = 4;
-    if (!part.isPainted()) return;
-    for (const MaterialSet& set : part.sets) {
-        const std::string& first = set.materials.front().name;
-        if (set.materials.size() == 1)
-            spdlog::warn("{}: painted, but \"{}\" is alone in its set; the paint changes nothing", part.name,
-                         first);
-        if (set.materials.size() > kPaintedMaterials)
-            spdlog::warn(
-                "{}: paint has weights for {} materials; \"{}\" and what follows it cannot be painted",
-                part.name, kPaintedMaterials, set.materials[kPaintedMaterials].name);
-    }
-}
-
-nlohmann::json describe(const BakeOptions& options) {
-    const FactorizationOptions& factorization = options.factorization;
-    return {{"terms", factorization.terms},
-            {"error", factorization.wantedError ? nlohmann::json(*factorization.wantedError) : nullptr},
-            {"factorization", factorizationName(factorization.method)},
-            {"coefficients", options.coefficients},
-            {"map_size", options.mapSize},
-            {"map", diskMappingName(options.mapping)},
-            {"face_size", options.faceSize},
-            {"visibility_size", options.visibilitySize},
-            {"transport_samples", options.transportSamples},
-            {"occluder_triangles", options.occluderTriangles},
-            {"visibility", visibilityMethodName(options.visibilityMethod)},
-            {"vertex_order", "morton"}};
-}
-
-nlohmann::json describeInputs(const Scene& scene) {
-    auto inputs = nlohmann::json::array();
-    for (const Part& part : scene.parts) {
-        inputs.push_back({{"name", part.name}, {"file", part.source}, {"hash", part.sourceHash}});
-        for (const InputFile& texture : part.textureFiles)
-            inputs.push_back({{"name", part.name}, {"file", texture.file}, {"hash", texture.hash}});
-    }
-    return inputs;
-}
-
 float relative(double lost, double total) { return total > 0 ? float(std::sqrt(lost / total)) : 0; }
+
+// `losses` summed over blocks in order.
+void setErrors(const TransportLosses& losses, Asset& asset) {
+    asset.truncationError = relative(losses.dropped, losses.total);
+    asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
+}
+
+BakeTimes timesOf(const BakePlan& plan) {
+    BakeTimes times;
+    times.factorisation = plan.factorisationSeconds;
+    times.occluder = plan.occluderSeconds;
+    return times;
+}
+
+template <typename T>
+void append(std::vector<T>& values, const std::vector<T>& more) {
+    values.insert(values.end(), more.begin(), more.end());
+}
+
+// Rows at the end of those before: takes the blocks in order.
+class MemorySink : public BakeSink {
+  public:
+    explicit MemorySink(const BakePlan& plan) : mPlan(plan) {
+        for (const AssetPart& part : plan.asset.parts)
+            for (const MaterialSet& set : part.sets) {
+                mTransports.push_back(set.transport);
+                mTransports.back().rowStarts = {0};
+            }
+    }
+
+    void take(uint32_t block, BakedBlock baked) override {
+        mLosses.add(baked.losses());
+        const uint32_t firstSet = mPlan.firstSet[mPlan.blocks[block].part];
+        for (size_t set = 0; set < baked.sets.size(); set++) {
+            SparseTransport& all = mTransports[firstSet + set];
+            const SparseTransport& rows = baked.sets[set].transport;
+            const uint64_t before = all.entries();
+            for (size_t row = 0; row < rows.rows(); row++)
+                all.rowStarts.push_back(before + rows.rowStarts[row + 1]);
+            append(all.scales, rows.scales);
+            append(all.indices, rows.indices);
+            append(all.values, rows.values);
+        }
+    }
+
+    // The plan's asset, complete.
+    Asset finish(Asset asset) {
+        auto next = mTransports.begin();
+        for (AssetPart& part : asset.parts)
+            for (MaterialSet& set : part.sets) set.transport = std::move(*next++);
+        setErrors(mLosses, asset);
+        return asset;
+    }
+
+  private:
+    const BakePlan& mPlan;
+    std::vector<SparseTransport> mTransports; // over all parts
+    TransportLosses mLosses;
+};
+
+class CheckpointSink : public BakeSink {
+  public:
+    CheckpointSink(const BakePlan& plan, Checkpoint& checkpoint) : mPlan(plan), mCheckpoint(checkpoint) {}
+
+    void take(uint32_t block, BakedBlock baked) override {
+        mCheckpoint.append(block, storeBlock(mPlan, block, baked));
+    }
+
+  private:
+    const BakePlan& mPlan;
+    Checkpoint& mCheckpoint;
+};
+
+// Copies the blocks of a full checkpoint to where they belong.
+void assemble(BakePlan& plan, const Checkpoint& checkpoint, const std::filesystem::path& output,
+              BakeObserver& observer) {
+    observer.stage(BakeStage::Writing, "");
+    const size_t sets = plan.firstSet.back() + plan.asset.parts.back().sets.size();
+    std::vector<std::vector<ChunkEntry>> runs(sets); // over all parts
+    std::vector<uint64_t> entries(sets, 0);
+    TransportLosses losses;
+    for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+        losses.add(checkpoint.losses(block));
+        const BakeBlock& place = plan.blocks[block];
+        for (const ChunkEntry& entry : checkpoint.chunks(block)) {
+            const uint64_t rows =
+                place.count() *
+                uint64_t(
+                    plan.asset.parts[place.part].sets[entry.owner - plan.firstSet[place.part]].brdf.terms);
+            entries[entry.owner] += (entry.rawSize - kRunHeaderBytes - rows * kRunRowBytes) / kRunEntryBytes;
+            runs[entry.owner].push_back(entry);
+        }
+    }
+    setErrors(losses, plan.asset);
+
+    ChunkWriter chunks;
+    addChunks(chunks, plan.asset, entries, [&](uint32_t set) {
+        for (const ChunkEntry& entry : runs[set])
+            chunks.addStored(entry, [&checkpoint, entry] { return checkpoint.load(entry); });
+    });
+    // Of its own name: the checkpoint's lock keeps other bakes off.
+    AtomicFile file(output, ".partial");
+    chunks.finish([&](std::span<const std::byte> bytes) {
+        if (observer.wantsStop()) throw BakeStopped("stopped");
+        file.write(bytes);
+    });
+    file.commit();
+}
 
 } // namespace
 
-Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, const BakeProgress& progress,
+Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options) {
+    BakeObserver silent;
+    return bake(device, std::move(scene), options, silent);
+}
+
+Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
            BakeTimes* timesOut) {
-    options.validate();
-    RELUME_CHECK(!scene.parts.empty());
     const Clock::time_point start = Clock::now();
-    BakeTimes times;
-    for (Part& part : scene.parts) orderVertices(part.mesh);
-
-    Asset asset;
-    asset.faceSize = options.faceSize;
-    asset.visibilitySize = options.visibilitySize;
-    asset.coefficients = options.coefficients;
-    asset.transportSamples = options.transportSamples;
-    asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
-    asset.provenance.options = describe(options).dump();
-    asset.provenance.inputs = describeInputs(scene).dump();
-
-    Clock::time_point stage = Clock::now();
-    Occluder occluder = makeOccluder(scene, options.occluderTriangles);
-    asset.visibilityOffset = visibilityOffset(occluder, boundsOf(scene));
-    asset.occluder = std::move(occluder.mesh);
-    times.occluder = secondsSince(stage);
-
-    stage = Clock::now();
-    MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
-    for (Part& part : scene.parts) {
-        std::vector<MaterialSet> sets =
-            materials.make(part.material, part.materialFolder, part.baseColor.has_value());
-        asset.parts.push_back({part.name, std::move(part.mesh), std::move(sets), std::move(part.baseColor),
-                               std::move(part.materialMap), part.paintedByColors});
-        checkPaint(asset.parts.back());
-    }
-    times.factorisation = secondsSince(stage);
-
-    TransportLosses losses;
-    uint64_t done = 0;
-    for (AssetPart& part : asset.parts) {
-        bakePart(device, asset, options, part, losses, times, [&](uint64_t vertices) {
-            if (progress) progress(done + vertices);
-        });
-        done += part.mesh.vertexCount();
-    }
-    asset.truncationError = relative(losses.dropped, losses.total);
-    asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
-    times.total = secondsSince(start);
+    BakePlan plan = planBake(device, std::move(scene), options, observer);
+    BakeTimes times = timesOf(plan);
+    std::vector<uint32_t> blocks(plan.blocks.size());
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    MemorySink sink(plan);
+    bakeBlocks(device, plan, blocks, {}, sink, observer, times);
+    times.total = std::chrono::duration<double>(Clock::now() - start).count();
     if (timesOut) *timesOut = times;
-    return asset;
+    return sink.finish(std::move(plan.asset));
+}
+
+std::filesystem::path checkpointPath(const std::filesystem::path& output) {
+    // Beside the file that a symbolic link leads to: it is that which two bakes must not write at once.
+    std::error_code failure;
+    const bool isLink = std::filesystem::is_symlink(output, failure);
+    return (isLink ? std::filesystem::weakly_canonical(output) : output).string() + ".checkpoint";
+}
+
+BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
+                       const std::filesystem::path& output, const BakeLimits& limits,
+                       BakeObserver& observer) {
+    const Clock::time_point start = Clock::now();
+    Checkpoint checkpoint(checkpointPath(output));
+    BakePlan plan = planBake(device, std::move(scene), options, observer);
+    checkpoint.resume(plan);
+    BakeSummary summary{plan.vertices(), 0, timesOf(plan)};
+    std::vector<uint32_t> missing;
+    for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+        if (checkpoint.has(block))
+            summary.resumed += plan.blocks[block].count();
+        else
+            missing.push_back(block);
+    }
+    observer.resumed(summary.resumed, summary.vertices);
+    CheckpointSink sink(plan, checkpoint);
+    bakeBlocks(device, plan, missing, limits, sink, observer, summary.times);
+    assemble(plan, checkpoint, output, observer);
+    checkpoint.remove();
+    summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
+    return summary;
 }
 
 } // namespace relume

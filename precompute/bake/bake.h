@@ -1,30 +1,32 @@
-// From a scene to an asset: the passes in order.
+// From a scene to an asset, in memory or on disk.
 #pragma once
 
-#include "engine/scene/scene.h"
-#include "engine/transport/asset.h"
-#include "engine/vk/commands.h"
-#include "precompute/bake/bake_options.h"
+#include "precompute/bake/block_baker.h"
 
-#include <functional>
+#include <filesystem>
 
 namespace relume {
 
-// Where a bake's time went.
-struct BakeTimes {
-    double total = 0; // wall-clock seconds, all told
-    double factorisation = 0;
-    double occluder = 0;  // merging and simplifying
-    vk::PassTimes device; // device seconds by pass
-    uint32_t batch = 0;   // most points of a submission
+// Bakes every part in memory, for callers that use the asset at once. Vertices are put in bake order
+// (vertex_order.h). The same scene, options and device give the same asset. Throws Error.
+Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options);
+Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
+           BakeTimes* times = nullptr);
+
+// What bakeToFile() made.
+struct BakeSummary {
+    uint64_t vertices = 0, resumed = 0; // resumed: found in the checkpoint
+    BakeTimes times;                    // of this run
 };
 
-// Called between submissions with the number of vertices done, of all parts.
-using BakeProgress = std::function<void(uint64_t done)>;
+// The checkpoint of a bake to `output`.
+std::filesystem::path checkpointPath(const std::filesystem::path& output);
 
-// Bakes every part. Vertices are put in bake order (vertex_order.h). The same scene, options and device give
-// the same asset. Throws Error; out of device memory halves the batch and goes on, saying so.
-Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options,
-           const BakeProgress& progress = {}, BakeTimes* times = nullptr);
+// Bakes to a file of the bytes that encodeAsset(bake(…)) has, holding no more than a few blocks at a time.
+// Finished blocks go to the checkpoint beside it, which a later call with the same scene, options and device
+// goes on from; the file itself appears whole, after the last block, and the checkpoint goes. Throws
+// BakeStopped, Error; then the checkpoint stays and `output` is as it was.
+BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
+                       const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer);
 
 } // namespace relume

@@ -1,5 +1,6 @@
 #include "precompute/bake/batch_plan.h"
 
+#include "engine/base/error.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/visibility/visibility.h"
 
@@ -7,13 +8,23 @@
 
 namespace relume {
 
-uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms) {
+// Of rows as they are collected, cut into blocks, encoded and compressed.
+constexpr uint64_t kHostBytesPerEntry = 32;
+
+uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
+                   const BakeLimits& limits) {
     const auto size = uint64_t(options.visibilitySize);
     const uint64_t blockedBytes = 6 * size * size; // one byte a texel, before packing
     // A quarter of the largest heap, and never more than 1 GiB: the rest belongs to others.
-    const uint64_t memory = std::min<uint64_t>(device.info().largestHeap / 4, 1ull << 30);
-    const uint64_t bytesPerPoint =
-        2 * blockedBytes + visibilityBytes(uint32_t(size)) + TransportPass::bytesPerPoint(terms, options);
+    uint64_t memory = std::min<uint64_t>(device.info().largestHeap / 4, 1ull << 30);
+    if (limits.memory > 0) memory = std::min(memory, limits.memory);
+    const uint64_t bytesPerPoint = 2 * blockedBytes + visibilityBytes(uint32_t(size)) +
+                                   TransportPass::bytesPerPoint(terms, options) +
+                                   uint64_t(terms) * uint64_t(options.coefficients) * kHostBytesPerEntry;
+    if (limits.memory > 0 && limits.memory < bytesPerPoint)
+        throw UsageError("--memory: expected at least the {} KiB that baking one vertex at a time takes, "
+                         "found {} KiB",
+                         (bytesPerPoint + 1023) / 1024, limits.memory / 1024);
     const uint64_t batch = std::min({uint64_t(kMaxBatch), uint64_t(device.info().largestLayerCount / 6),
                                      device.largestStorageBuffer() / blockedBytes, memory / bytesPerPoint,
                                      uint64_t(TransportPass::largestBatch(device, options))});

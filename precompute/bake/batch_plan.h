@@ -6,9 +6,16 @@
 
 namespace relume {
 
+// What a user lets a bake take.
+struct BakeLimits {
+    uint64_t memory = 0; // bytes of a batch, on device and host together; 0: as planBatch() finds right
+};
+
 // Points of one submission: as many as the device's layers, storage-buffer range and a share of its memory
-// allow for a part of `terms` terms, at most kMaxBatch. At least 1.
+// allow for a part of `terms` terms, at most kMaxBatch. At least 1. Throws UsageError when `limits` leaves no
+// room for a single one.
 constexpr uint32_t kMaxBatch = 64;
-uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms);
+uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
+                   const BakeLimits& limits = {});
 
 } // namespace relume

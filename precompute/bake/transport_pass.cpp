@@ -155,7 +155,8 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
     });
 }
 
-void TransportPass::collect(uint32_t count, SparseTransport& transport, TransportLosses& losses) const {
+void TransportPass::collect(uint32_t count, SparseTransport& transport,
+                            std::vector<TransportLosses>& losses) const {
     // Rows come back group by group, point-major in each; the asset wants point-major over all terms.
     std::vector<uint64_t> next(mGroups.size(), 0);
     for (uint32_t point = 0; point < count; point++)
@@ -172,9 +173,7 @@ void TransportPass::collect(uint32_t count, SparseTransport& transport, Transpor
                 transport.rowStarts.push_back(transport.values.size());
                 transport.scales.push_back(group.scales.map<float>()[row]);
                 const shared::RowStatistics& sums = group.statistics.map<shared::RowStatistics>()[row];
-                losses.total += sums.total;
-                losses.dropped += sums.dropped;
-                losses.quantised += sums.quantised;
+                losses.push_back({sums.total, sums.dropped, sums.quantised});
             }
         }
 }

@@ -9,11 +9,17 @@
 
 namespace relume {
 
-// Sums of squares over rows: what the bake measured of its own losses.
+// Sums of squares of a row, or over rows: what the bake measured of its own losses.
 struct TransportLosses {
     double total = 0;     // of all coefficients
     double dropped = 0;   // lost by keeping N
     double quantised = 0; // lost by quantisation
+
+    void add(const TransportLosses& other) {
+        total += other.total;
+        dropped += other.dropped;
+        quantised += other.quantised;
+    }
 };
 
 // Evaluates, transforms, selects, quantises and compacts a batch of points at a time. Terms that do not
@@ -27,8 +33,8 @@ class TransportPass {
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const;
 
-    // After the submission: appends the batch's rows.
-    void collect(uint32_t count, SparseTransport& transport, TransportLosses& losses) const;
+    // After the submission: appends the batch's rows, and what each lost.
+    void collect(uint32_t count, SparseTransport& transport, std::vector<TransportLosses>& losses) const;
 
     // The coefficients of the last term group, row by row, for parity tests: see record()'s kernels. Blocks
     // of texels that nothing reaches are left as they were.

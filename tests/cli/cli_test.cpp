@@ -1,45 +1,17 @@
 // The program as its users meet it: exit codes, streams, files.
-#include "tests/support/temporary_folder.h"
+#include "tests/support/run_relume.h"
 
-#include <cstdlib>
 #include <doctest/doctest.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <sys/wait.h>
 
-using relume::test::TemporaryFolder;
+using namespace relume::test;
 
 namespace {
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream stream;
-    stream << file.rdbuf();
-    return stream.str();
-}
-
-struct Outcome {
-    int exitCode;
-    std::string out, err;
-};
-
-// Runs `relume ARGUMENTS` in a shell inside the folder; `environment` is put before it.
-Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
-                  const std::string& environment = "") {
-    const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                                " '" RELUME_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path() / "out.txt"),
-            contents(folder.path() / "err.txt")};
-}
 
 // A bake small enough for a test of a second.
 constexpr const char* kSmallBake =
     "bake sphere --ground --ground-tessellation 4 -K 2 -N 32 --visibility-size 64 "
     "--face-size 32 --map-size 16 -q ";
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 } // namespace
 

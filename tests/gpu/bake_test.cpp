@@ -3,11 +3,13 @@
 #include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/reference/verification.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 
 #include <doctest/doctest.h>
 
 using namespace relume;
+using relume::test::TemporaryFolder;
 
 namespace {
 
@@ -49,16 +51,41 @@ TEST_CASE("bake: the same scene gives the same bytes") {
     CHECK(encodeAsset(bake(device, smallScene("clay"), options)) == once);
 }
 
+TEST_CASE("bake: a file baked block by block has the bytes of the asset baked in memory, read or not") {
+    const TestDevice device;
+    const TemporaryFolder folder;
+    BakeOptions options;
+    options.visibilitySize = 64;
+    options.faceSize = 32;
+    options.coefficients = 1500; // blocks of 32 vertices
+    options.factorization.terms = 16;
+    const std::vector<std::byte> whole = encodeAsset(bake(device, smallScene("ashikhmin-shirley"), options));
+    BakeObserver silent;
+    const auto path = folder.path() / "a.relume";
+    const BakeSummary summary =
+        bakeToFile(device, smallScene("ashikhmin-shirley"), options, path, {.memory = 12 << 20}, silent);
+    CHECK_EQ(summary.resumed, 0u);
+    CHECK_LT(summary.times.batch, 32u);
+    CHECK(readFile(path) == whole);
+    CHECK(encodeAsset(readAsset(path)) == whole);
+    CHECK_FALSE(std::filesystem::exists(checkpointPath(path)));
+}
+
 TEST_CASE("bake: a simplified occluder, a small cube and progress to the end") {
     const TestDevice device;
     BakeOptions options;
     options.faceSize = 32;
     options.visibilitySize = 64;
     options.occluderTriangles = 200;
-    uint64_t last = 0;
-    const Asset asset = bake(device, smallScene("red-plastic"), options, [&](uint64_t done) { last = done; });
+    struct Last : BakeObserver {
+        BakeStatus status;
+        void progress(const BakeStatus& now) override { status = now; }
+    } last;
+    const Asset asset = bake(device, smallScene("red-plastic"), options, last);
     CHECK_LE(asset.occluder.triangleCount(), 220u);
-    CHECK_EQ(last, asset.parts[0].mesh.vertexCount() + asset.parts[1].mesh.vertexCount());
+    CHECK_EQ(last.status.done, asset.parts[0].mesh.vertexCount() + asset.parts[1].mesh.vertexCount());
+    CHECK_EQ(last.status.vertices, last.status.done);
+    CHECK_EQ(last.status.fraction, 1);
     const Verification found = verify(device, asset, prepareForSampling(makeSky()), 0, 20);
     CHECK_LE(found.transportError, 1e-4);
     CHECK_EQ(found.relightBits, 0u);

@@ -1,4 +1,5 @@
 // The .relume file: what goes in comes out, and nothing else is believed.
+#include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_info.h"
 #include "engine/transport/transport_chunk.h"
 #include "tests/support/asset_sample.h"
@@ -138,32 +139,48 @@ TEST_CASE("asset file: on disk, and errors name the file") {
     CHECK_THROWS_AS(readAsset(path), Error);
 }
 
-TEST_CASE("asset file: long transport is cut into bounded runs, and monotonous ones are stored plainly") {
+TEST_CASE("asset file: transport is cut into blocks, and what zstd would shrink too far is stored plainly") {
     std::mt19937 random(3);
     Asset asset = sampleAsset();
     asset.faceSize = 64;
     asset.visibilitySize = 64;
     asset.transportSamples = 1;
     AssetPart& part = asset.parts[0];
-    part = samplePart(70000, 4, asset.faceSize, 5, random);
-    // One long row of everything, then nothing for a while: 2^16 empty rows weigh too little to be
-    // compressed.
+    part = samplePart(7000, 4, asset.faceSize, 5, random);
     const std::vector<std::byte> bytes = encodeAsset(asset);
     const ChunkFile file(bytes, "file");
     const auto runs = file.find(chunkTag("TRAN"), 0);
-    CHECK(runs.size() == 2);
+    CHECK(runs.size() == 7000 / 64 + 1);
     for (const ChunkEntry& entry : file.entries()) CHECK(entry.rawSize <= kLargestChunk);
     checkSame(decodeAsset(bytes, "file"), asset);
 
-    // Nothing but empty rows: zstd would shrink them past what a reader believes.
-    part.sets[0].transport.indices.clear();
-    part.sets[0].transport.values.clear();
-    std::ranges::fill(part.sets[0].transport.rowStarts, 0);
-    std::ranges::fill(part.sets[0].transport.scales, 0.0f);
-    const std::vector<std::byte> empty = encodeAsset(asset);
-    const ChunkEntry first = ChunkFile(empty, "file").find(chunkTag("TRAN"), 0)[0];
-    CHECK(first.storedSize == first.rawSize);
-    checkSame(decodeAsset(empty, "file"), asset);
+    // Nothing but zeros: zstd would shrink them past what a reader believes.
+    const StoredChunk zeros = storeChunk(kTransport, 0, 0, std::vector<std::byte>(1 << 20));
+    CHECK(zeros.entry.storedSize == zeros.entry.rawSize);
+}
+
+TEST_CASE("asset file: a block's size depends on coefficients and terms alone, and its rows fit a run") {
+    CHECK_EQ(blockVertices(96, 4), 64u);
+    CHECK_EQ(blockVertices(1024, 16), 64u);
+    CHECK_EQ(blockVertices(1025, 16), 32u);
+    CHECK_EQ(blockVertices(6 * 64 * 64, 32), 1u);
+    for (int terms = 1; terms <= 32; terms++)
+        for (int coefficients = 1; coefficients <= 6 * 64 * 64; coefficients += 97)
+            CHECK_LE(size_t(blockVertices(coefficients, terms)) * size_t(terms * coefficients), kRunEntries);
+    Asset asset = sampleAsset();
+    CHECK_EQ(blockVertices(asset), blockVertices(24, 3));
+}
+
+TEST_CASE("asset file: chunks that are stored elsewhere are copied as they are") {
+    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    const ChunkFile file(bytes, "sample");
+    ChunkWriter copy;
+    for (const ChunkEntry& entry : file.entries())
+        copy.addStored(entry, [&bytes, entry] {
+            const auto stored = std::span(bytes).subspan(entry.offset, entry.storedSize);
+            return std::vector(stored.begin(), stored.end());
+        });
+    CHECK(copy.finish() == bytes);
 }
 
 TEST_CASE("asset file: a vertex of the most terms and coefficients is one run") {

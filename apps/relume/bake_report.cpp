@@ -1,0 +1,69 @@
+#include "apps/relume/bake_report.h"
+
+#include "engine/base/interrupt.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace relume {
+
+namespace {
+
+constexpr std::chrono::milliseconds kEventInterval{500};
+
+const char* stageName(BakeStage stage) {
+    switch (stage) {
+    case BakeStage::Occluder:
+        return "occluder";
+    case BakeStage::Factorisation:
+        return "factorisation";
+    case BakeStage::Baking:
+        return "baking";
+    case BakeStage::Writing:
+        return "writing";
+    }
+    return "";
+}
+
+} // namespace
+
+void BakeReport::event(const char* name, nlohmann::ordered_json fields) const {
+    if (mStyle != ReportStyle::Json) return;
+    nlohmann::ordered_json line = {{"event", name}};
+    line.update(fields);
+    fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    std::fflush(stdout);
+}
+
+void BakeReport::stage(BakeStage stage, const std::string& part) {
+    mStage = stageName(stage);
+    event("stage", {{"stage", mStage}, {"part", part}});
+    if (!part.empty()) mStage += " " + part;
+    if (mStyle == ReportStyle::Text && !mBar) mBar.emplace(mStage, 0, "vertices");
+    if (mBar) mBar->setTitle(mStage);
+}
+
+void BakeReport::resumed(uint64_t done, uint64_t vertices) {
+    mDone = done;
+    mVertices = vertices;
+    event("start", {{"vertices", vertices}, {"done", done}});
+    if (mStoppable) catchInterrupts();
+    if (mStyle == ReportStyle::Text) mBar.emplace(mStage, vertices, "vertices");
+}
+
+void BakeReport::progress(const BakeStatus& status) {
+    mDone = status.done;
+    if (mBar) mBar->update({status.done, status.fraction, status.verticesPerSecond, status.secondsLeft});
+    const auto now = std::chrono::steady_clock::now();
+    if (status.done < status.vertices && now - mLastEvent < kEventInterval) return;
+    mLastEvent = now;
+    event("progress", {{"done", status.done},
+                       {"vertices", status.vertices},
+                       {"fraction", status.fraction},
+                       {"vertices_per_second", status.verticesPerSecond},
+                       {"seconds_left", status.secondsLeft}});
+}
+
+bool BakeReport::wantsStop() { return mStoppable && caughtInterrupt() != 0; }
+
+} // namespace relume

@@ -1,0 +1,41 @@
+// What `relume bake` says while it works: a bar for people, or JSON events for programs.
+#pragma once
+
+#include "engine/base/progress.h"
+#include "precompute/bake/bake_observer.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace relume {
+
+enum class ReportStyle { Quiet, Text, Json };
+
+// On stderr for Text, on stdout for Json: docs/baking.md lists the events.
+class BakeReport : public BakeObserver {
+  public:
+    // `stoppable`: SIGINT and SIGTERM ask the bake to stop; until its first block they just end the process.
+    BakeReport(ReportStyle style, bool stoppable) : mStyle(style), mStoppable(stoppable) {}
+
+    void stage(BakeStage stage, const std::string& part) override;
+    void resumed(uint64_t done, uint64_t vertices) override;
+    void progress(const BakeStatus& status) override;
+    bool wantsStop() override;
+
+    // Prints {"event": name, …fields} on a line of its own, for Json.
+    void event(const char* name, nlohmann::ordered_json fields) const;
+
+    uint64_t done() const { return mDone; }
+    uint64_t vertices() const { return mVertices; }
+
+  private:
+    ReportStyle mStyle;
+    bool mStoppable;
+    uint64_t mDone = 0, mVertices = 0;
+    std::string mStage;
+    std::optional<Progress> mBar;
+    std::chrono::steady_clock::time_point mLastEvent;
+};
+
+} // namespace relume

@@ -1,0 +1,44 @@
+// The arrays of an asset and their chunks' tags, in file order.
+#pragma once
+
+#include "engine/transport/asset.h"
+#include "engine/transport/chunk_file.h"
+
+namespace relume {
+
+constexpr ChunkTag kMeta = chunkTag("META");
+constexpr ChunkTag kOccluderPositions = chunkTag("OPOS"), kOccluderTriangles = chunkTag("OTRI");
+constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), kTriangles = chunkTag("MTRI"),
+                   kUvs = chunkTag("MUVS"), kColors = chunkTag("MCOL");
+constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
+constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
+                   kEigenvalues = chunkTag("EIGV");
+constexpr ChunkTag kTransport = chunkTag("TRAN");
+
+// Calls array(tag, owner, vector) for every array but the transport, and transport(number, set) where that of
+// a set comes; sets are numbered over all parts.
+template <typename Array, typename Transport>
+void forEachArray(const Asset& asset, const Array& array, const Transport& transport) {
+    array(kOccluderPositions, kWholeFile, asset.occluder.positions);
+    array(kOccluderTriangles, kWholeFile, asset.occluder.triangles);
+    uint32_t setNumber = 0;
+    for (uint32_t number = 0; number < asset.parts.size(); number++) {
+        const AssetPart& part = asset.parts[number];
+        array(kPositions, number, part.mesh.positions);
+        array(kNormals, number, part.mesh.normals);
+        array(kTriangles, number, part.mesh.triangles);
+        array(kUvs, number, part.mesh.uvs);
+        array(kColors, number, part.mesh.colors);
+        if (part.baseColor) array(kBaseColor, number, part.baseColor->texels);
+        if (part.materialMap) array(kMaterialMap, number, part.materialMap->texels);
+        for (const MaterialSet& set : part.sets) {
+            array(kLightMaps, setNumber, set.brdf.lightMaps);
+            array(kViewMaps, setNumber, set.brdf.viewMaps);
+            array(kEigenvalues, setNumber, set.brdf.eigenvalues);
+            transport(setNumber, set);
+            setNumber++;
+        }
+    }
+}
+
+} // namespace relume

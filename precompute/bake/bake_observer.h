@@ -1,0 +1,42 @@
+// What a bake tells while it runs, and asks.
+#pragma once
+
+#include "engine/base/error.h"
+
+#include <cstdint>
+#include <string>
+
+namespace relume {
+
+enum class BakeStage { Occluder, Factorisation, Baking, Writing };
+
+// Where a bake stands.
+struct BakeStatus {
+    uint64_t vertices = 0;        // of all parts
+    uint64_t done = 0;            // of these, with what was found in a checkpoint
+    double fraction = 0;          // of the work, in which vertices of parts weigh what they cost
+    double verticesPerSecond = 0; // 0 while unknown. A resumed bake's own
+    double secondsLeft = 0;       // to the last vertex
+};
+
+// All calls come from the thread that bakes.
+class BakeObserver {
+  public:
+    virtual ~BakeObserver() = default;
+    // `part` is its name while baking, else empty.
+    virtual void stage(BakeStage, const std::string& /*part*/) {}
+    // Before the first block: vertices that a checkpoint holds already, of how many.
+    virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
+    // After every few tenths of a second of baking; the last time with done == vertices.
+    virtual void progress(const BakeStatus&) {}
+    // Asked between submissions. If true, the bake ends with BakeStopped.
+    virtual bool wantsStop() { return false; }
+};
+
+// The bake was asked to stop. What was finished is in the checkpoint, where there is one.
+class BakeStopped : public Error {
+  public:
+    using Error::Error;
+};
+
+} // namespace relume

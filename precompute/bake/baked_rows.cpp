@@ -1,0 +1,37 @@
+#include "precompute/bake/baked_rows.h"
+
+#include "engine/base/check.h"
+
+namespace relume {
+
+BakedRows::BakedRows(uint32_t terms) {
+    transport.terms = terms;
+    transport.rowStarts = {0};
+}
+
+BakedRows BakedRows::vertices(uint32_t first, uint32_t end) const {
+    RELUME_CHECK_LE(end, transport.vertices);
+    BakedRows part(transport.terms);
+    const size_t firstRow = size_t(first) * transport.terms, endRow = size_t(end) * transport.terms;
+    const uint64_t firstEntry = transport.rowStarts[firstRow], endEntry = transport.rowStarts[endRow];
+    const auto slice = [](const auto& values, uint64_t from, uint64_t to) {
+        return std::vector(values.begin() + ptrdiff_t(from), values.begin() + ptrdiff_t(to));
+    };
+    part.transport.vertices = end - first;
+    for (size_t row = firstRow; row < endRow; row++)
+        part.transport.rowStarts.push_back(transport.rowStarts[row + 1] - firstEntry);
+    part.transport.scales = slice(transport.scales, firstRow, endRow);
+    part.transport.indices = slice(transport.indices, firstEntry, endEntry);
+    part.transport.values = slice(transport.values, firstEntry, endEntry);
+    part.losses = slice(losses, firstRow, endRow);
+    return part;
+}
+
+TransportLosses BakedBlock::losses() const {
+    TransportLosses sum;
+    for (const BakedRows& set : sets)
+        for (const TransportLosses& row : set.losses) sum.add(row);
+    return sum;
+}
+
+} // namespace relume

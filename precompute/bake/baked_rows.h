@@ -1,0 +1,29 @@
+// What baking some vertices of a part gives.
+#pragma once
+
+#include "engine/transport/sparse_transport.h"
+#include "precompute/bake/transport_pass.h"
+
+#include <vector>
+
+namespace relume {
+
+// Of one set: rows, and what each lost.
+struct BakedRows {
+    SparseTransport transport; // its first vertex is the first that was baked
+    std::vector<TransportLosses> losses;
+
+    explicit BakedRows(uint32_t terms);
+    // Of vertices [first, end) alone.
+    BakedRows vertices(uint32_t first, uint32_t end) const;
+};
+
+// A block: its rows, a BakedRows per set of its part.
+struct BakedBlock {
+    std::vector<BakedRows> sets;
+
+    // Summed set after set, row by row: the same however it was baked.
+    TransportLosses losses() const;
+};
+
+} // namespace relume

@@ -1,0 +1,209 @@
+#include "precompute/bake/block_baker.h"
+
+#include "engine/vk/result.h"
+#include "precompute/bake/bake_estimate.h"
+#include "precompute/bake/part_passes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <new>
+
+namespace relume {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A submission cannot be stopped: it is kept so short that a stop takes less than a second.
+constexpr double kSubmissionSeconds = 0.4;
+constexpr uint32_t kFirstSubmission = 16; // points, before their cost is known
+
+// Parts of fewer vertices are not worth a probe; points of a probe, spread over their part.
+constexpr uint64_t kProbedVertices = 1024;
+constexpr uint32_t kProbePoints = 24;
+
+class BlockBaker {
+  public:
+    BlockBaker(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
+               const BakeLimits& limits, BakeSink& sink, BakeObserver& observer)
+        : mDevice(device), mPlan(plan), mLimits(limits), mSink(sink), mObserver(observer),
+          mEstimate(estimateParts(blocks)) {}
+
+    // Blocks of one part.
+    void bakePart(std::span<const uint32_t> blocks, BakeTimes& times);
+
+  private:
+    std::vector<BakeEstimate::Part> estimateParts(std::span<const uint32_t> blocks);
+    void probe(std::vector<BakeEstimate::Part>& parts, uint32_t first);
+    void bakeGroup(std::span<const uint32_t> blocks);
+    std::vector<BakedRows> bakePoints(std::span<const shared::BakePoint> points);
+    std::vector<shared::BakePoint> pointsOf(const BakeBlock& block) const;
+    void submit(std::span<const shared::BakePoint> points, std::span<BakedRows> rows);
+    const AssetPart& part() const { return mPlan.asset.parts[mPart]; }
+    void usePasses(uint32_t part);
+
+    const vk::Device& mDevice;
+    const BakePlan& mPlan;
+    const BakeLimits& mLimits;
+    BakeSink& mSink;
+    BakeObserver& mObserver;
+    uint32_t mPart = ~0u;
+    std::unique_ptr<PartPasses> mPasses; // of mPart
+    uint32_t mLargest = kFirstSubmission;
+    BakeEstimate mEstimate; // last: probing uses the others
+};
+
+void BlockBaker::usePasses(uint32_t number) {
+    if (mPart == number) return;
+    mPasses.reset(); // never two at a time
+    mPart = number;
+    mPasses = std::make_unique<PartPasses>(mDevice, mPlan.asset, part(), mPlan.options, mLimits);
+    mLargest = kFirstSubmission;
+}
+
+std::vector<BakedRows> emptyRows(const AssetPart& part) {
+    std::vector<BakedRows> rows;
+    for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
+    return rows;
+}
+
+std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32_t> blocks) {
+    std::vector<BakeEstimate::Part> parts;
+    for (const AssetPart& part : mPlan.asset.parts)
+        parts.push_back({part.mesh.vertexCount(), part.mesh.vertexCount()});
+    for (uint32_t block : blocks) parts[mPlan.blocks[block].part].doneBefore -= mPlan.blocks[block].count();
+    const auto isWorthwhile = [](const BakeEstimate::Part& part) {
+        return part.vertices - part.doneBefore >= kProbedVertices;
+    };
+    if (std::ranges::count_if(parts, isWorthwhile) > 1) probe(parts, mPlan.blocks[blocks.front()].part);
+    return parts;
+}
+
+// Visibility costs what its points ask for, the rest what a part's terms do: the passes of the first part to
+// be baked tell both for all.
+void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
+    usePasses(first);
+    const auto termsOf = [](const AssetPart& part) {
+        int terms = 0;
+        for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
+        return double(terms);
+    };
+    const double ownTerms = termsOf(part());
+    const auto rowSeconds = [&] {
+        return vk::secondsOf(mPasses->times()) - vk::secondsOf(mPasses->times(), "visibility");
+    };
+    bool isWarm = false;
+    for (size_t number = 0; number < parts.size(); number++) {
+        const AssetPart& probed = mPlan.asset.parts[number];
+        if (parts[number].vertices - parts[number].doneBefore < kProbedVertices) continue;
+        std::vector<shared::BakePoint> points;
+        for (uint32_t i = 0; i < kProbePoints; i++)
+            points.push_back(bakePoint(probed.mesh, i * probed.mesh.vertexCount() / kProbePoints,
+                                       mPlan.asset.visibilityOffset));
+        if (!isWarm) bakePoints(std::span(points).first(1)); // compiles, allocates
+        isWarm = true;
+        const double rowsBefore = rowSeconds();
+        const Clock::time_point start = Clock::now();
+        bakePoints(points);
+        const double rows = rowSeconds() - rowsBefore;
+        parts[number].probedSeconds =
+            (secondsSince(start) + rows * (termsOf(probed) / ownTerms - 1)) / kProbePoints;
+    }
+    // Those that were not probed count as the first.
+    const double usual = parts[first].probedSeconds;
+    for (BakeEstimate::Part& part : parts)
+        if (part.vertices - part.doneBefore < kProbedVertices) part.probedSeconds = usual;
+}
+
+void BlockBaker::submit(std::span<const shared::BakePoint> points, std::span<BakedRows> rows) {
+    if (mObserver.wantsStop()) throw BakeStopped("stopped");
+    const Clock::time_point start = Clock::now();
+    mPasses->bake(points, rows);
+    const double perPoint = secondsSince(start) / double(points.size());
+    mLargest = uint32_t(std::clamp(kSubmissionSeconds / perPoint, 1.0, double(mPasses->batch())));
+}
+
+std::vector<BakedRows> BlockBaker::bakePoints(std::span<const shared::BakePoint> points) {
+    std::vector<BakedRows> rows = emptyRows(part());
+    while (!points.empty()) {
+        // Evenly, rather than full ones and a rest.
+        const size_t largest = std::min(mLargest, mPasses->batch());
+        const size_t submissions = (points.size() + largest - 1) / largest;
+        const size_t count = (points.size() + submissions - 1) / submissions;
+        submit(points.first(count), rows);
+        points = points.subspan(count);
+    }
+    return rows;
+}
+
+std::vector<shared::BakePoint> BlockBaker::pointsOf(const BakeBlock& block) const {
+    std::vector<shared::BakePoint> points;
+    for (uint32_t vertex = block.first; vertex < block.end; vertex++)
+        points.push_back(bakePoint(part().mesh, vertex, mPlan.asset.visibilityOffset));
+    return points;
+}
+
+void BlockBaker::bakeGroup(std::span<const uint32_t> blocks) {
+    std::vector<shared::BakePoint> points;
+    for (uint32_t block : blocks)
+        std::ranges::copy(pointsOf(mPlan.blocks[block]), std::back_inserter(points));
+    const Clock::time_point start = Clock::now();
+    std::vector<BakedRows> rows;
+    for (bool done = false; !done;) {
+        try {
+            rows = bakePoints(points);
+            done = true;
+        } catch (const vk::OutOfMemory& failure) {
+            if (!mPasses->halveBatch(failure.what())) throw;
+        } catch (const std::bad_alloc&) {
+            if (!mPasses->halveBatch("out of host memory")) throw;
+        }
+    }
+    uint32_t first = 0;
+    for (uint32_t block : blocks) {
+        const uint32_t end = first + mPlan.blocks[block].count();
+        BakedBlock baked;
+        for (const BakedRows& set : rows) baked.sets.push_back(set.vertices(first, end));
+        mSink.take(block, std::move(baked));
+        first = end;
+    }
+    mEstimate.add(mPart, first, secondsSince(start));
+    mObserver.progress(mEstimate.status());
+}
+
+void BlockBaker::bakePart(std::span<const uint32_t> blocks, BakeTimes& times) {
+    usePasses(mPlan.blocks[blocks.front()].part);
+    mObserver.stage(BakeStage::Baking, part().name);
+    times.batch = std::max(times.batch, mPasses->batch());
+    while (!blocks.empty()) {
+        const size_t together = std::max(1u, mLargest / mPlan.blockVertices);
+        const auto group = blocks.first(std::min(together, blocks.size()));
+        bakeGroup(group);
+        blocks = blocks.subspan(group.size());
+    }
+    for (const auto& [name, seconds] : mPasses->times()) vk::addTime(times.device, name, seconds);
+}
+
+} // namespace
+
+void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
+                const BakeLimits& limits, BakeSink& sink, BakeObserver& observer, BakeTimes& times) {
+    if (blocks.empty()) return;
+    BlockBaker baker(device, plan, blocks, limits, sink, observer);
+    while (!blocks.empty()) {
+        const uint32_t part = plan.blocks[blocks.front()].part;
+        const auto next =
+            std::ranges::find_if(blocks, [&](uint32_t block) { return plan.blocks[block].part != part; });
+        const auto own = blocks.first(size_t(next - blocks.begin()));
+        baker.bakePart(own, times);
+        blocks = blocks.subspan(own.size());
+    }
+}
+
+} // namespace relume

@@ -1,0 +1,302 @@
+#include "precompute/bake/checkpoint.h"
+
+#include "engine/base/check.h"
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/transport/asset_arrays.h"
+#include "engine/transport/asset_check.h"
+#include "engine/transport/byte_stream.h"
+#include "engine/transport/transport_chunk.h"
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace relume {
+
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'R', 'E', 'L', 'U', 'M', 'E', 'C', 'P'};
+constexpr uint32_t kVersion = 1;
+constexpr size_t kIdentityBytes = 32;
+constexpr size_t kHeaderBytes = kMagic.size() + 4 + kIdentityBytes + 8;
+constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kLossBytes = 3 * 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
+
+// What a crash of the machine may cost, as a crash of the program costs nothing that was appended.
+constexpr std::chrono::seconds kSyncInterval{5};
+
+std::vector<std::byte> headerOf(const BakePlan& plan) {
+    RELUME_CHECK_EQ(plan.identity.size(), kIdentityBytes);
+    ByteWriter out;
+    out.put(std::as_bytes(std::span(kMagic)));
+    out.put(kVersion);
+    out.put(std::as_bytes(std::span(plan.identity)));
+    out.put(hash64(out.bytes()));
+    return out.take();
+}
+
+// Of a record's header before the checksum, and its body.
+uint64_t recordChecksum(std::span<const std::byte> header, std::span<const std::byte> body) {
+    std::vector<std::byte> both(header.begin(), header.end());
+    both.insert(both.end(), body.begin(), body.end());
+    return hash64(both);
+}
+
+void putLosses(ByteWriter& out, const TransportLosses& losses) {
+    for (double sum : {losses.total, losses.dropped, losses.quantised}) out.put(std::bit_cast<uint64_t>(sum));
+}
+
+TransportLosses getLosses(ByteReader& in) {
+    const auto next = [&] { return std::bit_cast<double>(in.get<uint64_t>()); };
+    const double total = next(), dropped = next();
+    return {total, dropped, next()};
+}
+
+void putChunk(ByteWriter& out, const ChunkEntry& entry) {
+    out.put(std::as_bytes(std::span(entry.tag)));
+    out.put(entry.owner);
+    out.put(entry.run);
+    out.put(entry.storedSize);
+    out.put(entry.rawSize);
+    out.put(entry.checksum);
+}
+
+ChunkEntry getChunk(ByteReader& in) {
+    ChunkEntry entry;
+    for (char& letter : entry.tag) letter = char(in.get<uint8_t>());
+    entry.owner = in.get<uint32_t>();
+    entry.run = in.get<uint32_t>();
+    entry.storedSize = in.get<uint64_t>();
+    entry.rawSize = in.get<uint64_t>();
+    entry.checksum = in.get<uint64_t>();
+    return entry;
+}
+
+// The chunk that a block's set must have, but for sizes and checksum.
+ChunkEntry expectedChunk(const BakePlan& plan, uint32_t block, size_t set) {
+    const BakeBlock& place = plan.blocks[block];
+    return {kTransport, plan.firstSet[place.part] + uint32_t(set), place.first / plan.blockVertices};
+}
+
+uint64_t runBytes(const BakePlan& plan, uint32_t block, const MaterialSet& set, uint64_t entriesPerRow) {
+    const uint64_t rows = uint64_t(plan.blocks[block].count()) * uint64_t(set.brdf.terms);
+    return kRunHeaderBytes + rows * (kRunRowBytes + entriesPerRow * kRunEntryBytes);
+}
+
+// Whether an entry can be that of a block's set.
+bool isPlausible(const BakePlan& plan, uint32_t block, size_t set, const ChunkEntry& entry) {
+    const ChunkEntry expected = expectedChunk(plan, block, set);
+    const MaterialSet& materials = plan.asset.parts[plan.blocks[block].part].sets[set];
+    const uint64_t least = runBytes(plan, block, materials, 0);
+    return entry.tag == expected.tag && entry.owner == expected.owner && entry.run == expected.run &&
+           entry.rawSize >= least &&
+           entry.rawSize <= runBytes(plan, block, materials, uint64_t(plan.asset.coefficients)) &&
+           (entry.rawSize - least) % kRunEntryBytes == 0 && entry.storedSize > 0 &&
+           entry.storedSize <= entry.rawSize;
+}
+
+} // namespace
+
+StoredBlock storeBlock(const BakePlan& plan, uint32_t block, const BakedBlock& baked) {
+    const BakeBlock& place = plan.blocks[block];
+    const auto coefficients = uint32_t(6 * plan.asset.faceSize * plan.asset.faceSize);
+    StoredBlock stored{baked.losses(), {}};
+    for (size_t set = 0; set < baked.sets.size(); set++) {
+        const SparseTransport& transport = baked.sets[set].transport;
+        RELUME_CHECK_EQ(transport.vertices, place.count());
+        checkTransport(transport, coefficients, uint64_t(plan.asset.coefficients),
+                       fmt::format("part \"{}\", vertices from {} on as the device baked them",
+                                   plan.asset.parts[place.part].name, place.first));
+        const ChunkEntry chunk = expectedChunk(plan, block, set);
+        stored.chunks.push_back(storeChunk(chunk.tag, chunk.owner, chunk.run,
+                                           encodeRun(transport, {0, transport.vertices}, place.first)));
+    }
+    return stored;
+}
+
+Checkpoint::Checkpoint(std::filesystem::path path) : mPath(std::move(path)) {
+    lock();
+    std::array<std::byte, kMagic.size()> magic{};
+    const size_t known = std::min<uint64_t>(mBytes, magic.size());
+    if (!read(0, std::span(magic).first(known)) ||
+        !std::ranges::equal(std::span(magic).first(known), std::as_bytes(std::span(kMagic)).first(known))) {
+        close(mFile);
+        throw Error("{}: expected a checkpoint of an earlier bake, found another file; move it away",
+                    mPath.string());
+    }
+}
+
+// A checkpoint that was just removed by a finished bake must not be taken for one: hence the second look.
+void Checkpoint::lock() {
+    for (;;) {
+        mFile = open(mPath.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW, 0666);
+        struct stat opened {
+        }, named{};
+        if (mFile < 0 || fstat(mFile, &opened) != 0 || !S_ISREG(opened.st_mode)) {
+            const std::string why = mFile < 0 ? std::strerror(errno) : "it is no regular file";
+            if (mFile >= 0) close(mFile);
+            throw Error("{}: the bake's checkpoint cannot be written: {}", mPath.string(), why);
+        }
+        if (flock(mFile, LOCK_EX | LOCK_NB) != 0) {
+            const bool isTaken = errno == EWOULDBLOCK;
+            const std::string why = std::strerror(errno);
+            close(mFile);
+            if (isTaken)
+                throw Error("{}: another bake is writing this output; wait for it, stop it, or name another "
+                            "output",
+                            mPath.string());
+            throw Error("{}: cannot be locked: {}", mPath.string(), why);
+        }
+        if (stat(mPath.c_str(), &named) == 0 && named.st_ino == opened.st_ino &&
+            named.st_dev == opened.st_dev) {
+            mBytes = uint64_t(opened.st_size);
+            return;
+        }
+        close(mFile);
+    }
+}
+
+Checkpoint::~Checkpoint() {
+    if (mFile < 0) return;
+    if (mBytes == 0) unlink(mPath.c_str());
+    close(mFile);
+}
+
+bool Checkpoint::read(uint64_t offset, std::span<std::byte> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t count = pread(mFile, bytes.data(), bytes.size(), off_t(offset));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        offset += uint64_t(count);
+        bytes = bytes.subspan(size_t(count));
+    }
+    return true;
+}
+
+bool Checkpoint::headerMatches(const BakePlan& plan) const {
+    const std::vector<std::byte> expected = headerOf(plan);
+    std::vector<std::byte> found(expected.size());
+    return read(0, found) && found == expected;
+}
+
+void Checkpoint::resume(const BakePlan& plan) {
+    mBlocks.assign(plan.blocks.size(), std::nullopt);
+    const uint64_t fileBytes = mBytes;
+    mBytes = 0;
+    if (headerMatches(plan)) {
+        mBytes = kHeaderBytes;
+        while (mBytes < fileBytes && readRecord(plan)) {
+        }
+    } else if (fileBytes > kHeaderBytes) {
+        spdlog::warn("{}: is of a bake of other inputs, options, device or program; starting over",
+                     mPath.string());
+    }
+    if (mBytes < fileBytes && ftruncate(mFile, off_t(mBytes)) != 0)
+        throw Error("{}: cannot be cut to its valid part: {}", mPath.string(), std::strerror(errno));
+    if (mBytes == 0) write(headerOf(plan));
+    mSynced = std::chrono::steady_clock::now();
+}
+
+// Reads the record at mBytes and goes past it, if it is whole and of a block that is missing yet.
+bool Checkpoint::readRecord(const BakePlan& plan) {
+    std::array<std::byte, kRecordHeaderBytes> header{};
+    if (!read(mBytes, header)) return false;
+    ByteReader in(header, "");
+    const auto block = in.get<uint32_t>(), chunkCount = in.get<uint32_t>();
+    const auto bodyBytes = in.get<uint64_t>(), checksum = in.get<uint64_t>();
+    if (block >= plan.blocks.size() || mBlocks[block]) return false;
+    const AssetPart& part = plan.asset.parts[plan.blocks[block].part];
+    uint64_t most = kLossBytes;
+    for (const MaterialSet& set : part.sets)
+        most += kChunkBytes + runBytes(plan, block, set, uint64_t(plan.asset.coefficients));
+    if (chunkCount != part.sets.size() || bodyBytes < kLossBytes + chunkCount * kChunkBytes ||
+        bodyBytes > most)
+        return false;
+    std::vector<std::byte> body(bodyBytes);
+    if (!read(mBytes + header.size(), body) ||
+        recordChecksum(std::span(header).first(kRecordHeaderBytes - 8), body) != checksum)
+        return false;
+
+    ByteReader rest(body, "");
+    Kept kept{getLosses(rest), {}};
+    uint64_t offset = mBytes + header.size() + kLossBytes + chunkCount * kChunkBytes;
+    for (size_t set = 0; set < chunkCount; set++) {
+        ChunkEntry entry = getChunk(rest);
+        if (!isPlausible(plan, block, set, entry)) return false;
+        entry.offset = offset;
+        offset += entry.storedSize;
+        kept.chunks.push_back(entry);
+    }
+    if (offset != mBytes + header.size() + bodyBytes) return false;
+    mBlocks[block] = std::move(kept);
+    mBytes = offset;
+    return true;
+}
+
+void Checkpoint::append(uint32_t block, const StoredBlock& stored) {
+    RELUME_CHECK(!has(block));
+    ByteWriter body;
+    putLosses(body, stored.losses);
+    for (const StoredChunk& chunk : stored.chunks) putChunk(body, chunk.entry);
+    Kept kept{stored.losses, {}};
+    for (const StoredChunk& chunk : stored.chunks) {
+        kept.chunks.push_back(chunk.entry);
+        kept.chunks.back().offset = mBytes + kRecordHeaderBytes + body.bytes().size();
+        body.put(chunk.bytes);
+    }
+    ByteWriter record;
+    record.put(block);
+    record.put(uint32_t(stored.chunks.size()));
+    record.put(uint64_t(body.bytes().size()));
+    record.put(recordChecksum(record.bytes(), body.bytes()));
+    record.put(body.bytes());
+    write(record.bytes());
+    mBlocks[block] = std::move(kept);
+}
+
+void Checkpoint::write(std::span<const std::byte> bytes) {
+    uint64_t offset = mBytes;
+    const uint64_t end = offset + bytes.size();
+    const auto fail = [&] {
+        const std::string why = std::strerror(errno);
+        (void)!ftruncate(mFile, off_t(mBytes));
+        throw Error("{}: cannot be written: {}; the same command goes on from here once it can",
+                    mPath.string(), why);
+    };
+    while (!bytes.empty()) {
+        const ssize_t count = pwrite(mFile, bytes.data(), bytes.size(), off_t(offset));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail();
+        offset += uint64_t(count);
+        bytes = bytes.subspan(size_t(count));
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (now - mSynced >= kSyncInterval) {
+        if (fdatasync(mFile) != 0) fail();
+        mSynced = now;
+    }
+    mBytes = end;
+}
+
+std::vector<std::byte> Checkpoint::load(const ChunkEntry& entry) const {
+    std::vector<std::byte> bytes(entry.storedSize);
+    if (!read(entry.offset, bytes))
+        throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
+    if (hash64(bytes) != entry.checksum)
+        throw Error("{}: a block fails its checksum; remove the file and bake again", mPath.string());
+    return bytes;
+}
+
+void Checkpoint::remove() {
+    unlink(mPath.c_str());
+    close(mFile);
+    mFile = -1;
+}
+
+} // namespace relume

@@ -1,0 +1,71 @@
+// Finished blocks of a bake on disk, so that nothing stops it for good: docs/checkpoint_format.md.
+#pragma once
+
+#include "engine/transport/chunk_file.h"
+#include "precompute/bake/bake_plan.h"
+#include "precompute/bake/baked_rows.h"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace relume {
+
+// A finished block in the bytes of the asset's file: a TRAN chunk per set of its part.
+struct StoredBlock {
+    TransportLosses losses;
+    std::vector<StoredChunk> chunks;
+};
+// Checks the rows, encodes and compresses them. Throws Error for rows that make no valid asset.
+StoredBlock storeBlock(const BakePlan& plan, uint32_t block, const BakedBlock& baked);
+
+// An append-only file of blocks. One process at a time has it.
+class Checkpoint {
+  public:
+    // Makes or opens the file and locks it. Throws Error when another process has it, when it is no
+    // checkpoint, or cannot be written.
+    explicit Checkpoint(std::filesystem::path path);
+    // Removes a file that holds nothing.
+    ~Checkpoint();
+    Checkpoint(const Checkpoint&) = delete;
+    Checkpoint& operator=(const Checkpoint&) = delete;
+
+    // Finds the blocks of this very plan, once, before what follows; drops what a crash left half written,
+    // and everything, saying so, where the plan is another.
+    void resume(const BakePlan& plan);
+
+    bool has(uint32_t block) const { return mBlocks[block].has_value(); }
+    // Of a block that is there: entries with offsets into the checkpoint, and what it lost.
+    const std::vector<ChunkEntry>& chunks(uint32_t block) const { return mBlocks[block]->chunks; }
+    const TransportLosses& losses(uint32_t block) const { return mBlocks[block]->losses; }
+
+    // On failure, a full disk say, throws Error and leaves the file as it was before.
+    void append(uint32_t block, const StoredBlock& stored);
+
+    // Stored bytes of one of chunks(). Throws Error when they cannot be read or fail their checksum.
+    std::vector<std::byte> load(const ChunkEntry& entry) const;
+
+    // Deletes the file.
+    void remove();
+
+    const std::filesystem::path& path() const { return mPath; }
+
+  private:
+    struct Kept {
+        TransportLosses losses;
+        std::vector<ChunkEntry> chunks;
+    };
+    void lock();
+    bool headerMatches(const BakePlan& plan) const;
+    bool readRecord(const BakePlan& plan);
+    void write(std::span<const std::byte> bytes);
+    bool read(uint64_t offset, std::span<std::byte> bytes) const;
+
+    std::filesystem::path mPath;
+    int mFile = -1;
+    uint64_t mBytes = 0; // of the valid file
+    std::vector<std::optional<Kept>> mBlocks;
+    std::chrono::steady_clock::time_point mSynced;
+};
+
+} // namespace relume

@@ -1,0 +1,21 @@
+#include "precompute/thread_limit.h"
+
+#include <cstdlib>
+#include <string>
+#include <tbb/global_control.h>
+
+namespace relume {
+
+struct ThreadLimit::Control {
+    tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : mControl(new Control{{tbb::global_control::max_allowed_parallelism, size_t(threads)}}) {
+    // Mesa counts its threads beside the one that submits, which waits for them: 0 lets that one do the work.
+    setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+} // namespace relume

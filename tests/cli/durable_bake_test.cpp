@@ -1,0 +1,240 @@
+// A bake that is killed, stopped, starved of disk, memory or threads: it goes on, to the same bytes.
+#include "tests/support/run_relume.h"
+
+#include <chrono>
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <spawn.h>
+#include <sys/file.h>
+#include <thread>
+
+using namespace relume::test;
+
+extern char** environ;
+
+namespace {
+
+// A triangle over a ground: parts of one and of three blocks, little work each.
+std::string bakeCommand(int groundQuads) {
+    return "bake mesh.obj --ground --ground-tessellation " + std::to_string(groundQuads) +
+           " -K 2 -N 8 --visibility-size 64 --face-size 32 --map-size 8 -q -o out.relume ";
+}
+const std::string kBake = bakeCommand(12);
+
+struct BakeFolder : TemporaryFolder {
+    BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
+};
+
+constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
+
+std::string faults(const std::string& kind, int call) {
+    return std::string(kNoThreads) +
+           " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_PATH=out.relume RELUME_FAULT=" + kind +
+           " RELUME_FAULT_CALL=" + std::to_string(call);
+}
+
+// The bytes of a bake that nothing disturbed.
+const std::string& undisturbed() {
+    static const std::string bytes = [] {
+        const BakeFolder folder;
+        const Outcome bake = runRelume(folder, kBake, kNoThreads);
+        REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
+        return contents(folder.path() / "out.relume");
+    }();
+    return bytes;
+}
+
+// That a bake goes on to the right bytes and leaves nothing beside them.
+void checkFinishes(const BakeFolder& folder) {
+    const Outcome bake = runRelume(folder, kBake, kNoThreads);
+    CAPTURE(bake.err);
+    REQUIRE_EQ(bake.exitCode, 0);
+    CHECK(contents(folder.path() / "out.relume") == undisturbed());
+    for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+        CHECK_MESSAGE(std::string("mesh.obj out.relume out.txt err.txt").find(file.path().filename()) !=
+                          std::string::npos,
+                      file.path());
+}
+
+// Starts a bake in the folder and gives its process.
+pid_t startBake(const BakeFolder& folder, const std::string& bake) {
+    const std::string command = "cd '" + folder.path().string() + "' && " + kNoThreads +
+                                " exec '" RELUME_PROGRAM "' " + bake + " >out.txt 2>err.txt </dev/null";
+    const char* arguments[] = {"sh", "-c", command.c_str(), nullptr};
+    pid_t process = 0;
+    REQUIRE_EQ(posix_spawn(&process, "/bin/sh", nullptr, nullptr, const_cast<char**>(arguments), environ), 0);
+    return process;
+}
+
+int wait(pid_t process) {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return status;
+}
+
+} // namespace
+
+TEST_CASE("durable bake: killed at random instants, it resumes to the same bytes") {
+    const auto start = std::chrono::steady_clock::now();
+    undisturbed();
+    const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> instant(0, whole.count());
+    const BakeFolder folder;
+    std::ofstream(folder.path() / "out.relume") << "precious";
+    int killed = 0;
+    for (int i = 0; i < 25; i++) {
+        const pid_t process = startBake(folder, kBake);
+        std::this_thread::sleep_for(std::chrono::duration<double>(instant(random)));
+        kill(process, SIGKILL);
+        const bool wasKilled = WIFSIGNALED(wait(process));
+        killed += wasKilled;
+        const std::string output = contents(folder.path() / "out.relume");
+        CHECK((output == "precious" || output == undisturbed()));
+        // Once whole, all begins again.
+        if (output == undisturbed()) {
+            checkFinishes(folder);
+            std::ofstream(folder.path() / "out.relume") << "precious";
+        }
+    }
+    CHECK_GE(killed, 10);
+    checkFinishes(folder);
+}
+
+TEST_CASE("durable bake: at every write it can be killed, run out of disk or fall short") {
+    for (const std::string kind : {"kill", "full", "short"}) {
+        CAPTURE(kind);
+        int call = 1;
+        for (;; call++) {
+            CAPTURE(call);
+            const BakeFolder folder;
+            std::ofstream(folder.path() / "out.relume") << "precious";
+            const Outcome bake = runRelume(folder, kBake, faults(kind, call));
+            if (bake.exitCode == 0) {
+                CHECK(contents(folder.path() / "out.relume") == undisturbed());
+                break;
+            }
+            CAPTURE(bake.err);
+            CHECK_EQ(bake.exitCode, kind == "kill" ? 137 : 1);
+            const std::string output = contents(folder.path() / "out.relume");
+            CHECK((output == "precious" || output == undisturbed()));
+            if (kind != "kill") CHECK(says(bake.err, "out.relume"));
+            checkFinishes(folder);
+        }
+        // A checkpoint's header, four blocks; the file's header, table and chunks, a flush and a rename.
+        CHECK_GT(call, 22);
+    }
+}
+
+TEST_CASE("durable bake: blocks that are kept are not baked again, whatever was torn behind them") {
+    const BakeFolder folder;
+    const auto checkpoint = folder.path() / "out.relume.checkpoint";
+    REQUIRE_EQ(runRelume(folder, kBake, faults("kill", 6)).exitCode, 137);
+    const std::string kept = contents(checkpoint);
+    const auto doneOf = [&] {
+        const Outcome bake = runRelume(folder, kBake + "--json", kNoThreads);
+        REQUIRE_EQ(bake.exitCode, 0);
+        CHECK(contents(folder.path() / "out.relume") == undisturbed());
+        std::istringstream lines(bake.out);
+        for (std::string line; std::getline(lines, line);) {
+            const auto event = nlohmann::json::parse(line);
+            if (event["event"] == "start") return event["done"].get<int>();
+        }
+        return -1;
+    };
+    const int all = doneOf();
+    CHECK_EQ(all, 3 + 2 * 64); // the header and three blocks were written
+    std::mt19937 random(2);
+    for (int i = 0; i < 6; i++) {
+        std::string damaged = kept;
+        if (i < 3)
+            damaged.resize(random() % kept.size());
+        else
+            damaged[60 + random() % (kept.size() - 60)] ^= char(1 << random() % 8);
+        std::ofstream(checkpoint, std::ios::binary) << damaged;
+        const int done = doneOf();
+        CHECK_LT(done, all);
+        CHECK_EQ(done % 64, done == 0 ? 0 : 3);
+    }
+    std::ofstream(checkpoint, std::ios::binary)
+        << kept << "some bytes that are no record, and enough of them";
+    CHECK_EQ(doneOf(), all);
+}
+
+TEST_CASE("durable bake: a checkpoint of other options is said to be dropped, another file is left alone") {
+    const BakeFolder folder;
+    const auto checkpoint = folder.path() / "out.relume.checkpoint";
+    REQUIRE_EQ(runRelume(folder, kBake + "-m clay", faults("kill", 6)).exitCode, 137);
+    const Outcome other = runRelume(folder, kBake, kNoThreads);
+    CHECK_EQ(other.exitCode, 0);
+    CHECK(says(other.err, "out.relume.checkpoint"));
+    CHECK(says(other.err, "starting over"));
+    CHECK(contents(folder.path() / "out.relume") == undisturbed());
+    std::ofstream(checkpoint) << "somebody's notes";
+    const Outcome refused = runRelume(folder, kBake, kNoThreads);
+    CHECK_EQ(refused.exitCode, 1);
+    CHECK(says(refused.err, "out.relume.checkpoint"));
+    CHECK_EQ(contents(checkpoint), "somebody's notes");
+}
+
+TEST_CASE("durable bake: two bakes to one output are one too many") {
+    const BakeFolder folder;
+    const auto checkpoint = folder.path() / "out.relume.checkpoint";
+    const int file = open(checkpoint.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    REQUIRE_EQ(flock(file, LOCK_EX), 0);
+    const Outcome second = runRelume(folder, kBake, kNoThreads);
+    CHECK_EQ(second.exitCode, 1);
+    CHECK(says(second.err, "another bake"));
+    close(file);
+    checkFinishes(folder);
+}
+
+TEST_CASE("durable bake: SIGINT and SIGTERM stop it within a second, and it resumes") {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const BakeFolder folder;
+        // Enough vertices not to be done before the signal.
+        const pid_t process = startBake(folder, bakeCommand(40) + "--json");
+        for (int i = 0; i < 2000 && !says(contents(folder.path() / "out.txt"), "\"progress\""); i++)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        const auto start = std::chrono::steady_clock::now();
+        kill(process, signal);
+        const int status = wait(process);
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        CHECK_LT(elapsed.count(), 1);
+        REQUIRE(WIFEXITED(status));
+        CHECK_EQ(WEXITSTATUS(status), 128 + signal);
+        CHECK(says(contents(folder.path() / "err.txt"), "same command"));
+        const std::string events = contents(folder.path() / "out.txt");
+        const auto last = nlohmann::json::parse(events.substr(events.rfind('\n', events.size() - 2) + 1));
+        CHECK_EQ(last["event"], "stopped");
+        CHECK_GE(last["done"].get<int>(), 3);
+        CHECK(std::filesystem::exists(folder.path() / "out.relume.checkpoint"));
+        CHECK_FALSE(std::filesystem::exists(folder.path() / "out.relume"));
+        const Outcome resumed = runRelume(folder, bakeCommand(40) + "--json", kNoThreads);
+        CHECK_EQ(resumed.exitCode, 0);
+        CHECK(says(resumed.out, "\"vertices\":1684,\"done\":" + last["done"].dump() + "}"));
+    }
+}
+
+TEST_CASE("durable bake: batches, threads and a device out of memory do not show in the bytes") {
+    for (const auto& [arguments, environment, warning] : std::vector<std::array<std::string, 3>>{
+             {"--memory 3M", kNoThreads, ""},
+             {"--memory 20M --threads 2", "", ""},
+             {"--threads 1", "", ""},
+             {"", std::string(kNoThreads) + " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_SUBMIT=9",
+              "instead of 64"}}) {
+        CAPTURE(arguments);
+        const BakeFolder folder;
+        const Outcome bake = runRelume(folder, kBake + arguments, environment);
+        CAPTURE(bake.err);
+        REQUIRE_EQ(bake.exitCode, 0);
+        CHECK(says(bake.err, warning));
+        CHECK(contents(folder.path() / "out.relume") == undisturbed());
+    }
+    const BakeFolder folder;
+    const Outcome little = runRelume(folder, kBake + "--memory 10k", kNoThreads);
+    CHECK_EQ(little.exitCode, 2);
+    CHECK(says(little.err, "--memory"));
+}

@@ -1,0 +1,40 @@
+// Runs `relume` in a folder of a test's own.
+#pragma once
+
+#include "tests/support/temporary_folder.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace relume::test {
+
+inline std::string contents(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream stream;
+    stream << file.rdbuf();
+    return stream.str();
+}
+
+struct Outcome {
+    int exitCode; // 128 + the signal that ended it, as a shell says
+    std::string out, err;
+};
+
+// Runs `relume ARGUMENTS` in a shell inside the folder; `environment` is put before it.
+inline Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
+                         const std::string& environment = "") {
+    const std::string command = "cd '" + folder.path().string() + "' && " + environment +
+                                " '" RELUME_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            contents(folder.path() / "out.txt"), contents(folder.path() / "err.txt")};
+}
+
+inline bool says(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace relume::test
