@@ -41,6 +41,7 @@ BakeSummary bakeStoppably(const vk::Device& device, Scene scene, const Arguments
     try {
         const BakeSummary summary = bakeToFile(device, std::move(scene), arguments.bake.options,
                                                arguments.output, arguments.limits, report);
+        report.close();
         const auto bytes = std::filesystem::file_size(arguments.output);
         const uint64_t baked = summary.vertices - summary.resumed;
         report.event("done", {{"output", arguments.output.string()},
@@ -53,6 +54,7 @@ BakeSummary bakeStoppably(const vk::Device& device, Scene scene, const Arguments
                      1e3 * summary.times.total / double(std::max<uint64_t>(baked, 1)), device.name());
         return summary;
     } catch (const BakeStopped&) {
+        report.close();
         report.event("stopped", {{"signal", caughtInterrupt()},
                                  {"done", report.done()},
                                  {"vertices", report.vertices()},

@@ -39,8 +39,9 @@ void BakeReport::stage(BakeStage stage, const std::string& part) {
     mStage = stageName(stage);
     event("stage", {{"stage", mStage}, {"part", part}});
     if (!part.empty()) mStage += " " + part;
-    if (mStyle == ReportStyle::Text && !mBar) mBar.emplace(mStage, 0, "vertices");
-    if (mBar) mBar->setTitle(mStage);
+    if (mStyle != ReportStyle::Text) return;
+    if (!mBar) mBar.emplace(mStage, 0, "vertices");
+    mBar->setTitle(mStage);
 }
 
 void BakeReport::resumed(uint64_t done, uint64_t vertices) {

@@ -26,6 +26,9 @@ class BakeReport : public BakeObserver {
     // Prints {"event": name, …fields} on a line of its own, for Json.
     void event(const char* name, nlohmann::ordered_json fields) const;
 
+    // Leaves the terminal's line to others.
+    void close() { mBar.reset(); }
+
     uint64_t done() const { return mDone; }
     uint64_t vertices() const { return mVertices; }
 

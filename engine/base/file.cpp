@@ -30,18 +30,22 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit)
     return bytes;
 }
 
-// Refuses what is no regular file, and follows symbolic links to the file that is to be replaced.
-void AtomicFile::resolve() {
+// The file that writing `path` replaces: a symbolic link's target. Refuses what is no regular file.
+static std::filesystem::path replacedFile(std::filesystem::path path) {
     std::error_code failure;
-    const auto status = std::filesystem::status(mPath, failure);
+    const auto status = std::filesystem::status(path, failure);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         throw Error("{}: cannot be written: it is a folder, pipe or device; name a regular file",
-                    mPath.string());
-    if (std::filesystem::is_symlink(mPath, failure)) mPath = std::filesystem::weakly_canonical(mPath);
+                    path.string());
+    if (std::filesystem::is_symlink(path, failure)) return std::filesystem::weakly_canonical(path);
+    return path;
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
-    resolve();
+static std::filesystem::path folderOf(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : mPath(replacedFile(std::move(path))) {
     std::string pattern = mPath.string() + ".XXXXXX";
     mDescriptor = mkstemp(pattern.data());
     if (mDescriptor < 0)
@@ -54,8 +58,8 @@ AtomicFile::AtomicFile(std::filesystem::path path) : mPath(std::move(path)) {
     (void)fchmod(mDescriptor, 0666 & ~mask);
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path, const std::string& suffix) : mPath(std::move(path)) {
-    resolve();
+AtomicFile::AtomicFile(std::filesystem::path path, const std::string& suffix)
+    : mPath(replacedFile(std::move(path))) {
     mTemporary = mPath.string() + suffix;
     mDescriptor = open(mTemporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (mDescriptor < 0)
@@ -88,14 +92,21 @@ void AtomicFile::commit() {
     close(mDescriptor);
     mDescriptor = -1;
     // The new name outlives a crash of the machine only once its folder is on the disk.
-    const std::filesystem::path folder = mPath.parent_path();
-    const int directory = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+    const int directory = open(folderOf(mPath).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory < 0) return;
     (void)fsync(directory);
     close(directory);
 }
 
-void expectWritable(const std::filesystem::path& path) { const AtomicFile probe(path); }
+void expectWritable(const std::filesystem::path& path) {
+    // A file without a name leaves nothing behind even if the process is killed now; not every file system
+    // has such.
+    const int probe = open(folderOf(replacedFile(path)).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    if (probe >= 0)
+        close(probe);
+    else
+        const AtomicFile named(path);
+}
 
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     AtomicFile file(path);

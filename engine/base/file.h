@@ -37,8 +37,6 @@ class AtomicFile {
     void commit();
 
   private:
-    void resolve();
-
     std::filesystem::path mPath;
     std::filesystem::path mTemporary;
     int mDescriptor = -1;

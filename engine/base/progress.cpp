@@ -31,7 +31,10 @@ Progress::Progress(std::string title, uint64_t total, std::string unit, bool qui
       mTerminal(isatty(STDERR_FILENO) != 0), mStart(Clock::now()), mLastPrint(mStart) {}
 
 Progress::~Progress() {
-    if (mLineOpen) fmt::print(stderr, "\n");
+    if (mTitleOpen)
+        fmt::print(stderr, "\r\033[K");
+    else if (mLineOpen)
+        fmt::print(stderr, "\n");
 }
 
 void Progress::update(uint64_t done) {
@@ -59,10 +62,10 @@ void Progress::update(const State& state) {
 
 void Progress::setTitle(std::string title) {
     mTitle = std::move(title);
-    if (mQuiet || !mTerminal) return;
+    if (mQuiet || !mTerminal || mLineOpen) return; // a bar shows it when it is drawn next
     fmt::print(stderr, "\r{}\033[K", mTitle);
     std::fflush(stderr);
-    mLineOpen = true;
+    mTitleOpen = true;
 }
 
 void Progress::print(const State& state) {
@@ -79,6 +82,7 @@ void Progress::print(const State& state) {
     const int filled = int(state.fraction * kWidth);
     fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(size_t(filled), '='),
                std::string(size_t(kWidth - filled), ' '), text);
+    mTitleOpen = false;
     mLineOpen = true;
     if (state.done >= mTotal) {
         fmt::print(stderr, "\n");

@@ -12,7 +12,7 @@ class Progress {
   public:
     // `total` items of work; `unit` names them in the plural ("vertices").
     Progress(std::string title, uint64_t total, std::string unit, bool quiet = false);
-    // Ends the line of an unfinished bar.
+    // Ends the line of an unfinished bar, clears a title without one.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -35,7 +35,7 @@ class Progress {
 
     std::string mTitle, mUnit;
     uint64_t mTotal;
-    bool mQuiet, mTerminal, mLineOpen = false;
+    bool mQuiet, mTerminal, mLineOpen = false, mTitleOpen = false;
     uint64_t mNextTenth = 1;
     std::chrono::steady_clock::time_point mStart, mLastPrint;
 };
