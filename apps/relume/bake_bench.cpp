@@ -1,10 +1,8 @@
 #include "apps/relume/bake_bench.h"
 
+#include "precompute/bake/bake_plan.h"
 #include "precompute/bake/part_passes.h"
-#include "precompute/bake/vertex_order.h"
-#include "precompute/brdf/material_factory.h"
 #include "precompute/cpu/cpu_baker.h"
-#include "precompute/visibility/occluder.h"
 #include "precompute/visibility/raster_visibility.h"
 
 #include <algorithm>
@@ -23,23 +21,6 @@ int termsOf(const AssetPart& part) {
     return terms;
 }
 
-// What precedes baking in bake().
-Asset prepare(Scene scene, const BakeOptions& options) {
-    for (Part& part : scene.parts) orderVertices(part.mesh);
-    Asset asset;
-    asset.faceSize = options.faceSize;
-    asset.visibilitySize = options.visibilitySize;
-    Occluder occluder = makeOccluder(scene, options.occluderTriangles);
-    asset.visibilityOffset = visibilityOffset(occluder, boundsOf(scene));
-    asset.occluder = std::move(occluder.mesh);
-    MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
-    for (Part& part : scene.parts)
-        asset.parts.push_back(
-            {part.name, std::move(part.mesh),
-             materials.make(part.material, part.materialFolder, part.baseColor.has_value())});
-    return asset;
-}
-
 // Indices of about `wanted` vertices out of `count`.
 std::vector<uint64_t> sampleIndices(uint64_t count, uint64_t wanted) {
     wanted = std::clamp<uint64_t>(wanted, 1, count);
@@ -53,24 +34,13 @@ std::vector<uint64_t> sampleIndices(uint64_t count, uint64_t wanted) {
     return indices;
 }
 
-std::vector<SparseTransport> emptyRows(const AssetPart& part, size_t vertices) {
-    std::vector<SparseTransport> rows;
-    for (const MaterialSet& set : part.sets)
-        rows.push_back({uint32_t(vertices), uint32_t(set.brdf.terms), {0}, {}, {}, {}});
-    return rows;
-}
-
-// A run of a path whose `bakePart(part, points, transports)` bakes one part.
+// A run of a path whose `bakePart(part, points)` bakes one part and returns rows per set.
 template <typename BakePart>
 SampleRun timeRun(const BakeSample& sample, const BakePart& bakePart) {
     SampleRun run;
     const auto start = std::chrono::steady_clock::now();
-    for (size_t part = 0; part < sample.points.size(); part++) {
-        run.rows.push_back(emptyRows(sample.asset.parts[part], sample.points[part].size()));
-        std::vector<SparseTransport*> transports;
-        for (SparseTransport& rows : run.rows.back()) transports.push_back(&rows);
-        bakePart(part, std::span(sample.points[part]), std::span<SparseTransport* const>(transports));
-    }
+    for (size_t part = 0; part < sample.points.size(); part++)
+        run.rows.push_back(bakePart(part, std::span(sample.points[part])));
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return run;
 }
@@ -100,8 +70,9 @@ double BakeSample::termsPerVertex() const {
     return terms / double(sampled());
 }
 
-BakeSample sampleBake(Scene scene, const BakeOptions& options, uint64_t vertices) {
-    BakeSample sample{prepare(std::move(scene), options), {}};
+BakeSample sampleBake(const vk::Device& device, Scene scene, const BakeOptions& options, uint64_t vertices) {
+    BakeObserver silent;
+    BakeSample sample{planBake(device, std::move(scene), options, silent).asset, {}};
     const uint64_t all = sample.vertices();
     for (const AssetPart& part : sample.asset.parts) {
         const uint64_t count = part.mesh.vertexCount();
@@ -162,8 +133,14 @@ SampleRun CpuPath::run() {
     CpuBakeTimes before, after;
     for (const Part& part : mParts) before += part.baker.times();
     TransportLosses losses;
-    SampleRun run = timeRun(mSample, [&](size_t part, auto points, auto transports) {
+    SampleRun run = timeRun(mSample, [&](size_t part, auto points) {
+        std::vector<SparseTransport> rows;
+        std::vector<SparseTransport*> transports;
+        for (const MaterialSet& set : mSample.asset.parts[part].sets)
+            rows.push_back({uint32_t(points.size()), uint32_t(set.brdf.terms), {0}, {}, {}, {}});
+        for (SparseTransport& transport : rows) transports.push_back(&transport);
         mParts[part].baker.bake(points, transports, losses);
+        return rows;
     });
     for (const Part& part : mParts) after += part.baker.times();
     mRays = after.rays - before.rays;
@@ -188,7 +165,7 @@ DevicePath::DevicePath(const vk::Device& device, const BakeSample& sample, const
     BakeOptions own = options;
     own.visibilityMethod = method;
     for (const AssetPart& part : sample.asset.parts)
-        mParts.push_back({std::make_unique<PartPasses>(device, sample.asset, part, own)});
+        mParts.push_back({std::make_unique<PartPasses>(device, sample.asset, part, own, BakeLimits{})});
 }
 
 DevicePath::~DevicePath() = default;
@@ -197,11 +174,14 @@ SampleRun DevicePath::run() {
     vk::PassTimes before;
     for (const Part& part : mParts)
         for (const auto& [name, seconds] : part.passes->times()) vk::addTime(before, name, -seconds);
-    SampleRun run = timeRun(mSample, [&](size_t part, auto points, auto transports) {
-        std::vector<BakedRows> rows;
-        for (const SparseTransport* transport : transports) rows.emplace_back(transport->terms);
-        mParts[part].passes->bake(points, rows);
-        for (size_t set = 0; set < rows.size(); set++) *transports[set] = std::move(rows[set].transport);
+    SampleRun run = timeRun(mSample, [&](size_t part, auto points) {
+        std::vector<BakedRows> baked;
+        for (const MaterialSet& set : mSample.asset.parts[part].sets)
+            baked.emplace_back(uint32_t(set.brdf.terms));
+        mParts[part].passes->bake(points, baked);
+        std::vector<SparseTransport> rows;
+        for (BakedRows& set : baked) rows.push_back(std::move(set.transport));
+        return rows;
     });
     run.stages = before;
     for (const Part& part : mParts)

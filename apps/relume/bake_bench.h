@@ -21,7 +21,7 @@ struct BakeSample {
 
 // About `vertices` vertices, of every part in proportion: runs of 64 neighbours, as bakes take them, spread
 // evenly through the bake order.
-BakeSample sampleBake(Scene scene, const BakeOptions& options, uint64_t vertices);
+BakeSample sampleBake(const vk::Device& device, Scene scene, const BakeOptions& options, uint64_t vertices);
 
 // Rows of the sample: per part and set.
 using SampleRows = std::vector<std::vector<SparseTransport>>;

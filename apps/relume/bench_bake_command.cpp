@@ -157,7 +157,7 @@ void run(Arguments& arguments) {
     const BakeOptions& options = arguments.bake.options;
     Scene scene = arguments.scene.load();
     const std::unique_ptr<vk::Device> device = arguments.device.open();
-    const BakeSample sample = sampleBake(std::move(scene), options, arguments.vertices);
+    const BakeSample sample = sampleBake(*device, std::move(scene), options, arguments.vertices);
 
     auto cpuPath = std::make_unique<CpuPath>(sample, options);
     const CpuPath& cpuCounts = *cpuPath;
