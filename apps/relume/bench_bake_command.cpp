@@ -228,11 +228,13 @@ void addBenchBakeCommand(CLI::App& bench) {
     command->footer(
         "The CPU traces with Embree on all threads. Every path bakes the same vertices; medians are per\n"
         "vertex, the floor of a stage is the time to copy the bytes that it moves.");
-    command->callback([arguments, &bench] {
+    command->callback([arguments, command, &bench] {
         for (const CLI::Option* option : bench.get_options())
             if (option->count() > 0)
                 throw UsageError("bench: {} comes before bake, where it means nothing; put it after",
                                  option->get_name());
+        if (command->get_option("--visibility")->count() > 0)
+            throw UsageError("--visibility: bench bake times every way; leave it out");
         run(*arguments);
     });
 }

@@ -112,9 +112,10 @@ void BakeArguments::add(CLI::App& command) {
         ->capture_default_str();
     command
         .add_option("--visibility", mVisibility,
-                    "How visibility is found: raster (by drawing) or traced (by rays)")
+                    "How visibility is found: traced (by rays), raster (by drawing) or auto (the faster "
+                    "here, measured; may differ from run to run)")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"raster", "traced"}))
+        ->check(CLI::IsMember({"raster", "traced", "auto"}))
         ->capture_default_str();
     command
         .add_option("--transport-samples", options.transportSamples,
@@ -131,7 +132,9 @@ void BakeArguments::resolve() {
     mFactorization.resolve();
     options.factorization = mFactorization.options;
     options.mapping = mFactorization.mapping;
-    options.visibilityMethod = mVisibility == "raster" ? VisibilityMethod::Raster : VisibilityMethod::Traced;
+    options.visibilityMethod.reset();
+    for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
+        if (mVisibility == visibilityMethodName(method)) options.visibilityMethod = method;
     options.occluderTriangles = 0;
     if (mOccluder != "full") {
         const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&

@@ -4,6 +4,7 @@
 #include "engine/transport/asset_file.h"
 #include "engine/transport/transport_chunk.h"
 #include "precompute/bake/checkpoint.h"
+#include "precompute/visibility/faster_visibility.h"
 
 #include <chrono>
 #include <cmath>
@@ -125,6 +126,15 @@ void assemble(BakePlan& plan, const Checkpoint& checkpoint, const std::filesyste
     file.commit();
 }
 
+// What a checkpoint was begun with, else what is faster.
+void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, BakePlan& plan) {
+    for (const VisibilityMethod method : {VisibilityMethod::Traced, VisibilityMethod::Raster}) {
+        setVisibility(plan, method);
+        if (checkpoint.matches(plan)) return;
+    }
+    setVisibility(plan, fasterVisibility(device, plan.asset));
+}
+
 } // namespace
 
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options) {
@@ -136,6 +146,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
            BakeTimes* timesOut) {
     const Clock::time_point start = Clock::now();
     BakePlan plan = planBake(device, std::move(scene), options, observer);
+    if (!options.visibilityMethod) setVisibility(plan, fasterVisibility(device, plan.asset));
     BakeTimes times = timesOf(plan);
     std::vector<uint32_t> blocks(plan.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
@@ -159,6 +170,7 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     const Clock::time_point start = Clock::now();
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
+    if (!options.visibilityMethod) chooseVisibility(device, checkpoint, plan);
     checkpoint.resume(plan);
     BakeSummary summary{plan.vertices(), 0, timesOf(plan)};
     std::vector<uint32_t> missing;

@@ -17,7 +17,8 @@ struct BakeOptions {
     DiskMapping mapping = DiskMapping::EqualArea;
     int faceSize = 64;        // F: 32 or 64
     int visibilitySize = 256; // 64, 128 or 256
-    VisibilityMethod visibilityMethod = VisibilityMethod::Traced;
+    // None: the faster one on the device, measured: see fasterVisibility().
+    std::optional<VisibilityMethod> visibilityMethod = VisibilityMethod::Traced;
     int transportSamples = 1; // 1, 4 or 16 light-map evaluations per lighting texel
     // Triangles that cast shadows, 0: all; the rest are simplified away.
     size_t occluderTriangles = 0;

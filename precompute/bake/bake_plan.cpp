@@ -51,7 +51,7 @@ nlohmann::json describe(const BakeOptions& options) {
             {"visibility_size", options.visibilitySize},
             {"transport_samples", options.transportSamples},
             {"occluder_triangles", options.occluderTriangles},
-            {"visibility", visibilityMethodName(options.visibilityMethod)},
+            {"visibility", visibilityMethodName(*options.visibilityMethod)},
             {"vertex_order", "morton"}};
 }
 
@@ -123,6 +123,12 @@ uint64_t BakePlan::vertices() const {
     return sum;
 }
 
+void setVisibility(BakePlan& plan, VisibilityMethod method) {
+    plan.options.visibilityMethod = method;
+    plan.asset.provenance.options = describe(plan.options).dump();
+    plan.identity = identityOf(plan.asset);
+}
+
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer) {
     options.validate();
     RELUME_CHECK(!scene.parts.empty());
@@ -136,7 +142,6 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     asset.transportSamples = options.transportSamples;
     asset.provenance.program = "relume " RELUME_VERSION;
     asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
-    asset.provenance.options = describe(options).dump();
     asset.provenance.inputs = describeInputs(scene).dump();
 
     Clock::time_point stage = Clock::now();
@@ -153,7 +158,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
 
     checkSkeleton(asset, "the bake");
     cutBlocks(plan);
-    plan.identity = identityOf(asset);
+    setVisibility(plan, options.visibilityMethod.value_or(VisibilityMethod::Traced));
     return plan;
 }
 

@@ -31,7 +31,10 @@ struct BakePlan {
 };
 
 // Puts vertices in bake order (vertex_order.h), makes the occluder and factors the materials. The device only
-// gives its name. Throws Error.
+// gives its name. Options that leave the visibility's method open give a plan for Traced. Throws Error.
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer);
+
+// Decides how visibility is found, and the identity with it.
+void setVisibility(BakePlan& plan, VisibilityMethod method);
 
 } // namespace relume

@@ -179,7 +179,7 @@ bool Checkpoint::read(uint64_t offset, std::span<std::byte> bytes) const {
     return true;
 }
 
-bool Checkpoint::headerMatches(const BakePlan& plan) const {
+bool Checkpoint::matches(const BakePlan& plan) const {
     const std::vector<std::byte> expected = headerOf(plan);
     std::vector<std::byte> found(expected.size());
     return read(0, found) && found == expected;
@@ -189,7 +189,7 @@ void Checkpoint::resume(const BakePlan& plan) {
     mBlocks.assign(plan.blocks.size(), std::nullopt);
     const uint64_t fileBytes = mBytes;
     mBytes = 0;
-    if (headerMatches(plan)) {
+    if (matches(plan)) {
         mBytes = kHeaderBytes;
         while (mBytes < fileBytes && readRecord(plan)) {
         }

@@ -30,6 +30,9 @@ class Checkpoint {
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
+    // Whether it is of this very plan.
+    bool matches(const BakePlan& plan) const;
+
     // Finds the blocks of this very plan, once, before what follows; drops what a crash left half written,
     // and everything, saying so, where the plan is another.
     void resume(const BakePlan& plan);
@@ -56,7 +59,6 @@ class Checkpoint {
         std::vector<ChunkEntry> chunks;
     };
     void lock();
-    bool headerMatches(const BakePlan& plan) const;
     bool readRecord(const BakePlan& plan);
     void write(std::span<const std::byte> bytes);
     bool read(uint64_t offset, std::span<std::byte> bytes) const;

@@ -46,7 +46,7 @@ void PartPasses::create() {
     mVisibility.reset();
     mPoints = {};
     mBits = {};
-    mVisibility = makeVisibility(mDevice, mOptions.visibilityMethod, mAsset.occluder, size, mBatch,
+    mVisibility = makeVisibility(mDevice, *mOptions.visibilityMethod, mAsset.occluder, size, mBatch,
                                  visibilityNearDistance(mAsset.visibilityOffset));
     mPoints = {mDevice, mBatch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points"};
     mBits = {mDevice, mBatch * visibilityBytes(size), vk::BufferUse::Device, "visibility bits"};

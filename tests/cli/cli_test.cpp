@@ -293,4 +293,5 @@ TEST_CASE("cli: bench bake prints every path's figures as JSON") {
     CHECK_EQ(misplaced.exitCode, 2);
     CHECK(says(misplaced.err, "--json"));
     CHECK_EQ(runRelume(folder, "bench bake --vertices 0").exitCode, 2);
+    CHECK_EQ(runRelume(folder, "bench bake --visibility raster").exitCode, 2);
 }

@@ -3,6 +3,7 @@
 #include "engine/math/cubemap.h"
 #include "engine/scene/builtin_mesh.h"
 #include "engine/scene/ground.h"
+#include "precompute/bake/bake.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/visibility/occluder.h"
 #include "precompute/visibility/raster_visibility.h"
@@ -236,6 +237,25 @@ TEST_CASE("visibility: a device that gives up tracing says so") {
     } catch (const Error& failure) {
         CHECK(std::string(failure.what()).find("--visibility raster") != std::string::npos);
     }
+}
+
+TEST_CASE("visibility: the faster way is one of them, and says so in the asset") {
+    const TestDevice device;
+    Scene scene;
+    scene.parts.push_back({"knot", makeKnot(200), "clay", "built-in knot", ""});
+    BakeOptions options;
+    options.visibilitySize = 64;
+    options.coefficients = 8;
+    options.factorization.terms = 1;
+    const auto bakeBy = [&](std::optional<VisibilityMethod> method) {
+        options.visibilityMethod = method;
+        return bake(device, scene, options);
+    };
+    const Asset automatic = bakeBy(std::nullopt);
+    const Asset raster = bakeBy(VisibilityMethod::Raster), traced = bakeBy(VisibilityMethod::Traced);
+    CHECK(raster.provenance.options != traced.provenance.options);
+    const bool isRaster = automatic.provenance.options == raster.provenance.options;
+    CHECK(encodeAsset(automatic) == encodeAsset(isRaster ? raster : traced));
 }
 
 TEST_CASE("visibility: an empty occluder blocks nothing") {
