@@ -1,7 +1,10 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/image/image_file.h"
 #include "precompute/reference/verification.h"
+#include "precompute/reference/visibility_comparison.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +15,7 @@ namespace {
 
 struct Arguments {
     std::string file;
+    std::filesystem::path visibilityImage;
     LightArguments light;
     DeviceArguments device;
     int samples = 200;
@@ -19,14 +23,24 @@ struct Arguments {
 };
 
 void run(const Arguments& arguments) {
+    if (!arguments.visibilityImage.empty()) {
+        if (arguments.visibilityImage.extension() != ".png")
+            throw UsageError("--visibility-image: expected a name ending in .png, found \"{}\"",
+                             arguments.visibilityImage.string());
+        expectWritable(arguments.visibilityImage);
+    }
     const Asset asset = readAsset(arguments.file);
     if (!arguments.light.isEnvironment()) throw UsageError("verify: expected an environment, found a lamp");
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const Verification found = verify(*device, asset, prepareForSampling(arguments.light.environment()),
                                       radians(arguments.light.rotationDegrees), arguments.samples);
+    const VisibilityComparison ways = compareVisibility(*device, asset, arguments.samples);
+    if (!arguments.visibilityImage.empty()) writePng(arguments.visibilityImage, ways.picture);
     if (arguments.json) {
         const nlohmann::ordered_json json = {{"samples", found.samples},
                                              {"visibility_mismatch", found.visibilityMismatch},
+                                             {"raster_traced_difference", ways.share()},
+                                             {"raster_traced_inside", ways.inside},
                                              {"transport_error", found.transportError},
                                              {"wavelet_error", found.waveletError},
                                              {"quantization_error", found.quantisationError},
@@ -38,6 +52,8 @@ void run(const Arguments& arguments) {
         fmt::print("vertices sampled     {}\n", found.samples);
         fmt::print("visibility mismatch  {:.6f}  of the texels above the horizon, against Embree\n",
                    found.visibilityMismatch);
+        fmt::print("raster and traced    {:.6f}  of them differ, {} where traced sees no silhouette\n",
+                   ways.share(), ways.inside);
         fmt::print("transport error      {:.2e}  before compression, device against CPU\n",
                    found.transportError);
         fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
@@ -66,6 +82,10 @@ void addVerifyCommand(CLI::App& program) {
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
+    command
+        ->add_option("--visibility-image", arguments->visibilityImage,
+                     "Draw the visibility of the vertex on which raster and traced differ most (.png)")
+        ->type_name("IMAGE");
     arguments->light.add(*command);
     arguments->device.add(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
