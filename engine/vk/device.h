@@ -14,6 +14,7 @@ namespace relume::vk {
 struct DeviceInfo {
     uint32_t index;
     std::string name;
+    bool isSoftware;
     std::string type; // "discrete GPU", "integrated GPU", "software", …
     std::string driver;
     std::string uuid; // 32 hexadecimal digits

@@ -67,6 +67,7 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     info.index = index;
     info.name = core.deviceName;
     info.type = typeName(core.deviceType);
+    info.isSoftware = core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info.driver = fmt::format("{} {}", properties12.driverName, properties12.driverInfo);
     for (uint8_t byte : properties11.deviceUUID) info.uuid += fmt::format("{:02x}", byte);
     info.apiVersion =

@@ -8,13 +8,21 @@
 
 namespace relume {
 
+// More keeps no device busier: a software one has 1,500 subgroups to run for each point, a large GPU room for
+// some ten thousand at a time. A bake stops between submissions only.
+constexpr uint64_t kMostSoftwarePoints = 64, kMostPoints = 256;
+
 // Of rows as they are collected, cut into blocks, encoded and compressed.
 constexpr uint64_t kHostBytesPerEntry = 32;
 
 uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
                    const BakeLimits& limits) {
     const auto size = uint64_t(options.visibilitySize);
-    const uint64_t blockedBytes = 6 * size * size; // one byte a texel, before packing
+    // The rasteriser's layers: one byte a texel, before packing.
+    const bool isDrawn = options.visibilityMethod != VisibilityMethod::Traced;
+    const uint64_t blockedBytes = isDrawn ? 6 * size * size : 0;
+    const uint64_t drawnPoints = std::min(device.info().largestLayerCount / 6,
+                                          uint32_t(device.largestStorageBuffer() / (6 * size * size)));
     // A quarter of the largest heap, and never more than 1 GiB: the rest belongs to others.
     uint64_t memory = std::min<uint64_t>(device.info().largestHeap / 4, 1ull << 30);
     if (limits.memory > 0) memory = std::min(memory, limits.memory);
@@ -25,8 +33,8 @@ uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int ter
         throw UsageError("--memory: expected at least the {} KiB that baking one vertex at a time takes, "
                          "found {} KiB",
                          (bytesPerPoint + 1023) / 1024, limits.memory / 1024);
-    const uint64_t batch = std::min({uint64_t(kMaxBatch), uint64_t(device.info().largestLayerCount / 6),
-                                     device.largestStorageBuffer() / blockedBytes, memory / bytesPerPoint,
+    const uint64_t batch = std::min({device.info().isSoftware ? kMostSoftwarePoints : kMostPoints,
+                                     isDrawn ? drawnPoints : kMostPoints, memory / bytesPerPoint,
                                      uint64_t(TransportPass::largestBatch(device, options))});
     return uint32_t(std::max<uint64_t>(batch, 1));
 }

@@ -12,9 +12,8 @@ struct BakeLimits {
 };
 
 // Points of one submission: as many as the device's layers, storage-buffer range and a share of its memory
-// allow for a part of `terms` terms, at most kMaxBatch. At least 1. Throws UsageError when `limits` leaves no
-// room for a single one.
-constexpr uint32_t kMaxBatch = 64;
+// allow for a part of `terms` terms, and no more than keep it busy. At least 1. Throws UsageError when
+// `limits` leaves no room for a single one.
 uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
                    const BakeLimits& limits = {});
 

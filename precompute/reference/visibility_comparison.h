@@ -14,8 +14,7 @@ struct VisibilityComparison {
     // silhouette passes near.
     uint64_t inside = 0;
     // The vertex with the most different texels, as a picture of its cube unfolded: +Y above and -Y below the
-    // row -X, +Z, +X, -Z. White: seen, black: blocked, grey: below the horizon, red in a ring: different. For
-    // PNG. PNG.
+    // row -X, +Z, +X, -Z. White: seen, black: blocked, grey: below the horizon, red in a ring: different.
     Image picture;
 
     double share() const { return hemisphere > 0 ? double(different) / double(hemisphere) : 0; }

@@ -63,7 +63,7 @@ TEST_CASE("bake: a file baked block by block has the bytes of the asset baked in
     BakeObserver silent;
     const auto path = folder.path() / "a.relume";
     const BakeSummary summary =
-        bakeToFile(device, smallScene("ashikhmin-shirley"), options, path, {.memory = 6 << 20}, silent);
+        bakeToFile(device, smallScene("ashikhmin-shirley"), options, path, {.memory = 4 << 20}, silent);
     CHECK_EQ(summary.resumed, 0u);
     CHECK_LT(summary.times.batch, 32u);
     CHECK(readFile(path) == whole);
