@@ -193,6 +193,29 @@ TEST_CASE("visibility: no ray slips out of a closed mesh") {
             CHECK_EQ(std::ranges::count(cube, 1), 0);
 }
 
+TEST_CASE("visibility: traced rays through corners and along edges are blocked") {
+    // A wall whose corners all lie on the centres of texels: every ray of the face meets a corner, none an
+    // inside.
+    const TestDevice device;
+    constexpr uint32_t kSize = 64;
+    Mesh wall;
+    for (uint32_t y = 0; y < kSize; y++)
+        for (uint32_t x = 0; x < kSize; x++)
+            wall.positions.emplace_back((2 * float(x) + 1) / kSize - 1, (2 * float(y) + 1) / kSize - 1, 1);
+    for (uint32_t y = 0; y + 1 < kSize; y++)
+        for (uint32_t x = 0; x + 1 < kSize; x++) {
+            const uint32_t a = y * kSize + x, b = a + 1, c = a + kSize, d = c + 1;
+            wall.triangles.push_back({a, b, (x + y) % 2 ? c : d});
+            wall.triangles.push_back({(x + y) % 2 ? b : a, d, c});
+        }
+    const auto cubes =
+        visibilityOf(device, VisibilityMethod::Traced, wall, {{{0, 0, 0}, {0, 0, 1}}}, kSize, 1, 1e-7f);
+    int free = 0;
+    for (int y = 0; y < int(kSize); y++)
+        for (int x = 0; x < int(kSize); x++) free += cubes[0][size_t(cubeTexelIndex(4, x, y, int(kSize)))];
+    CHECK_EQ(free, 0);
+}
+
 TEST_CASE("visibility: clusters that are culled change no bit") {
     const TestDevice device;
     constexpr uint32_t kSize = 128, kBatch = 8;
