@@ -2,6 +2,7 @@
 
 #include "engine/base/file.h"
 #include "precompute/bake/checkpoint.h"
+#include "precompute/bake/shard_file.h"
 #include "precompute/visibility/faster_visibility.h"
 
 #include <chrono>
@@ -104,7 +105,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     std::vector<uint32_t> blocks(plan.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
     MemorySink sink(plan);
-    bakeBlocks(device, plan, blocks, {}, sink, observer, times);
+    bakeBlocks(device, plan, blocks, blocks, {}, sink, observer, times);
     times.total = std::chrono::duration<double>(Clock::now() - start).count();
     if (timesOut) *timesOut = times;
     return sink.finish(std::move(plan.asset));
@@ -118,16 +119,19 @@ std::filesystem::path checkpointPath(const std::filesystem::path& output) {
 }
 
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
-                       const std::filesystem::path& output, const BakeLimits& limits,
-                       BakeObserver& observer) {
+                       const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
+                       const std::optional<Shard>& shard) {
     const Clock::time_point start = Clock::now();
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
     if (!options.visibilityMethod) chooseVisibility(device, checkpoint, plan);
     checkpoint.resume(plan);
-    BakeSummary summary{plan.vertices(), 0, timesOf(plan)};
-    std::vector<uint32_t> missing;
+    BakeSummary summary{0, 0, timesOf(plan)};
+    std::vector<uint32_t> own, missing;
     for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+        if (shard && !shard->has(block)) continue;
+        own.push_back(block);
+        summary.vertices += plan.blocks[block].count();
         if (checkpoint.has(block))
             summary.resumed += plan.blocks[block].count();
         else
@@ -135,14 +139,18 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     }
     observer.resumed(summary.resumed, summary.vertices);
     CheckpointSink sink(plan, checkpoint);
-    bakeBlocks(device, plan, missing, limits, sink, observer, summary.times);
+    bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times);
     observer.stage(BakeStage::Writing, "");
     // Of its own name: the checkpoint's lock keeps other bakes off.
     AtomicFile file(output, ".partial");
-    writeBake(plan, checkpoint, [&](std::span<const std::byte> bytes) {
+    const ChunkWriter::Output write = [&](std::span<const std::byte> bytes) {
         if (observer.wantsStop()) throw BakeStopped("stopped");
         file.write(bytes);
-    });
+    };
+    if (shard)
+        writeShard(plan, *shard, checkpoint, write);
+    else
+        writeBake(plan, checkpoint, write);
     file.commit();
     checkpoint.remove();
     summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
