@@ -63,9 +63,11 @@ std::string refusal(const BakeFolder& folder, const std::string& parts) {
 TEST_CASE("many machines: four shards under mpirun, merged, are the whole bake") {
     const BakeFolder folder;
     // What docs/many_machines.md shows.
-    folder.put("bake.sh", "exec '" RELUME_PROGRAM "' " + kBake +
-                              "--shard \"$OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE\" "
-                              "-o \"part-$OMPI_COMM_WORLD_RANK.relume\"\n");
+    folder.put("bake.sh", "part=\"part-$OMPI_COMM_WORLD_RANK.relume\"\n"
+                          "test -e \"$part\" && exit\n"
+                          "exec '" RELUME_PROGRAM "' " +
+                              kBake +
+                              "--shard \"$OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE\" -o \"$part\"\n");
     const std::string command =
         "cd '" + folder.path().string() + "' && " + kNoThreads +
         " mpirun --allow-run-as-root --oversubscribe -n 4 sh bake.sh >mpi.txt 2>&1 </dev/null";
