@@ -21,7 +21,8 @@ struct Arguments {
     DeviceArguments device;
     std::filesystem::path output, timings;
     BakeLimits limits;
-    int threads = 0; // as many as there are
+    std::optional<std::string> shard; // none: all
+    int threads = 0;   // as many as there are
     bool quiet = false, json = false;
 };
 
@@ -36,11 +37,11 @@ void checkOutputs(const Arguments& arguments) {
 
 // Bakes, and says what was made; ends the command where it was stopped.
 BakeSummary bakeStoppably(const vk::Device& device, Scene scene, const Arguments& arguments,
-                          ReportStyle style) {
+                          const std::optional<Shard>& shard, ReportStyle style) {
     BakeReport report(style, true);
     try {
         const BakeSummary summary = bakeToFile(device, std::move(scene), arguments.bake.options,
-                                               arguments.output, arguments.limits, report);
+                                               arguments.output, arguments.limits, report, shard);
         report.close();
         const auto bytes = std::filesystem::file_size(arguments.output);
         const uint64_t baked = summary.vertices - summary.resumed;
@@ -67,6 +68,13 @@ BakeSummary bakeStoppably(const vk::Device& device, Scene scene, const Arguments
 
 void run(Arguments& arguments) {
     arguments.bake.resolve();
+    std::optional<Shard> shard;
+    if (arguments.shard) shard = parseShard(*arguments.shard);
+    // Each machine would measure for itself, and might choose differently.
+    if (shard && !arguments.bake.options.visibilityMethod)
+        throw UsageError(
+            "--shard: all shards must find visibility the same way; name it: --visibility traced "
+            "or raster, not auto");
     std::optional<ThreadLimit> threadLimit;
     if (arguments.threads > 0) threadLimit.emplace(arguments.threads);
     checkOutputs(arguments);
@@ -79,7 +87,7 @@ void run(Arguments& arguments) {
     const ReportStyle style = arguments.json    ? ReportStyle::Json
                               : arguments.quiet ? ReportStyle::Quiet
                                                 : ReportStyle::Text;
-    const BakeSummary summary = bakeStoppably(*device, std::move(scene), arguments, style);
+    const BakeSummary summary = bakeStoppably(*device, std::move(scene), arguments, shard, style);
     const BakeTimes& times = summary.times;
     const uint64_t baked = std::max<uint64_t>(summary.vertices - summary.resumed, 1);
     if (!arguments.timings.empty())
@@ -107,6 +115,11 @@ void addBakeCommand(CLI::App& program) {
     command->add_option("--threads", arguments->threads, "Most host threads that work at a time")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
+    command
+        ->add_option("--shard", arguments->shard,
+                     "Bake every N-th block of vertices from the I-th on, I from 0 to N - 1, into a part for "
+                     "`relume merge`: docs/many_machines.md")
+        ->type_name("I/N");
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
     command->add_flag("--json", arguments->json,
                       "Print events on stdout, a JSON object a line: docs/baking.md lists them");

@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
         "Exit codes: 0 done, 1 failed, 2 usage, 3 comparison over its threshold, 4 no usable device,\n"
         "130 stopped by Ctrl-C, 143 stopped by SIGTERM.");
     addBakeCommand(program);
+    addMergeCommand(program);
     addRenderCommand(program);
     addReferenceCommand(program);
     addCompareCommand(program);

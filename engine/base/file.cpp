@@ -30,6 +30,30 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit)
     return bytes;
 }
 
+FileReader::FileReader(std::filesystem::path path) : mPath(std::move(path)) {
+    mDescriptor = open(mPath.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (mDescriptor < 0) throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
+    struct stat status {};
+    if (fstat(mDescriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+        close(mDescriptor);
+        throw Error("{}: expected a regular file, found a folder, pipe or device", mPath.string());
+    }
+    mSize = uint64_t(status.st_size);
+}
+
+FileReader::~FileReader() { close(mDescriptor); }
+
+void FileReader::read(uint64_t offset, std::span<std::byte> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t count = pread(mDescriptor, bytes.data(), bytes.size(), off_t(offset));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
+        if (count == 0) throw Error("{}: became shorter while it was read", mPath.string());
+        offset += uint64_t(count);
+        bytes = bytes.subspan(size_t(count));
+    }
+}
+
 // The file that writing `path` replaces: a symbolic link's target. Refuses what is no regular file.
 static std::filesystem::path replacedFile(std::filesystem::path path) {
     std::error_code failure;

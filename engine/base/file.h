@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -12,6 +13,27 @@ namespace relume {
 
 // Returns the whole file. Throws Error when it cannot be read, or is larger than `limit` bytes.
 std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit = size_t(64) << 30);
+
+// A regular file that is read piece by piece.
+class FileReader {
+  public:
+    // Throws Error when it cannot be opened, or is something else than a regular file.
+    explicit FileReader(std::filesystem::path path);
+    ~FileReader();
+    FileReader(const FileReader&) = delete;
+    FileReader& operator=(const FileReader&) = delete;
+
+    uint64_t size() const { return mSize; }
+    const std::filesystem::path& path() const { return mPath; }
+
+    // Fills `bytes` from `offset` on. Throws Error when the file has become shorter, or cannot be read.
+    void read(uint64_t offset, std::span<std::byte> bytes) const;
+
+  private:
+    std::filesystem::path mPath;
+    int mDescriptor = -1;
+    uint64_t mSize = 0;
+};
 
 // A file that appears whole or not at all: bytes go to a temporary file beside `path`, which replaces
 // `path` only in commit(). Destroyed before commit(), it leaves `path` as it was.

@@ -14,6 +14,8 @@ constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP"
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kTransport = chunkTag("TRAN");
+// In a shard of a bake only.
+constexpr ChunkTag kShard = chunkTag("SHRD"), kBlockLosses = chunkTag("LOSS");
 
 // Calls array(tag, owner, vector) for every array but the transport, and transport(number, set) where that of
 // a set comes; sets are numbered over all parts.

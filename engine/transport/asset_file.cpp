@@ -18,6 +18,7 @@ namespace {
 
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals, kTriangles, kUvs, kColors, kBaseColor, kMaterialMap};
+constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
 constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
@@ -113,14 +114,12 @@ void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& size
     if (part.materialMap) readTexels(kMaterialMap, *part.materialMap);
 }
 
-void readSet(const ChunkFile& file, uint32_t number, uint64_t entries, uint32_t coefficients,
-             MaterialSet& set) {
+void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {
     const uint64_t texels = uint64_t(set.brdf.terms) * set.brdf.mapTexels();
     set.brdf.lightMaps = readArray<vec3>(file, kLightMaps, number, texels);
     set.brdf.viewMaps = readArray<vec3>(file, kViewMaps, number, texels * uint64_t(set.brdf.layers));
     set.brdf.eigenvalues =
         readArray<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(set.brdf.terms));
-    readTransport(file, number, entries, coefficients, set.transport);
 }
 
 AssetMeta readMeta(const ChunkFile& file) {
@@ -132,12 +131,20 @@ AssetMeta readMeta(const ChunkFile& file) {
 }
 
 // Whether every required chunk is one that this program reads, of a part or set that there is.
-void checkTags(const ChunkFile& file, size_t parts, size_t sets) {
+void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t sets) {
+    const bool isShard = file.findRun(kShard, kWholeFile, 0);
+    if (isShard && kind == AssetFileKind::Bake)
+        throw Error("{}: is a shard of a bake, not a whole one; join all its shards with `relume merge`",
+                    file.name());
+    if (!isShard && kind == AssetFileKind::Shard)
+        throw Error("{}: is a whole bake, not a shard of one; shards are made with `relume bake --shard I/N`",
+                    file.name());
     for (const ChunkEntry& entry : file.entries()) {
         if (!isRequired(entry.tag)) continue;
         const bool ofSet = isIn(entry.tag, kSetTags);
-        const bool known =
-            entry.owner == kWholeFile ? isIn(entry.tag, kWholeTags) : ofSet || isIn(entry.tag, kPartTags);
+        const bool known = entry.owner == kWholeFile
+                               ? isIn(entry.tag, kWholeTags) || (isShard && isIn(entry.tag, kShardTags))
+                               : ofSet || isIn(entry.tag, kPartTags);
         if (!known)
             throw Error(
                 "{}: is not a chunk that this program knows, and needed to read the file; update the program "
@@ -178,23 +185,35 @@ static ChunkWriter chunksOf(const Asset& asset) {
 
 std::vector<std::byte> encodeAsset(const Asset& asset) { return chunksOf(asset).finish(); }
 
-Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
-    const ChunkFile file(bytes, name);
+AssetMeta readMeta(const ChunkFile& file, AssetFileKind kind) {
     AssetMeta meta = readMeta(file);
+    checkTags(file, kind, meta.asset.parts.size(), meta.setEntries.size());
+    return meta;
+}
+
+void readArrays(const ChunkFile& file, AssetMeta& meta) {
     Asset& asset = meta.asset;
-    checkTags(file, asset.parts.size(), meta.setEntries.size());
     asset.occluder.positions = readArray<vec3>(file, kOccluderPositions, kWholeFile, meta.occluderVertices);
     asset.occluder.triangles = readArray<uvec3>(file, kOccluderTriangles, kWholeFile, meta.occluderTriangles);
-    const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
     uint32_t setNumber = 0;
     for (uint32_t number = 0; number < asset.parts.size(); number++) {
         readPart(file, number, meta.sizes[number], asset.parts[number]);
-        for (MaterialSet& set : asset.parts[number].sets) {
-            readSet(file, setNumber, meta.setEntries[setNumber], coefficients, set);
+        for (MaterialSet& set : asset.parts[number].sets) readFactors(file, setNumber++, set);
+    }
+}
+
+Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
+    const ChunkFile file(bytes, name);
+    AssetMeta meta = readMeta(file, AssetFileKind::Bake);
+    readArrays(file, meta);
+    const auto coefficients = uint32_t(6 * meta.asset.faceSize * meta.asset.faceSize);
+    uint32_t setNumber = 0;
+    for (AssetPart& part : meta.asset.parts)
+        for (MaterialSet& set : part.sets) {
+            readTransport(file, setNumber, meta.setEntries[setNumber], coefficients, set.transport);
             setNumber++;
         }
-    }
-    checkAsset(asset, name);
+    checkAsset(meta.asset, name);
     return std::move(meta.asset);
 }
 

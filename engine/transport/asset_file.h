@@ -1,7 +1,9 @@
-// The chunks of an asset's file, for writers that do not hold its transport: asset.h has the rest.
+// The chunks of an asset's file, for writers and readers that do not hold its transport: asset.h has the
+// rest.
 #pragma once
 
 #include "engine/transport/asset.h"
+#include "engine/transport/asset_meta.h"
 #include "engine/transport/chunk_file.h"
 
 #include <functional>
@@ -13,5 +15,15 @@ namespace relume {
 // in all.
 void addChunks(ChunkWriter& file, const Asset& asset, std::span<const uint64_t> setEntries,
                const std::function<void(uint32_t set)>& addTransport);
+
+// Whole, or what one machine of several baked of it: docs/asset_format.md.
+enum class AssetFileKind { Bake, Shard };
+
+// The chunk META of a file of this kind, all required chunks of which are known. Throws Error.
+AssetMeta readMeta(const ChunkFile& file, AssetFileKind kind);
+
+// Fills all arrays but the transport. What the numbers in them are is for checkSkeleton() to say. Throws
+// Error.
+void readArrays(const ChunkFile& file, AssetMeta& meta);
 
 } // namespace relume

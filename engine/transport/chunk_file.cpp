@@ -127,28 +127,51 @@ std::vector<std::byte> ChunkWriter::finish() {
     return file;
 }
 
-ChunkFile::ChunkFile(std::span<const std::byte> bytes, std::string name)
-    : mBytes(bytes), mName(std::move(name)) {
+ByteSource sourceOf(std::span<const std::byte> bytes) {
+    return {bytes.size(), [bytes](uint64_t offset, size_t count, std::vector<std::byte>&) {
+                return bytes.subspan(offset, count);
+            }};
+}
+
+std::vector<std::byte> unpackChunk(const ChunkEntry& entry, std::span<const std::byte> stored,
+                                   const std::string& name) {
+    if (entry.storedSize == entry.rawSize) return {stored.begin(), stored.end()};
+    const unsigned long long content = ZSTD_getFrameContentSize(stored.data(), stored.size());
+    if (content != entry.rawSize)
+        throw Error("{}: chunk {}: is not a zstd frame of {} bytes", name, tagText(entry.tag), entry.rawSize);
+    std::vector<std::byte> raw(entry.rawSize);
+    const size_t size = ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size());
+    if (size != raw.size())
+        throw Error("{}: chunk {}: cannot be decompressed: {}", name, tagText(entry.tag),
+                    ZSTD_isError(size) ? ZSTD_getErrorName(size) : "too short");
+    return raw;
+}
+
+ChunkFile::ChunkFile(ByteSource source, std::string name)
+    : mSource(std::move(source)), mName(std::move(name)) {
     readTable();
     uint64_t offset = kHeaderBytes + mEntries.size() * kEntryBytes;
+    std::vector<std::byte> room;
     for (size_t i = 0; i < mEntries.size(); i++) {
         const ChunkEntry& entry = mEntries[i];
-        checkEntry(entry, offset);
+        checkEntry(entry, offset, room);
         offset += entry.storedSize;
         if (!mIndex.try_emplace({entry.tag, entry.owner, entry.run}, i).second)
             throw Error("{}: chunk {} of part or set {}, run {}, appears twice", mName, tagText(entry.tag),
                         entry.owner, entry.run);
     }
-    if (offset != mBytes.size())
-        throw Error("{}: {} bytes are left over behind the last chunk", mName, mBytes.size() - offset);
+    if (offset != mSource.size)
+        throw Error("{}: {} bytes are left over behind the last chunk", mName, mSource.size - offset);
 }
 
 void ChunkFile::readTable() {
-    if (mBytes.size() < kHeaderBytes ||
-        !std::ranges::equal(mBytes.first(kMagic.size()), std::as_bytes(std::span(kMagic))))
+    std::vector<std::byte> headerRoom, tableRoom;
+    const auto header = mSource.read(0, size_t(std::min<uint64_t>(mSource.size, kHeaderBytes)), headerRoom);
+    if (header.size() < kHeaderBytes ||
+        !std::ranges::equal(header.first(kMagic.size()), std::as_bytes(std::span(kMagic))))
         throw Error("{}: not a .relume file ({} bytes, and no header of one); make one with `relume bake`",
-                    mName, mBytes.size());
-    ByteReader in(mBytes, mName);
+                    mName, mSource.size);
+    ByteReader in(header, mName);
     in.take(kMagic.size());
     const auto version = in.get<uint32_t>();
     if (version != kAssetFormatVersion)
@@ -158,14 +181,14 @@ void ChunkFile::readTable() {
     const auto count = in.get<uint32_t>();
     const auto fileBytes = in.get<uint64_t>();
     const auto checksum = in.get<uint64_t>();
-    if (fileBytes != mBytes.size())
+    if (fileBytes != mSource.size)
         throw Error(
             "{}: expected {} bytes, found {}; the file is cut short or damaged: copy or bake it again", mName,
-            fileBytes, mBytes.size());
-    if (count > in.left() / kEntryBytes)
-        throw Error("{}: names {} chunks, more than its {} bytes can hold", mName, count, mBytes.size());
-    const auto table = in.take(count * kEntryBytes);
-    if (headerChecksum(mBytes, table) != checksum)
+            fileBytes, mSource.size);
+    if (count > (mSource.size - kHeaderBytes) / kEntryBytes)
+        throw Error("{}: names {} chunks, more than its {} bytes can hold", mName, count, mSource.size);
+    const auto table = mSource.read(kHeaderBytes, count * kEntryBytes, tableRoom);
+    if (headerChecksum(header, table) != checksum)
         throw Error(
             "{}: header or chunk table fails its checksum; the file is damaged: copy or bake it again",
             mName);
@@ -175,22 +198,27 @@ void ChunkFile::readTable() {
 }
 
 // Chunks lie end to end, so that none can be counted twice and nothing hides between them.
-void ChunkFile::checkEntry(const ChunkEntry& entry, uint64_t expectedOffset) const {
+void ChunkFile::checkEntry(const ChunkEntry& entry, uint64_t expectedOffset,
+                           std::vector<std::byte>& room) const {
     const std::string tag = tagText(entry.tag);
     if (entry.offset != expectedOffset)
         throw Error("{}: chunk {}: expected at byte {}, found at {}", mName, tag, expectedOffset,
                     entry.offset);
-    if (entry.storedSize == 0 || entry.storedSize > mBytes.size() - entry.offset)
+    if (entry.storedSize == 0 || entry.storedSize > mSource.size - entry.offset)
         throw Error("{}: chunk {}: {} bytes at {} do not fit a file of {}", mName, tag, entry.storedSize,
-                    entry.offset, mBytes.size());
+                    entry.offset, mSource.size);
     if (entry.rawSize < entry.storedSize || entry.rawSize > kLargestChunk ||
         !withinRatio(entry.rawSize, entry.storedSize))
         throw Error("{}: chunk {}: {} bytes cannot stand for {}", mName, tag, entry.storedSize,
                     entry.rawSize);
-    if (hash64(mBytes.subspan(entry.offset, entry.storedSize)) != entry.checksum)
+    expectChecksum(entry, mSource.read(entry.offset, entry.storedSize, room));
+}
+
+void ChunkFile::expectChecksum(const ChunkEntry& entry, std::span<const std::byte> stored) const {
+    if (hash64(stored) != entry.checksum)
         throw Error(
             "{}: chunk {} of part or set {} fails its checksum; the file is damaged: copy or bake it again",
-            mName, tag, entry.owner);
+            mName, tagText(entry.tag), entry.owner);
 }
 
 std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
@@ -206,19 +234,22 @@ std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
     return runs;
 }
 
+const ChunkEntry* ChunkFile::findRun(ChunkTag tag, uint32_t owner, uint32_t run) const {
+    const auto at = mIndex.find({tag, owner, run});
+    return at == mIndex.end() ? nullptr : &mEntries[at->second];
+}
+
 std::vector<std::byte> ChunkFile::load(const ChunkEntry& entry) const {
-    const auto stored = mBytes.subspan(entry.offset, entry.storedSize);
-    if (entry.storedSize == entry.rawSize) return {stored.begin(), stored.end()};
-    const unsigned long long content = ZSTD_getFrameContentSize(stored.data(), stored.size());
-    if (content != entry.rawSize)
-        throw Error("{}: chunk {}: is not a zstd frame of {} bytes", mName, tagText(entry.tag),
-                    entry.rawSize);
-    std::vector<std::byte> raw(entry.rawSize);
-    const size_t size = ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size());
-    if (size != raw.size())
-        throw Error("{}: chunk {}: cannot be decompressed: {}", mName, tagText(entry.tag),
-                    ZSTD_isError(size) ? ZSTD_getErrorName(size) : "too short");
-    return raw;
+    std::vector<std::byte> room;
+    return unpackChunk(entry, mSource.read(entry.offset, entry.storedSize, room), mName);
+}
+
+std::vector<std::byte> ChunkFile::loadStored(const ChunkEntry& entry) const {
+    std::vector<std::byte> room;
+    const auto stored = mSource.read(entry.offset, entry.storedSize, room);
+    expectChecksum(entry, stored);
+    if (room.empty()) room.assign(stored.begin(), stored.end());
+    return room;
 }
 
 } // namespace relume

@@ -75,12 +75,28 @@ class ChunkWriter {
     std::vector<std::byte> mData;
 };
 
-// A checked view of a file's bytes, which must outlive it.
+// The bytes of a file, wherever they are.
+struct ByteSource {
+    uint64_t size = 0;
+    // Gives `count` bytes from `offset` on, which lie within `size`; `room` is for those that are in no
+    // memory yet.
+    std::function<std::span<const std::byte>(uint64_t offset, size_t count, std::vector<std::byte>& room)>
+        read;
+};
+ByteSource sourceOf(std::span<const std::byte> bytes); // which must outlive it
+
+// What a stored chunk stands for. Throws Error; `name` stands for the file there.
+std::vector<std::byte> unpackChunk(const ChunkEntry& entry, std::span<const std::byte> stored,
+                                   const std::string& name);
+
+// A checked view of a file.
 class ChunkFile {
   public:
     // Verifies everything but the chunks' contents: magic, version, every checksum, sizes, limits, order of
-    // runs. `name` stands for the file in errors. Throws Error.
-    ChunkFile(std::span<const std::byte> bytes, std::string name);
+    // runs. Holds the table and one chunk at a time. `name` stands for the file in errors. Throws Error.
+    ChunkFile(ByteSource source, std::string name);
+    ChunkFile(std::span<const std::byte> bytes, std::string name) // which must outlive it
+        : ChunkFile(sourceOf(bytes), std::move(name)) {}
 
     // In file order.
     const std::vector<ChunkEntry>& entries() const { return mEntries; }
@@ -88,16 +104,24 @@ class ChunkFile {
     // The runs of an array, in order; none for an empty one.
     std::vector<ChunkEntry> find(ChunkTag tag, uint32_t owner) const;
 
+    // A single run, whatever others there are; null where it is missing.
+    const ChunkEntry* findRun(ChunkTag tag, uint32_t owner, uint32_t run) const;
+
     // A chunk's bytes, decompressed. Throws Error.
     std::vector<std::byte> load(const ChunkEntry& entry) const;
+
+    // A chunk's bytes as they lie in the file, once more held against their checksum: a file on disk may have
+    // changed. Throws Error.
+    std::vector<std::byte> loadStored(const ChunkEntry& entry) const;
 
     const std::string& name() const { return mName; }
 
   private:
     void readTable();
-    void checkEntry(const ChunkEntry& entry, uint64_t expectedOffset) const;
+    void checkEntry(const ChunkEntry& entry, uint64_t expectedOffset, std::vector<std::byte>& room) const;
+    void expectChecksum(const ChunkEntry& entry, std::span<const std::byte> stored) const;
 
-    std::span<const std::byte> mBytes;
+    ByteSource mSource;
     std::string mName;
     std::vector<ChunkEntry> mEntries;
     std::map<std::tuple<ChunkTag, uint32_t, uint32_t>, size_t> mIndex; // (tag, owner, run)

@@ -82,12 +82,13 @@ void decodeRow(std::span<const uint16_t> gaps, uint32_t coefficients, const std:
 } // namespace
 
 void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
-               const std::string& where, SparseTransport& transport) {
+               const std::string& where, SparseTransport& transport, uint32_t offset) {
     ByteReader in(raw, where);
     const auto first = in.get<uint32_t>(), count = in.get<uint32_t>(), entries = in.get<uint32_t>();
     const size_t rowsRead = transport.rowStarts.size() - 1;
     const size_t rows = size_t(count) * transport.terms;
-    if (size_t(first) * transport.terms != rowsRead || rows > transport.rows() - rowsRead)
+    if (first < offset || size_t(first - offset) * transport.terms != rowsRead ||
+        rows > transport.rows() - rowsRead)
         throw Error("{}: its {} vertices from {} on do not follow those before it", where, count, first);
     if (entries > entryLimit - transport.entries() ||
         in.left() != rows * kRunRowBytes + size_t(entries) * kRunEntryBytes)

@@ -31,11 +31,11 @@ struct VertexRun {
 // Wants valid rows (asset_check.h). Vertex 0 of `transport` is vertex `offset` of its set.
 std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run, uint32_t offset = 0);
 
-// Appends a run to `transport`, whose vertices and terms are set; rowStarts holds one more than the rows read
-// so far. Entries must have indices below `coefficients`, and must not pass `entryLimit` in all. `where`
-// names the chunk in errors. Throws Error.
+// Appends a run to `transport`, whose vertices and terms are set and whose vertex 0 is vertex `offset` of its
+// set; rowStarts holds one more than the rows read so far. Entries must have indices below `coefficients`,
+// and must not pass `entryLimit` in all. `where` names the chunk in errors. Throws Error.
 void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
-               const std::string& where, SparseTransport& transport);
+               const std::string& where, SparseTransport& transport, uint32_t offset = 0);
 
 // Bijections between a packed 11/11/10 word and the word that is stored: byte 0 holds green's low bits, byte
 // 1 those of red - green, byte 2 those of blue - green / 2, byte 3 the high bits (3, 3, 2), each number

@@ -1,13 +1,11 @@
 #include "precompute/bake/bake.h"
 
 #include "engine/base/file.h"
-#include "engine/transport/asset_file.h"
-#include "engine/transport/transport_chunk.h"
 #include "precompute/bake/checkpoint.h"
+#include "precompute/bake/shard_file.h"
 #include "precompute/visibility/faster_visibility.h"
 
 #include <chrono>
-#include <cmath>
 #include <numeric>
 
 namespace relume {
@@ -15,14 +13,6 @@ namespace relume {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-float relative(double lost, double total) { return total > 0 ? float(std::sqrt(lost / total)) : 0; }
-
-// `losses` summed over blocks in order.
-void setErrors(const TransportLosses& losses, Asset& asset) {
-    asset.truncationError = relative(losses.dropped, losses.total);
-    asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
-}
 
 BakeTimes timesOf(const BakePlan& plan) {
     BakeTimes times;
@@ -90,42 +80,6 @@ class CheckpointSink : public BakeSink {
     Checkpoint& mCheckpoint;
 };
 
-// Copies the blocks of a full checkpoint to where they belong.
-void assemble(BakePlan& plan, const Checkpoint& checkpoint, const std::filesystem::path& output,
-              BakeObserver& observer) {
-    observer.stage(BakeStage::Writing, "");
-    const size_t sets = plan.firstSet.back() + plan.asset.parts.back().sets.size();
-    std::vector<std::vector<ChunkEntry>> runs(sets); // over all parts
-    std::vector<uint64_t> entries(sets, 0);
-    TransportLosses losses;
-    for (uint32_t block = 0; block < plan.blocks.size(); block++) {
-        losses.add(checkpoint.losses(block));
-        const BakeBlock& place = plan.blocks[block];
-        for (const ChunkEntry& entry : checkpoint.chunks(block)) {
-            const uint64_t rows =
-                place.count() *
-                uint64_t(
-                    plan.asset.parts[place.part].sets[entry.owner - plan.firstSet[place.part]].brdf.terms);
-            entries[entry.owner] += (entry.rawSize - kRunHeaderBytes - rows * kRunRowBytes) / kRunEntryBytes;
-            runs[entry.owner].push_back(entry);
-        }
-    }
-    setErrors(losses, plan.asset);
-
-    ChunkWriter chunks;
-    addChunks(chunks, plan.asset, entries, [&](uint32_t set) {
-        for (const ChunkEntry& entry : runs[set])
-            chunks.addStored(entry, [&checkpoint, entry] { return checkpoint.load(entry); });
-    });
-    // Of its own name: the checkpoint's lock keeps other bakes off.
-    AtomicFile file(output, ".partial");
-    chunks.finish([&](std::span<const std::byte> bytes) {
-        if (observer.wantsStop()) throw BakeStopped("stopped");
-        file.write(bytes);
-    });
-    file.commit();
-}
-
 // What a checkpoint was begun with, else what is faster.
 void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, BakePlan& plan) {
     for (const VisibilityMethod method : {VisibilityMethod::Traced, VisibilityMethod::Raster}) {
@@ -151,7 +105,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     std::vector<uint32_t> blocks(plan.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
     MemorySink sink(plan);
-    bakeBlocks(device, plan, blocks, {}, sink, observer, times);
+    bakeBlocks(device, plan, blocks, blocks, {}, sink, observer, times);
     times.total = std::chrono::duration<double>(Clock::now() - start).count();
     if (timesOut) *timesOut = times;
     return sink.finish(std::move(plan.asset));
@@ -165,16 +119,19 @@ std::filesystem::path checkpointPath(const std::filesystem::path& output) {
 }
 
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
-                       const std::filesystem::path& output, const BakeLimits& limits,
-                       BakeObserver& observer) {
+                       const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
+                       const std::optional<Shard>& shard) {
     const Clock::time_point start = Clock::now();
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
     if (!options.visibilityMethod) chooseVisibility(device, checkpoint, plan);
     checkpoint.resume(plan);
-    BakeSummary summary{plan.vertices(), 0, timesOf(plan)};
-    std::vector<uint32_t> missing;
+    BakeSummary summary{0, 0, timesOf(plan)};
+    std::vector<uint32_t> own, missing;
     for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+        if (shard && !shard->has(block)) continue;
+        own.push_back(block);
+        summary.vertices += plan.blocks[block].count();
         if (checkpoint.has(block))
             summary.resumed += plan.blocks[block].count();
         else
@@ -182,8 +139,19 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     }
     observer.resumed(summary.resumed, summary.vertices);
     CheckpointSink sink(plan, checkpoint);
-    bakeBlocks(device, plan, missing, limits, sink, observer, summary.times);
-    assemble(plan, checkpoint, output, observer);
+    bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times);
+    observer.stage(BakeStage::Writing, "");
+    // Of its own name: the checkpoint's lock keeps other bakes off.
+    AtomicFile file(output, ".partial");
+    const ChunkWriter::Output write = [&](std::span<const std::byte> bytes) {
+        if (observer.wantsStop()) throw BakeStopped("stopped");
+        file.write(bytes);
+    };
+    if (shard)
+        writeShard(plan, *shard, checkpoint, write);
+    else
+        writeBake(plan, checkpoint, write);
+    file.commit();
     checkpoint.remove();
     summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
     return summary;

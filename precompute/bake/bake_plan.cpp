@@ -123,6 +123,14 @@ uint64_t BakePlan::vertices() const {
     return sum;
 }
 
+BakePlan planOf(Asset asset) {
+    BakePlan plan;
+    plan.asset = std::move(asset);
+    cutBlocks(plan);
+    plan.identity = identityOf(plan.asset);
+    return plan;
+}
+
 void setVisibility(BakePlan& plan, VisibilityMethod method) {
     plan.options.visibilityMethod = method;
     plan.asset.provenance.options = describe(plan.options).dump();

@@ -34,6 +34,9 @@ struct BakePlan {
 // gives its name. Options that leave the visibility's method open give a plan for Traced. Throws Error.
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer);
 
+// The plan that a bake had whose asset this is, rows left out, but for its options.
+BakePlan planOf(Asset asset);
+
 // Decides how visibility is found, and the identity with it.
 void setVisibility(BakePlan& plan, VisibilityMethod method);
 

@@ -1,5 +1,7 @@
 #include "precompute/bake/baked_rows.h"
 
+#include <cmath>
+
 #include "engine/base/check.h"
 
 namespace relume {
@@ -32,6 +34,13 @@ TransportLosses BakedBlock::losses() const {
     for (const BakedRows& set : sets)
         for (const TransportLosses& row : set.losses) sum.add(row);
     return sum;
+}
+
+static float relative(double lost, double total) { return total > 0 ? float(std::sqrt(lost / total)) : 0; }
+
+void setErrors(const TransportLosses& losses, Asset& asset) {
+    asset.truncationError = relative(losses.dropped, losses.total);
+    asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
 }
 
 } // namespace relume

@@ -1,7 +1,7 @@
 // What baking some vertices of a part gives.
 #pragma once
 
-#include "engine/transport/sparse_transport.h"
+#include "engine/transport/asset.h"
 #include "precompute/bake/transport_pass.h"
 
 #include <vector>
@@ -25,5 +25,8 @@ struct BakedBlock {
     // Summed set after set, row by row: the same however it was baked.
     TransportLosses losses() const;
 };
+
+// `losses`: summed over the asset's blocks in their order.
+void setErrors(const TransportLosses& losses, Asset& asset);
 
 } // namespace relume

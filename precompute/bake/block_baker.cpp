@@ -35,15 +35,17 @@ bool isProbed(const BakeEstimate::Part& part) { return part.vertices - part.done
 class BlockBaker {
   public:
     BlockBaker(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
-               const BakeLimits& limits, BakeSink& sink, BakeObserver& observer)
+               std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
+               BakeObserver& observer)
         : mDevice(device), mPlan(plan), mLimits(limits), mSink(sink), mObserver(observer),
-          mEstimate(estimateParts(blocks)) {}
+          mEstimate(estimateParts(blocks, all)) {}
 
     // Blocks of one part.
     void bakePart(std::span<const uint32_t> blocks, BakeTimes& times);
 
   private:
-    std::vector<BakeEstimate::Part> estimateParts(std::span<const uint32_t> blocks);
+    std::vector<BakeEstimate::Part> estimateParts(std::span<const uint32_t> blocks,
+                                                  std::span<const uint32_t> all);
     void probe(std::vector<BakeEstimate::Part>& parts, uint32_t first);
     void bakeGroup(std::span<const uint32_t> blocks);
     std::vector<BakedRows> bakePoints(std::span<const shared::BakePoint> points);
@@ -78,10 +80,11 @@ std::vector<BakedRows> emptyRows(const AssetPart& part) {
     return rows;
 }
 
-std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32_t> blocks) {
-    std::vector<BakeEstimate::Part> parts;
-    for (const AssetPart& part : mPlan.asset.parts)
-        parts.push_back({part.mesh.vertexCount(), part.mesh.vertexCount()});
+std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32_t> blocks,
+                                                          std::span<const uint32_t> all) {
+    std::vector<BakeEstimate::Part> parts(mPlan.asset.parts.size());
+    for (uint32_t block : all) parts[mPlan.blocks[block].part].vertices += mPlan.blocks[block].count();
+    for (BakeEstimate::Part& part : parts) part.doneBefore = part.vertices;
     for (uint32_t block : blocks) parts[mPlan.blocks[block].part].doneBefore -= mPlan.blocks[block].count();
     if (std::ranges::count_if(parts, isProbed) > 1) probe(parts, mPlan.blocks[blocks.front()].part);
     return parts;
@@ -198,9 +201,10 @@ void BlockBaker::bakePart(std::span<const uint32_t> blocks, BakeTimes& times) {
 } // namespace
 
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
-                const BakeLimits& limits, BakeSink& sink, BakeObserver& observer, BakeTimes& times) {
+                std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
+                BakeObserver& observer, BakeTimes& times) {
     if (blocks.empty()) return;
-    BlockBaker baker(device, plan, blocks, limits, sink, observer);
+    BlockBaker baker(device, plan, blocks, all, limits, sink, observer);
     while (!blocks.empty()) {
         const uint32_t part = plan.blocks[blocks.front()].part;
         const auto next =

@@ -26,10 +26,11 @@ class BakeSink {
     virtual void take(uint32_t block, BakedBlock baked) = 0;
 };
 
-// Bakes the blocks of these numbers in their order; those of a part had best be together. What a block gives
-// depends on the plan alone. A device or host short of memory halves the batch, saying so. Throws BakeStopped
-// when the observer wants it, Error.
+// Bakes the blocks of these numbers in their order; those of a part had best be together. Progress is told of
+// `all` blocks, those done before among them. What a block gives depends on the plan alone. A device or host
+// short of memory halves the batch, saying so. Throws BakeStopped when the observer wants it, Error.
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
-                const BakeLimits& limits, BakeSink& sink, BakeObserver& observer, BakeTimes& times);
+                std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
+                BakeObserver& observer, BakeTimes& times);
 
 } // namespace relume

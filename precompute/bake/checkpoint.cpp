@@ -3,10 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "engine/transport/asset_arrays.h"
-#include "engine/transport/asset_check.h"
 #include "engine/transport/byte_stream.h"
-#include "engine/transport/transport_chunk.h"
 
 #include <algorithm>
 #include <bit>
@@ -78,47 +75,7 @@ ChunkEntry getChunk(ByteReader& in) {
     return entry;
 }
 
-// The chunk that a block's set must have, but for sizes and checksum.
-ChunkEntry expectedChunk(const BakePlan& plan, uint32_t block, size_t set) {
-    const BakeBlock& place = plan.blocks[block];
-    return {kTransport, plan.firstSet[place.part] + uint32_t(set), place.first / plan.blockVertices};
-}
-
-uint64_t runBytes(const BakePlan& plan, uint32_t block, const MaterialSet& set, uint64_t entriesPerRow) {
-    const uint64_t rows = uint64_t(plan.blocks[block].count()) * uint64_t(set.brdf.terms);
-    return kRunHeaderBytes + rows * (kRunRowBytes + entriesPerRow * kRunEntryBytes);
-}
-
-// Whether an entry can be that of a block's set.
-bool isPlausible(const BakePlan& plan, uint32_t block, size_t set, const ChunkEntry& entry) {
-    const ChunkEntry expected = expectedChunk(plan, block, set);
-    const MaterialSet& materials = plan.asset.parts[plan.blocks[block].part].sets[set];
-    const uint64_t least = runBytes(plan, block, materials, 0);
-    return entry.tag == expected.tag && entry.owner == expected.owner && entry.run == expected.run &&
-           entry.rawSize >= least &&
-           entry.rawSize <= runBytes(plan, block, materials, uint64_t(plan.asset.coefficients)) &&
-           (entry.rawSize - least) % kRunEntryBytes == 0 && entry.storedSize > 0 &&
-           entry.storedSize <= entry.rawSize;
-}
-
 } // namespace
-
-StoredBlock storeBlock(const BakePlan& plan, uint32_t block, const BakedBlock& baked) {
-    const BakeBlock& place = plan.blocks[block];
-    const auto coefficients = uint32_t(6 * plan.asset.faceSize * plan.asset.faceSize);
-    StoredBlock stored{baked.losses(), {}};
-    for (size_t set = 0; set < baked.sets.size(); set++) {
-        const SparseTransport& transport = baked.sets[set].transport;
-        RELUME_CHECK_EQ(transport.vertices, place.count());
-        checkTransport(transport, coefficients, uint64_t(plan.asset.coefficients),
-                       fmt::format("part \"{}\", vertices from {} on as the device baked them",
-                                   plan.asset.parts[place.part].name, place.first));
-        const ChunkEntry chunk = expectedChunk(plan, block, set);
-        stored.chunks.push_back(storeChunk(chunk.tag, chunk.owner, chunk.run,
-                                           encodeRun(transport, {0, transport.vertices}, place.first)));
-    }
-    return stored;
-}
 
 Checkpoint::Checkpoint(std::filesystem::path path) : mPath(std::move(path)) {
     lock();
@@ -213,8 +170,7 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     if (block >= plan.blocks.size() || mBlocks[block]) return false;
     const AssetPart& part = plan.asset.parts[plan.blocks[block].part];
     uint64_t most = kLossBytes;
-    for (const MaterialSet& set : part.sets)
-        most += kChunkBytes + runBytes(plan, block, set, uint64_t(plan.asset.coefficients));
+    for (const MaterialSet& set : part.sets) most += kChunkBytes + mostRunBytes(plan, block, set);
     if (chunkCount != part.sets.size() || bodyBytes < kLossBytes + chunkCount * kChunkBytes ||
         bodyBytes > most)
         return false;
@@ -284,7 +240,7 @@ void Checkpoint::write(std::span<const std::byte> bytes) {
     mBytes = end;
 }
 
-std::vector<std::byte> Checkpoint::load(const ChunkEntry& entry) const {
+std::vector<std::byte> Checkpoint::load(uint32_t, const ChunkEntry& entry) const {
     std::vector<std::byte> bytes(entry.storedSize);
     if (!read(entry.offset, bytes))
         throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));

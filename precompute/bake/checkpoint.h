@@ -1,9 +1,7 @@
 // Finished blocks of a bake on disk, so that nothing stops it for good: docs/checkpoint_format.md.
 #pragma once
 
-#include "engine/transport/chunk_file.h"
-#include "precompute/bake/bake_plan.h"
-#include "precompute/bake/baked_rows.h"
+#include "precompute/bake/stored_blocks.h"
 
 #include <chrono>
 #include <filesystem>
@@ -11,22 +9,14 @@
 
 namespace relume {
 
-// A finished block in the bytes of the asset's file: a TRAN chunk per set of its part.
-struct StoredBlock {
-    TransportLosses losses;
-    std::vector<StoredChunk> chunks;
-};
-// Checks the rows, encodes and compresses them. Throws Error for rows that make no valid asset.
-StoredBlock storeBlock(const BakePlan& plan, uint32_t block, const BakedBlock& baked);
-
 // An append-only file of blocks. One process at a time has it.
-class Checkpoint {
+class Checkpoint : public StoredBlocks {
   public:
     // Makes or opens the file and locks it. Throws Error when another process has it, when it is no
     // checkpoint, or cannot be written.
     explicit Checkpoint(std::filesystem::path path);
     // Removes a file that holds nothing.
-    ~Checkpoint();
+    ~Checkpoint() override;
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
@@ -38,15 +28,13 @@ class Checkpoint {
     void resume(const BakePlan& plan);
 
     bool has(uint32_t block) const { return mBlocks[block].has_value(); }
-    // Of a block that is there: entries with offsets into the checkpoint, and what it lost.
-    const std::vector<ChunkEntry>& chunks(uint32_t block) const { return mBlocks[block]->chunks; }
-    const TransportLosses& losses(uint32_t block) const { return mBlocks[block]->losses; }
+    // Entries have offsets into the checkpoint.
+    const std::vector<ChunkEntry>& chunks(uint32_t block) const override { return mBlocks[block]->chunks; }
+    const TransportLosses& losses(uint32_t block) const override { return mBlocks[block]->losses; }
+    std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override;
 
     // On failure, a full disk say, throws Error and leaves the file as it was before.
     void append(uint32_t block, const StoredBlock& stored);
-
-    // Stored bytes of one of chunks(). Throws Error when they cannot be read or fail their checksum.
-    std::vector<std::byte> load(const ChunkEntry& entry) const;
 
     // Deletes the file.
     void remove();

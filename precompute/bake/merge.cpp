@@ -1,0 +1,134 @@
+#include "precompute/bake/merge.h"
+
+#include "engine/transport/asset_arrays.h"
+#include "engine/transport/asset_check.h"
+#include "engine/transport/transport_chunk.h"
+#include "precompute/bake/shard_difference.h"
+
+#include <algorithm>
+
+namespace relume {
+
+namespace {
+
+void expectSameBake(const ShardFile& first, const ShardFile& other) {
+    if (first.metaText() != other.metaText() || first.identity() != other.identity())
+        throw Error(
+            "{}: is a shard of another bake than {}: {}; bake all shards from the same inputs with the same "
+            "options, program and kind of device",
+            other.name(), first.name(), describeDifference(first, other));
+    if (first.shard().count != other.shard().count)
+        throw Error("{}: is one of {} shards, and {} is one of {}; join shards of one division", other.name(),
+                    other.shard().count, first.name(), first.shard().count);
+}
+
+// All shards of one bake, shard 0 first.
+std::vector<const ShardFile*> inOrder(std::span<const ShardFile> shards) {
+    if (shards.empty()) throw UsageError("expected the shards of a bake, found none");
+    std::vector<const ShardFile*> ordered;
+    for (const ShardFile& shard : shards) {
+        expectSameBake(shards.front(), shard);
+        ordered.push_back(&shard);
+    }
+    std::ranges::stable_sort(ordered, {}, [](const ShardFile* file) { return file->shard().index; });
+    for (size_t i = 1; i < ordered.size(); i++)
+        if (ordered[i]->shard() == ordered[i - 1]->shard())
+            throw Error("{}: is shard {}/{}, and so is {}; name each shard once", ordered[i]->name(),
+                        ordered[i]->shard().index, ordered[i]->shard().count, ordered[i - 1]->name());
+
+    const uint32_t count = shards.front().shard().count;
+    if (ordered.size() == count) return ordered;
+    constexpr size_t kNamed = 8;
+    std::string missing;
+    size_t next = 0, named = 0;
+    for (uint32_t index = 0; index < count && named < kNamed; index++) {
+        if (next < ordered.size() && ordered[next]->shard().index == index) {
+            next++;
+            continue;
+        }
+        missing += fmt::format("{}{}/{}", named++ == 0 ? "" : ", ", index, count);
+    }
+    const size_t absent = count - ordered.size();
+    throw Error("{} of {} shards missing: {}{}; bake them and name all parts", absent, count, missing,
+                absent > named ? ", …" : "");
+}
+
+// The blocks of all shards, each read from its own.
+class ShardBlocks : public StoredBlocks {
+  public:
+    ShardBlocks(const BakePlan& plan, std::vector<const ShardFile*> shards)
+        : mPlan(plan), mShards(std::move(shards)), mChunks(plan.blocks.size()), mLosses(plan.blocks.size()) {
+        for (const ShardFile* shard : mShards) addShard(*shard);
+    }
+
+    const std::vector<ChunkEntry>& chunks(uint32_t block) const override { return mChunks[block]; }
+    const TransportLosses& losses(uint32_t block) const override { return mLosses[block]; }
+    std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override;
+
+  private:
+    const ShardFile& fileOf(uint32_t block) const { return *mShards[block % mShards.size()]; }
+    void addShard(const ShardFile& file);
+
+    const BakePlan& mPlan;
+    std::vector<const ShardFile*> mShards; // by index
+    std::vector<std::vector<ChunkEntry>> mChunks;
+    std::vector<TransportLosses> mLosses;
+};
+
+void ShardBlocks::addShard(const ShardFile& file) {
+    const auto blocks = uint32_t(mPlan.blocks.size());
+    const std::vector<TransportLosses> losses = file.losses(file.shard().size(blocks));
+    size_t used = 0;
+    for (uint32_t block = file.shard().index; block < blocks; block += file.shard().count) {
+        mLosses[block] = losses[block / file.shard().count];
+        const size_t sets = mPlan.asset.parts[mPlan.blocks[block].part].sets.size();
+        for (size_t set = 0; set < sets; set++, used++) {
+            const ChunkEntry expected = expectedChunk(mPlan, block, set);
+            const ChunkEntry* entry = file.chunks().findRun(expected.tag, expected.owner, expected.run);
+            if (!entry || !isPlausible(mPlan, block, set, *entry))
+                throw Error("{}: chunk TRAN of set {}, run {}, is missing or of a wrong size; bake the shard "
+                            "again",
+                            file.name(), expected.owner, expected.run);
+            mChunks[block].push_back(*entry);
+        }
+    }
+    const auto found = size_t(std::ranges::count(file.chunks().entries(), kTransport, &ChunkEntry::tag));
+    if (found != used)
+        throw Error(
+            "{}: holds {} chunks TRAN, and shard {}/{} has {}: others' blocks are in it; bake the shard "
+            "again",
+            file.name(), found, file.shard().index, file.shard().count, used);
+}
+
+// Nothing is passed on that a reader of the whole would refuse.
+std::vector<std::byte> ShardBlocks::load(uint32_t block, const ChunkEntry& entry) const {
+    const ShardFile& file = fileOf(block);
+    std::vector<std::byte> stored = file.chunks().loadStored(entry);
+    const BakeBlock& place = mPlan.blocks[block];
+    const uint32_t set = entry.owner - mPlan.firstSet[place.part];
+    const std::string where =
+        fmt::format("{}: chunk TRAN of set {}, run {}", file.name(), entry.owner, entry.run);
+    const auto coefficients = uint32_t(6 * mPlan.asset.faceSize * mPlan.asset.faceSize);
+    SparseTransport rows;
+    rows.vertices = place.count();
+    rows.terms = uint32_t(mPlan.asset.parts[place.part].sets[set].brdf.terms);
+    rows.rowStarts = {0};
+    decodeRun(unpackChunk(entry, stored, file.name()), coefficients, entriesOf(mPlan, block, entry), where,
+              rows, place.first);
+    if (rows.rowStarts.size() != rows.rows() + 1)
+        throw Error("{}: expected {} vertices, found fewer", where, rows.vertices);
+    checkTransport(rows, coefficients, uint64_t(mPlan.asset.coefficients), where);
+    return stored;
+}
+
+} // namespace
+
+uint64_t mergeShards(std::span<const ShardFile> shards, const ChunkWriter::Output& output) {
+    const std::vector<const ShardFile*> ordered = inOrder(shards);
+    BakePlan plan = ordered.front()->plan();
+    const ShardBlocks blocks(plan, ordered);
+    writeBake(plan, blocks, output);
+    return plan.vertices();
+}
+
+} // namespace relume

@@ -1,0 +1,11 @@
+// In words, why shards cannot be joined.
+#pragma once
+
+#include "precompute/bake/shard_file.h"
+
+namespace relume {
+
+// What differs between two shards of different bakes: "device: \"B\", not \"A\"" for `other` B and `first` A.
+std::string describeDifference(const ShardFile& first, const ShardFile& other);
+
+} // namespace relume
