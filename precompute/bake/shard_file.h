@@ -18,7 +18,7 @@ void writeShard(const BakePlan& plan, const Shard& shard, const StoredBlocks& bl
 // A shard on disk, or in memory, of which no more than its table, its description and what it lost is held.
 class ShardFile {
   public:
-    // Called with every number of bytes that was read. What it throws comes through.
+    // Is told how many bytes have just been read. What it throws comes through.
     using Watch = std::function<void(uint64_t bytes)>;
 
     // Verifies what ChunkFile does, and the shard's own chunks. Throws Error for anything else than a shard.
