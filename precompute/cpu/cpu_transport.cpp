@@ -128,7 +128,7 @@ void measure(const float* values, float* maxima, double* energy) {
 
 CpuTransport::CpuTransport(std::span<const FactoredBrdf* const> brdfs, int faceSize, int visibilitySize,
                            int samples)
-    : mFaceSize(faceSize), mSamples(samples) {
+    : mSamples(samples) {
     RELUME_CHECK(!brdfs.empty());
     RELUME_CHECK(faceSize >= 16 && std::has_single_bit(unsigned(faceSize)));
     const int cells = int(std::lround(std::sqrt(double(samples)))); // a side of a lighting texel

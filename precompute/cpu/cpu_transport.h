@@ -71,7 +71,7 @@ class CpuTransport {
     template <int Stride>
     void transformBlocks(CpuCoefficients& result) const;
 
-    int mTerms = 0, mMapSize = 0, mFaceSize, mSamples;
+    int mTerms = 0, mMapSize = 0, mSamples;
     int mCellTexels; // visibility texels of one evaluation
     DiskMapping mMapping{};
     std::vector<float> mMaps;                   // group after group, texel after texel, stride floats
