@@ -19,14 +19,15 @@ layout(constant_id = 2) const uint kSamplesPerSide = 1;  // evaluations a side o
 layout(constant_id = 3) const uint kMapSize = 48;
 layout(constant_id = 4) const uint kMapping = 0;
 // Without a loop over terms, the places of all 16 lookups need not be kept: a quarter faster on lavapipe.
-layout(constant_id = 5) const bool kOneTerm = false;
+layout(constant_id = 5) const uint kTerms = 4;
+const bool kOneTerm = kTerms == 1;
 
 layout(push_constant, scalar) uniform Push { TransportPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Visible { uint visible[]; };
-// Three layers a term, one a channel; texel (x, y) holds the four corners of a lookup between the map's
+// Texel ((y (S + 1) + x) K + term) 3 + channel: the four corners of a lookup between the map's
 // texels x - 1 and x, y - 1 and y.
-layout(binding = 2) uniform sampler2DArray lightMaps;
+layout(binding = 2) uniform samplerBuffer lightMaps;
 // Row after row of 6 F² coefficients: r, g, b, and r² + g² + b² to select by. Details of empty blocks are not
 // written; averages lie where the next stage's coefficients will.
 layout(binding = 3, std430) writeonly buffer Coefficients { vec4 coefficients[]; };
@@ -42,7 +43,7 @@ void storeCoefficient(uint row, uint face, uvec2 place, vec3 value, float square
 
 // Where a lookup finds its corners and what each counts for.
 struct Place {
-    ivec2 texel;
+    int texel;
     vec4 weights;
 };
 
@@ -60,15 +61,16 @@ Place placeOf(uvec2 block, uvec2 cell, uint face, mat3 frame) {
     const float weight = max(local.z, 0) * cubeSolidAngle(uv, cellWidth) * fraction;
     const vec2 place = diskMapCoordinates(kMapping, local) * float(kMapSize) - 0.5;
     const vec2 corner = floor(place), right = place - corner, left = 1 - right;
-    return Place(clamp(ivec2(corner) + 1, ivec2(0), ivec2(kMapSize)),
+    const ivec2 cell2 = clamp(ivec2(corner) + 1, ivec2(0), ivec2(kMapSize));
+    return Place((cell2.y * int(kMapSize + 1) + cell2.x) * int(3 * kTerms),
                  weight * vec4(left.x * left.y, right.x * left.y, left.x * right.y, right.x * right.y));
 }
 
 // Three fetches of four corners: samplers round weights to 8 bits on many devices, and CPU twins do not.
 vec3 weightedLookup(Place place, int layer) {
-    return vec3(dot(texelFetch(lightMaps, ivec3(place.texel, layer), 0), place.weights),
-                dot(texelFetch(lightMaps, ivec3(place.texel, layer + 1), 0), place.weights),
-                dot(texelFetch(lightMaps, ivec3(place.texel, layer + 2), 0), place.weights));
+    return vec3(dot(texelFetch(lightMaps, place.texel + layer), place.weights),
+                dot(texelFetch(lightMaps, place.texel + layer + 1), place.weights),
+                dot(texelFetch(lightMaps, place.texel + layer + 2), place.weights));
 }
 
 void main() {

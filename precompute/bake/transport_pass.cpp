@@ -1,6 +1,5 @@
 #include "precompute/bake/transport_pass.h"
 
-#include "engine/vk/upload.h"
 #include "shaders/compact_comp.h"
 #include "shaders/haar_comp.h"
 #include "shaders/quantise_comp.h"
@@ -27,28 +26,25 @@ uint64_t rowBlocks(uint64_t faceSize) {
     return 6 * (fine * fine + coarse * coarse + 1);
 }
 
-// For lookups of one fetch a channel: three layers a term, one a channel, whose texel (x, y) holds what a
-// lookup between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
-vk::Image makeCornerTexture(const vk::Device& device, const FactoredBrdf& brdf) {
-    const int side = brdf.size + 1;
+// For lookups of one fetch a channel: texel ((y · (S + 1) + x) · K + term) · 3 + channel holds what a lookup
+// between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
+vk::TexelBuffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
     const auto column = [&](int x) {
         return brdf.mapping == DiskMapping::Polar ? (x + brdf.size) % brdf.size
                                                   : std::clamp(x, 0, brdf.size - 1);
     };
     std::vector<vec4> texels;
-    texels.reserve(size_t(brdf.terms) * 3 * size_t(side) * size_t(side));
-    for (int term = 0; term < brdf.terms; term++)
-        for (int channel = 0; channel < 3; channel++)
-            for (int y = 0; y < side; y++)
-                for (int x = 0; x < side; x++) {
-                    const vec3* above = brdf.lightMap(term) + std::max(y - 1, 0) * brdf.size;
-                    const vec3* below = brdf.lightMap(term) + std::min(y, brdf.size - 1) * brdf.size;
+    texels.reserve(size_t(brdf.terms) * 3 * size_t(brdf.size + 1) * size_t(brdf.size + 1));
+    for (int y = 0; y <= brdf.size; y++)
+        for (int x = 0; x <= brdf.size; x++)
+            for (int term = 0; term < brdf.terms; term++) {
+                const vec3* above = brdf.lightMap(term) + std::max(y - 1, 0) * brdf.size;
+                const vec3* below = brdf.lightMap(term) + std::min(y, brdf.size - 1) * brdf.size;
+                for (int channel = 0; channel < 3; channel++)
                     texels.emplace_back(above[column(x - 1)][channel], above[column(x)][channel],
                                         below[column(x - 1)][channel], below[column(x)][channel]);
-                }
-    return vk::uploadImage(
-        device, {.width = uint32_t(side), .height = uint32_t(side), .layers = 3 * uint32_t(brdf.terms)},
-        std::as_bytes(std::span(texels)), "light map corners");
+            }
+    return {device, texels, "light map corners"};
 }
 
 } // namespace
@@ -93,15 +89,13 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
     mBlocks = {device, rows * rowBlocks(mFaceSize) * sizeof(shared::BlockSummary), Device,
                "coefficient blocks"};
 
-    mLightMaps = makeCornerTexture(device, brdf);
-    mSampler = {device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                "light maps"};
+    mCorners = makeCorners(device, brdf);
     const uint32_t count = 6 * mFaceSize * mFaceSize;
     const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
     mTransport = {device,
                   transport_comp_spirv,
                   {mFaceSize, uint32_t(options.visibilitySize), samplesPerSide, uint32_t(brdf.size),
-                   uint32_t(brdf.mapping), uint32_t(terms == 1)},
+                   uint32_t(brdf.mapping), terms},
                   "transport"};
     mHaar = {device, haar_comp_spirv, {mFaceSize, 6 * (mFaceSize / 16) * (mFaceSize / 16)}, "haar"};
     mSelect = {device, select_comp_spirv, {mFaceSize}, "select"};
@@ -126,7 +120,7 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
     };
     commands.barrier(Compute, Compute);
     commands.pass("transport", [&] {
-        commands.dispatch(mTransport, {points, bits, {mLightMaps, mSampler}, mCoefficients, mBlocks},
+        commands.dispatch(mTransport, {points, bits, mCorners, mCoefficients, mBlocks},
                           shared::TransportPush{group.firstTerm, group.terms},
                           {mFaceSize / 4 * mFaceSize / 4, 6, count});
     });

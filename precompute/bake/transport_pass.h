@@ -54,8 +54,7 @@ class TransportPass {
                      const vk::Buffer& bits) const;
 
     uint32_t mFaceSize, mKept;
-    vk::Image mLightMaps;
-    vk::Sampler mSampler;
+    vk::TexelBuffer mCorners;
     std::vector<TermGroup> mGroups;
     vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mBlocks;
     vk::ComputeProgram mTransport, mHaar, mSelect, mQuantise, mRowStarts, mCompact;
