@@ -3,14 +3,15 @@
 // those that do not become zero. One group a row. CPU twin: packRow in precompute/reference/transport_stages.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/haar_block.glsl"
 #include "shaders/lib/packing.glsl"
 #include "shaders/shared/bake.h"
 
 layout(local_size_x = 32) in;
-layout(constant_id = 0) const uint kCount = 6 * 64 * 64; // coefficients of a row
+layout(constant_id = 0) const uint kFaceSize = 64; // F
 
 layout(push_constant, scalar) uniform Push { RowsPush push; };
-layout(binding = 0, std430) readonly buffer Coefficients { vec4 coefficients[]; };
+layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; }; // lib/haar_block.glsl
 layout(binding = 1, scalar) readonly buffer Selected { uint selected[]; }; // N places a row
 layout(binding = 2, scalar) readonly buffer SelectedCounts { uint selectedCounts[]; };
 layout(binding = 3, scalar) writeonly buffer Values { uint values[]; }; // N places a row
@@ -23,14 +24,18 @@ shared float laneFloats[kLanes];
 shared float laneErrors[kLanes];
 shared uint laneCounts[kLanes];
 
+vec3 coefficient(uint row, uint index) {
+    return coefficients[16 * HAAR_BLOCKS(kFaceSize) * row + haarSlot(index, kFaceSize)];
+}
+
 void main() {
-    const uint lane = gl_LocalInvocationID.x, row = gl_WorkGroupID.x;
+    const uint lane = gl_LocalInvocationID.x, row = push.firstRow + gl_WorkGroupID.x;
     const uint count = selectedCounts[row];
-    const uint firstPlace = row * push.kept, firstCoefficient = row * kCount;
+    const uint firstPlace = row * push.kept;
 
     float largest = 0;
     for (uint i = lane; i < count; i += kLanes) {
-        const vec3 magnitude = abs(coefficients[firstCoefficient + selected[firstPlace + i]].rgb);
+        const vec3 magnitude = abs(coefficient(gl_WorkGroupID.x, selected[firstPlace + i]));
         largest = max(largest, max(magnitude.r, max(magnitude.g, magnitude.b)));
     }
     laneFloats[lane] = largest;
@@ -42,7 +47,7 @@ void main() {
     uint entries = 0;
     float energy = 0, error = 0;
     for (uint i = lane; i < count; i += kLanes) {
-        const vec3 value = coefficients[firstCoefficient + selected[firstPlace + i]].rgb;
+        const vec3 value = coefficient(gl_WorkGroupID.x, selected[firstPlace + i]);
         const ivec3 q = quantiseCoefficient(value, scale);
         const vec3 difference = value - vec3(q) * (scale / vec3(kCoefficientMaximum));
         values[firstPlace + i] = packCoefficient(q);

@@ -1,59 +1,63 @@
 #version 460
 // The N coefficients of largest magnitude of each row. Of equal ones the first are kept; zeros never are.
 //
-// Squared magnitudes are positive floats, so their bits sort as they do and a radix search finds the N-th
-// largest. It is made first among the largest of each block: N blocks that hold a key of at least b prove
-// that the N-th largest is. Only blocks that reach b are read then, to search among their keys. The set of
-// what is kept becomes a bit a coefficient, so that it comes out in order. One group a row.
+// Squared magnitudes are positive floats, so their bits, here *keys*, sort as they do and a radix search finds
+// the N-th largest. First the largest key of each block: N blocks that hold a key of at least b prove that the
+// N-th largest is. Only blocks that reach b are read then, and of their keys those that reach it are searched.
+// They are few enough, as a rule, to be listed; otherwise all slots of these blocks are gone through again and
+// again. The set of what is kept becomes a bit a coefficient, so that it comes out in order. One group a row.
 // CPU twin: selectLargest in precompute/reference/transport_stages.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shaders/lib/haar_block.glsl"
+#include "shaders/lib/haar_step.glsl"
 #include "shaders/shared/bake.h"
 
-layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kFaceSize = 64; // F
+layout(local_size_x_id = 1) in;                    // at most 64
 
 layout(push_constant, scalar) uniform Push { RowsPush push; };
-layout(binding = 0, std430) readonly buffer Coefficients { vec4 coefficients[]; }; // unwritten in blocks of zeros
-layout(binding = 1, scalar) readonly buffer Blocks { BlockSummary blocks[]; };
+layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; }; // lib/haar_block.glsl
+layout(binding = 0, std430) readonly buffer Quarters { vec4 quarters[]; };          // the same, quicker to read
+layout(binding = 1, scalar) readonly buffer Summaries { vec2 summaries[]; };        // of blocks
 layout(binding = 2, scalar) writeonly buffer Selected { uint selected[]; }; // N places a row
 layout(binding = 3, scalar) writeonly buffer Counts { uint counts[]; };
 layout(binding = 4, scalar) writeonly buffer Statistics { RowStatistics statistics[]; };
 
-const uint kLanes = 64;
+const uint kLanes = gl_WorkGroupSize.x;
 const uint kCount = 6 * kFaceSize * kFaceSize;
 const uint kWords = kCount / 32;
 const uint kBlocks = HAAR_BLOCKS(kFaceSize);
-const uint kBins = 256; // a digit of 8 bits; keys are below 2³¹, the last digit of four has 7
-const uint kShifts[4] = uint[](23u, 15u, 7u, 0u);
+const uint kBins = 256;
+const uint kCapacity = 512; // of the list of keys
 
 shared uint bins[kBins];
 shared uvec2 laneSums[kLanes];
 shared float laneEnergies[kLanes];
-shared uint blockList[kBlocks]; // those that are read
-shared uint larger[kWords], equal[kWords]; // a bit a coefficient
+shared uint blockList[kBlocks]; // those that are read; above 16 bits the slots that reach the bound
+shared uint keyList[kCapacity], slotList[kCapacity]; // what reaches the bound, if it fits: key, 16 · block + slot
+shared uvec2 kept[kWords];                           // a bit a coefficient: larger than the threshold; equal
 shared uint foundBin, foundAbove, foundCount;
 shared uvec2 total;
 
-uint blockKey(uint row, uint block) { return floatBitsToUint(blocks[row * kBlocks + block].largest); }
+// Four bins an octave of squared magnitudes, from 2⁻⁴⁰ to 2²⁴; what lies outside shares the first and the last.
+const uint kBoundShift = 21;
+const int kFirstBound = (127 - 40) * 4;
+uint boundBin(uint key) { return uint(clamp(int(key >> kBoundShift) - kFirstBound, 0, int(kBins) - 1)); }
 
-// The coefficient, face · F² + y · F + x, of a slot of a block; kCount if there is none.
-uint coefficientOf(uint block, uint slot) {
-    const bool fine = block < HAAR_FINE_BLOCKS(kFaceSize);
-    const bool coarse = !fine && block < HAAR_FINE_BLOCKS(kFaceSize) + HAAR_COARSE_BLOCKS(kFaceSize);
-    const uint width = fine ? kFaceSize / 4 : coarse ? kFaceSize / 16 : 1;
-    const uint inStage = block - (fine     ? 0
-                                  : coarse ? HAAR_FINE_BLOCKS(kFaceSize)
-                                           : HAAR_FINE_BLOCKS(kFaceSize) + HAAR_COARSE_BLOCKS(kFaceSize));
-    const uint face = inStage / (width * width), inFace = inStage % (width * width);
-    const bool none = fine || coarse ? slot == 15 : slot < 12 && kFaceSize == 32;
-    const uvec2 place = haarSlotPlace(uvec2(inFace % width, inFace / width), slot, width);
-    return none ? kCount : (face * kFaceSize + place.y) * kFaceSize + place.x;
+uint blockKey(uint row, uint block) { return floatBitsToUint(summaries[row * kBlocks + block].x); }
+
+uint key(uint row, uint slot) {
+    return floatBitsToUint(squaredMagnitude(coefficients[16 * kBlocks * row + slot]));
 }
 
-uint key(uint row, uint coefficient) {
-    return coefficient < kCount ? floatBitsToUint(coefficients[row * kCount + coefficient].w) : 0;
+// Candidate `i`: of the list, or of all slots of the blocks that are read.
+uint candidateSlot(uint i, bool isListed) {
+    return isListed ? slotList[i] : 16 * (blockList[i / 16] & 0xffff) + i % 16;
+}
+
+uint candidateKey(uint row, uint i, bool isListed) {
+    if (isListed) return keyList[i];
+    return (blockList[i / 16] >> (16 + i % 16) & 1) != 0 ? key(row, candidateSlot(i, false)) : 0;
 }
 
 void clearBins() {
@@ -103,83 +107,109 @@ uvec2 sumBefore(uvec2 value) {
 }
 
 void main() {
-    const uint lane = gl_LocalInvocationID.x, row = gl_WorkGroupID.x;
-    for (uint i = lane; i < kWords; i += kLanes) {
-        larger[i] = 0;
-        equal[i] = 0;
-    }
+    const uint lane = gl_LocalInvocationID.x, row = gl_WorkGroupID.x, rowOut = push.firstRow + row;
+    for (uint i = lane; i < kWords; i += kLanes) kept[i] = uvec2(0);
 
-    // Two digits of the N-th largest block are close enough.
-    uint bound = 0;
-    for (uint digit = 0, wanted = push.kept; digit < 2 && push.kept <= kBlocks; digit++) {
-        clearBins();
-        for (uint i = lane; i < kBlocks; i += kLanes) {
-            const uint k = blockKey(row, i);
-            if (k != 0 && (digit == 0 || k >> kShifts[0] == bound >> kShifts[0]))
-                atomicAdd(bins[k >> kShifts[digit] & 255], 1);
-        }
-        findBin(wanted);
-        bound |= foundBin << kShifts[digit];
-        wanted -= min(foundAbove, wanted);
+    uint bound = 1;
+    clearBins();
+    for (uint i = lane; i < (push.kept <= kBlocks ? kBlocks : 0); i += kLanes) {
+        const uint k = blockKey(row, i);
+        if (k != 0) atomicAdd(bins[boundBin(k)], 1);
     }
-    bound = max(bound, 1);
+    findBin(push.kept);
+    if (foundBin > 0) bound = (foundBin + kFirstBound) << kBoundShift;
 
     uint read = 0;
     float dropped = 0;
     for (uint i = lane; i < kBlocks; i += kLanes) {
-        const bool isRead = blockKey(row, i) >= bound;
+        const vec2 summary = summaries[row * kBlocks + i];
+        const bool isRead = floatBitsToUint(summary.x) >= bound;
         read += uint(isRead);
-        if (!isRead) dropped += blocks[row * kBlocks + i].energy;
+        dropped += isRead ? 0 : summary.y;
     }
     uint place = sumBefore(uvec2(read, 0)).x;
     for (uint i = lane; i < kBlocks; i += kLanes)
         if (blockKey(row, i) >= bound) blockList[place++] = i;
-    const uint slots = 16 * total.x;
+    barrier();
+    const uint readBlocks = total.x;
+
+    uint reaching = 0;
+    for (uint i = lane; i < readBlocks; i += kLanes) {
+        const uint block = blockList[i];
+        float floats[48];
+        for (uint j = 0; j < 12; j++) {
+            const vec4 quarter = quarters[12 * (kBlocks * row + block) + j];
+            for (uint k = 0; k < 4; k++) floats[4 * j + k] = quarter[k];
+        }
+        const uint held = haarCoefficientSlots(block, kFaceSize);
+        uint slots = 0;
+        for (uint slot = 0; slot < 16; slot++) {
+            if ((held >> slot & 1) == 0) continue;
+            const float squared = squaredMagnitude(vec3(floats[3 * slot], floats[3 * slot + 1], floats[3 * slot + 2]));
+            const bool reaches = floatBitsToUint(squared) >= bound;
+            slots |= uint(reaches) << slot;
+            dropped += reaches ? 0 : squared;
+        }
+        blockList[i] = slots << 16 | block;
+        reaching += bitCount(slots);
+    }
+    place = sumBefore(uvec2(reaching, 0)).x;
+    const bool isListed = total.x <= kCapacity;
+    for (uint i = lane; i < (isListed ? readBlocks : 0); i += kLanes) {
+        const uint block = blockList[i] & 0xffff;
+        for (uint slots = blockList[i] >> 16; slots != 0; slots &= slots - 1)
+            slotList[place++] = 16 * block + findLSB(slots);
+    }
+    const uint candidates = isListed ? total.x : 16 * readBlocks;
+    barrier();
+    for (uint i = lane; i < (isListed ? candidates : 0); i += kLanes)
+        keyList[i] = key(row, slotList[i]);
 
     // The N-th largest key, digit by digit: `prefix` holds the digits found, `wanted` its rank among the keys
     // that share them. Where all of these are wanted, the search is over.
     uint prefix = 0, wanted = push.kept;
     bool whole = false;
     for (uint digit = 0; digit < 4 && !whole; digit++) {
+        const uint shift = digit < 3 ? 23 - 8 * digit : 0; // keys are below 2³¹, the last digit has 7 bits
         clearBins();
-        for (uint i = lane; i < slots; i += kLanes) {
-            const uint k = key(row, coefficientOf(blockList[i / 16], i % 16));
-            if (k >= bound && (digit == 0 || k >> kShifts[digit - 1] == prefix >> kShifts[digit - 1]))
-                atomicAdd(bins[k >> kShifts[digit] & (digit == 3 ? 127 : 255)], 1);
+        for (uint i = lane; i < candidates; i += kLanes) {
+            const uint k = candidateKey(row, i, isListed);
+            if (k >= bound && k >> (31 - 8 * digit) == prefix >> (31 - 8 * digit))
+                atomicAdd(bins[k >> shift & (digit == 3 ? 127 : 255)], 1);
         }
         findBin(wanted);
-        prefix |= foundBin << kShifts[digit];
+        prefix |= foundBin << shift;
         wanted -= min(foundAbove, wanted);
         whole = foundCount == wanted;
     }
 
     // With fewer than N keys that are not zero the search ends at 0: keep all of them.
     const uint threshold = whole ? max(prefix, bound) - 1 : max(prefix, 1);
-    for (uint i = lane; i < slots; i += kLanes) {
-        const uint coefficient = coefficientOf(blockList[i / 16], i % 16);
-        const uint k = key(row, coefficient);
-        if (k > threshold)
-            atomicOr(larger[coefficient / 32], 1u << coefficient % 32);
-        else if (k == threshold && k > 0)
-            atomicOr(equal[coefficient / 32], 1u << coefficient % 32);
-        else
+    for (uint i = lane; i < candidates; i += kLanes) {
+        const uint k = candidateKey(row, i, isListed);
+        if (k > threshold || k == threshold && k > 0) {
+            const uint slot = candidateSlot(i, isListed);
+            const uint coefficient = haarCoefficient(slot / 16, slot % 16, kFaceSize);
+            atomicOr(kept[coefficient / 32][k > threshold ? 0 : 1], 1u << coefficient % 32);
+        } else if (k >= bound) {
             dropped += uintBitsToFloat(k);
+        }
     }
     barrier();
     if (whole) wanted = 0;
 
     uvec2 found = uvec2(0); // larger, equal
     const uint run = kWords / kLanes;
-    for (uint i = lane * run; i < (lane + 1) * run; i++) found += uvec2(bitCount(larger[i]), bitCount(equal[i]));
+    for (uint i = lane * run; i < (lane + 1) * run; i++) found += uvec2(bitCount(kept[i]));
     const uvec2 before = sumBefore(found);
     uint equalBefore = before.y;
     place = before.x + min(equalBefore, wanted);
     for (uint i = lane * run; i < (lane + 1) * run; i++) {
-        const uint equals = equal[i];
-        for (uint bits = larger[i] | equals; bits != 0; bits &= bits - 1) {
+        const uvec2 word = kept[i];
+        for (uint bits = word.x | word.y; bits != 0; bits &= bits - 1) {
             const uint bit = findLSB(bits);
-            const bool isEqual = (equals >> bit & 1) != 0;
-            if (!isEqual || equalBefore < wanted) selected[row * push.kept + place++] = 32 * i + bit;
+            const bool isEqual = (word.y >> bit & 1) != 0;
+            if (!isEqual || equalBefore < wanted) selected[rowOut * push.kept + place++] = 32 * i + bit;
             equalBefore += uint(isEqual);
         }
     }
@@ -189,6 +219,6 @@ void main() {
     const uint keptEqual = min(total.y, wanted);
     dropped = 0;
     for (uint i = 0; i < kLanes; i++) dropped += laneEnergies[i];
-    counts[row] = total.x + keptEqual;
-    statistics[row].dropped = dropped + float(total.y - keptEqual) * uintBitsToFloat(threshold);
+    counts[rowOut] = total.x + keptEqual;
+    statistics[rowOut].dropped = dropped + float(total.y - keptEqual) * uintBitsToFloat(threshold);
 }

@@ -1,9 +1,11 @@
 #version 460
-// Transport of all terms over 4×4 lighting texels of one point, in the Haar basis, two levels deep.
+// Transport of all terms over one cube face of one point, in the Haar basis.
 //
-// A lane evaluates light map × cosine × solid angle × visible fraction for its block. What the terms share,
-// where to look and with which weight, is found once; blocks that nothing reaches are left out. haar.comp
-// goes on with the averages. CPU twins: transportVector and haarFaces in precompute/reference/transport_stages.h.
+// A lane takes a block of 4×4 lighting texels that light reaches, evaluates light map × cosine × solid angle ×
+// visible fraction, and goes two levels deep; what the terms share, where to look and with which weight, it
+// finds once. Then lanes take 4×4 averages, and then the face's last blocks. Blocks are taken from a list: lanes
+// that had nothing to do would cost software devices as much as those that work.
+// CPU twins: transportVector and haarFaces in precompute/reference/transport_stages.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/cubemap.glsl"
@@ -12,120 +14,171 @@
 #include "shaders/lib/tangent_frame.glsl"
 #include "shaders/shared/bake.h"
 
-layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kFaceSize = 64;       // F, lighting texels a side
 layout(constant_id = 1) const uint kVisibilitySize = 256; // a multiple of F, at most 8 F
 layout(constant_id = 2) const uint kSamplesPerSide = 1;  // evaluations a side of a lighting texel
 layout(constant_id = 3) const uint kMapSize = 48;
 layout(constant_id = 4) const uint kMapping = 0;
 // Without a loop over terms, the places of all 16 lookups need not be kept: a quarter faster on lavapipe.
-layout(constant_id = 5) const bool kOneTerm = false;
+layout(constant_id = 5) const uint kTerms = 4; // K, of all dispatches
+layout(local_size_x_id = 6) in;
 
 layout(push_constant, scalar) uniform Push { TransportPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Visible { uint visible[]; };
-// Three layers a term, one a channel; texel (x, y) holds the four corners of a lookup between the map's
-// texels x - 1 and x, y - 1 and y.
-layout(binding = 2) uniform sampler2DArray lightMaps;
-// Row after row of 6 F² coefficients: r, g, b, and r² + g² + b² to select by. Details of empty blocks are not
-// written; averages lie where the next stage's coefficients will.
-layout(binding = 3, std430) writeonly buffer Coefficients { vec4 coefficients[]; };
-layout(binding = 4, scalar) writeonly buffer Blocks { BlockSummary blocks[]; }; // of each row, HAAR_BLOCKS(F)
+// Texel ((y (S + 1) + x) K + term) 3 + channel: the four corners of a lookup between the map's texels x - 1 and x,
+// y - 1 and y. A buffer, not an image: software devices find the place in an image anew, level and layer and
+// all, for each fetch.
+layout(binding = 2) uniform samplerBuffer corners;
+layout(binding = 3, std430) coherent buffer Coefficients { vec4 coefficients[]; }; // lib/haar_block.glsl
+layout(binding = 4, scalar) writeonly buffer Summaries { vec2 summaries[]; };      // of blocks
 
+const uint kLanes = gl_WorkGroupSize.x;
 const uint kBlocks = kFaceSize / 4; // a side
+const uint kFaceBlocks = kBlocks * kBlocks;
+const uint kRowBlocks = HAAR_BLOCKS(kFaceSize);
+const uint kCoarse = kFaceSize / 16; // blocks a side, of the second stage
+const uint kCoarseBlocks = kCoarse * kCoarse;
 const uint kRatio = kVisibilitySize / kFaceSize;
 const uint kCell = kRatio / kSamplesPerSide; // visibility texels a side of one evaluation
+const uint kBlockBits = 4 * kRatio;          // a side
+const uint kWordsPerLine = kVisibilitySize / 32;
+// Without a loop over terms, the places of all 16 lookups need not be kept: a quarter faster on lavapipe.
+const bool kOneTerm = kTerms == 1;
 
-void storeCoefficient(uint row, uint face, uvec2 place, vec3 value, float squared) {
-    coefficients[((row * 6 + face) * kFaceSize + place.y) * kFaceSize + place.x] = vec4(value, squared);
-}
+// The face's blocks: reached ones from the front, in any order, the others from the back.
+shared uint blockList[kFaceBlocks];
+shared uint reachedBlocks, otherBlocks;
+shared vec3 averages[kTerms * kCoarseBlocks]; // of the second stage
+uint lines[kBlockBits];                       // a block's visibility, a word a line: its lowest bits
 
 // Where a lookup finds its corners and what each counts for.
 struct Place {
-    ivec2 texel;
+    int texel; // of the first term's red
     vec4 weights;
 };
-
-uint rows[4 * kRatio]; // the block's visibility, one word a row of texels: its lowest 4 · ratio bits
 
 // `cell` counts evaluations from the block's first.
 Place placeOf(uvec2 block, uvec2 cell, uint face, mat3 frame) {
     const float cellWidth = 2.0 / float(kFaceSize * kSamplesPerSide);
     uint count = 0;
-    for (uint row = 0; row < kCell; row++)
-        count += bitCount(bitfieldExtract(rows[cell.y * kCell + row], int(cell.x * kCell), int(kCell)));
+    for (uint line = 0; line < kCell; line++)
+        count += bitCount(bitfieldExtract(lines[cell.y * kCell + line], int(cell.x * kCell), int(kCell)));
     const vec2 uv = (vec2(block * 4 * kSamplesPerSide + cell) + 0.5) * cellWidth - 1;
     const vec3 local = normalize(frame * vec3(uv, 1));
     const float fraction = float(count) / float(kCell * kCell);
     const float weight = max(local.z, 0) * cubeSolidAngle(uv, cellWidth) * fraction;
     const vec2 place = diskMapCoordinates(kMapping, local) * float(kMapSize) - 0.5;
     const vec2 corner = floor(place), right = place - corner, left = 1 - right;
-    return Place(clamp(ivec2(corner) + 1, ivec2(0), ivec2(kMapSize)),
+    const ivec2 first = clamp(ivec2(corner) + 1, ivec2(0), ivec2(kMapSize));
+    return Place((first.y * int(kMapSize + 1) + first.x) * int(3 * kTerms),
                  weight * vec4(left.x * left.y, right.x * left.y, left.x * right.y, right.x * right.y));
 }
 
 // Three fetches of four corners: samplers round weights to 8 bits on many devices, and CPU twins do not.
-vec3 weightedLookup(Place place, int layer) {
-    return vec3(dot(texelFetch(lightMaps, ivec3(place.texel, layer), 0), place.weights),
-                dot(texelFetch(lightMaps, ivec3(place.texel, layer + 1), 0), place.weights),
-                dot(texelFetch(lightMaps, ivec3(place.texel, layer + 2), 0), place.weights));
+vec3 weightedLookup(Place place, uint term) {
+    const int texel = place.texel + 3 * int(term);
+    return vec3(dot(texelFetch(corners, texel), place.weights), dot(texelFetch(corners, texel + 1), place.weights),
+                dot(texelFetch(corners, texel + 2), place.weights));
+}
+
+void storeBlock(uint place, vec3 slots[16], vec2 summary) {
+    for (uint i = 0; i < 12; i++) coefficients[12 * place + i] = slotQuarter(slots, i);
+    summaries[place] = summary;
+}
+
+void listBlocks(uint firstWord) {
+    const uint lane = gl_LocalInvocationID.x;
+    const uint blocksPerWord = 32 / kBlockBits;
+    if (lane == 0) reachedBlocks = otherBlocks = 0;
+    barrier();
+    for (uint i = lane; i < kBlocks * kWordsPerLine; i += kLanes) {
+        const uint word = firstWord + i / kWordsPerLine * kBlockBits * kWordsPerLine + i % kWordsPerLine;
+        uint visibleBits = 0;
+        for (uint line = 0; line < kBlockBits; line++) visibleBits |= visible[word + line * kWordsPerLine];
+        for (uint j = 0; j < blocksPerWord; j++) {
+            uint place;
+            if (bitfieldExtract(visibleBits, int(j * kBlockBits), int(kBlockBits)) != 0)
+                place = atomicAdd(reachedBlocks, 1);
+            else
+                place = kFaceBlocks - 1 - atomicAdd(otherBlocks, 1);
+            blockList[place] = i * blocksPerWord + j;
+        }
+    }
+    barrier();
 }
 
 void main() {
-    const uvec2 block = uvec2(gl_GlobalInvocationID.x % kBlocks, gl_GlobalInvocationID.x / kBlocks);
-    const uint face = gl_GlobalInvocationID.y, point = gl_GlobalInvocationID.z;
-    const vec3 normal = points[point].normal;
-    const uint firstRow = point * push.terms;
-    const uint blockInRow = face * kBlocks * kBlocks + gl_GlobalInvocationID.x;
+    const uint lane = gl_LocalInvocationID.x;
+    const uint face = gl_WorkGroupID.x, point = push.firstPoint + gl_WorkGroupID.y;
+    const uint firstRow = gl_WorkGroupID.y * push.terms;
+    const uint firstBlock = face * kFaceBlocks; // of a row
+    const uint firstWord = (point * 6 + face) * kVisibilitySize * kWordsPerLine;
+    vec3 values[16], slots[16];
+    vec2 summary;
+    listBlocks(firstWord);
 
-    // Work that is left out is a loop of no iterations: devices without branches a lane leave loops early.
-    const vec3 faceNormal = normal * kFaceAxes[face];
-    const float blockWidth = 2.0 / float(kBlocks);
-    const vec2 centre = (vec2(block) + 0.5) * blockWidth - 1;
-    const float highest = dot(faceNormal, vec3(centre, 1)) +
-                          (abs(faceNormal.x) + abs(faceNormal.y)) * (0.5 * blockWidth);
-    uint any = 0;
-    for (uint once = 0; once < uint(highest > 0); once++) {
-        const uint wordsPerRow = kVisibilitySize / 32;
-        const uint bit = block.x * 4 * kRatio;
-        const uint firstWord =
-            ((point * 6 + face) * kVisibilitySize + block.y * 4 * kRatio) * wordsPerRow + bit / 32;
-        for (uint i = 0; i < 4 * kRatio; i++) {
-            rows[i] = bitfieldExtract(visible[firstWord + i * wordsPerRow] >> (bit % 32), 0, int(4 * kRatio));
-            any |= rows[i];
-        }
-    }
-
-    for (uint once = 0; once < uint(any != 0); once++) {
-        const mat3 frame = tangentFrame(normal) * kFaceAxes[face];
+    const mat3 frame = tangentFrame(points[point].normal) * kFaceAxes[face];
+    for (uint entry = lane; entry < reachedBlocks; entry += kLanes) {
+        const uint number = blockList[entry];
+        const uvec2 block = uvec2(number % kBlocks, number / kBlocks);
+        const uint bit = block.x * kBlockBits;
+        const uint word = firstWord + block.y * kBlockBits * kWordsPerLine + bit / 32;
+        for (uint line = 0; line < kBlockBits; line++)
+            lines[line] = bitfieldExtract(visible[word + line * kWordsPerLine] >> (bit % 32), 0, int(kBlockBits));
         Place places[16];
         if (kSamplesPerSide == 1)
             for (uint i = 0; i < 16; i++) places[i] = placeOf(block, uvec2(i % 4, i / 4), face, frame);
         for (uint term = 0; term < (kOneTerm ? 1 : push.terms); term++) {
-            const int layer = int(3 * (push.firstTerm + term));
-            vec3 texels[16];
             for (uint i = 0; i < 16; i++) {
                 if (kSamplesPerSide == 1) {
-                    texels[i] = weightedLookup(places[i], layer);
+                    values[i] = weightedLookup(places[i], push.firstTerm + term);
                     continue;
                 }
-                texels[i] = vec3(0);
+                values[i] = vec3(0);
                 for (uint j = 0; j < kSamplesPerSide * kSamplesPerSide; j++) {
                     const uvec2 cell =
                         uvec2(i % 4, i / 4) * kSamplesPerSide + uvec2(j % kSamplesPerSide, j / kSamplesPerSide);
-                    texels[i] += weightedLookup(placeOf(block, cell, face, frame), layer);
+                    values[i] += weightedLookup(placeOf(block, cell, face, frame), push.firstTerm + term);
                 }
             }
-            const uint row = firstRow + term;
-            BlockSummary summary = BlockSummary(0, 0);
-            const vec3 average = haarBlock(texels, row, face, block, kBlocks, summary);
-            storeCoefficient(row, face, block, average, 0);
-            blocks[row * HAAR_BLOCKS(kFaceSize) + blockInRow] = summary;
+            haarBlock(values, slots, summary);
+            storeBlock((firstRow + term) * kRowBlocks + firstBlock + number, slots, summary);
         }
     }
-    for (uint term = 0; term < (any == 0 ? push.terms : 0); term++) {
-        const uint row = firstRow + term;
-        storeCoefficient(row, face, block, vec3(0), 0);
-        blocks[row * HAAR_BLOCKS(kFaceSize) + blockInRow] = BlockSummary(0, 0);
+    for (uint entry = lane; entry < otherBlocks; entry += kLanes)
+        for (uint term = 0; term < push.terms; term++) {
+            const uint place = (firstRow + term) * kRowBlocks + firstBlock + blockList[kFaceBlocks - 1 - entry];
+            coefficients[12 * place + 11] = vec4(0); // with the average
+            summaries[place] = vec2(0);
+        }
+    memoryBarrierBuffer();
+    barrier();
+
+    // The stages above.
+    for (uint i = lane; i < push.terms * kCoarseBlocks; i += kLanes) {
+        const uint firstPlace = (firstRow + i / kCoarseBlocks) * kRowBlocks, block = i % kCoarseBlocks;
+        const uvec2 corner = 4 * uvec2(block % kCoarse, block / kCoarse);
+        for (uint j = 0; j < 16; j++) {
+            const uint finer = firstPlace + firstBlock + (corner.y + j / 4) * kBlocks + corner.x + j % 4;
+            values[j] = coefficients[12 * finer + 11].yzw;
+        }
+        haarBlock(values, slots, summary);
+        storeBlock(firstPlace + HAAR_FINE_BLOCKS(kFaceSize) + face * kCoarseBlocks + block, slots, summary);
+        averages[i] = slots[15];
+    }
+    barrier();
+    for (uint term = lane; term < push.terms; term += kLanes) {
+        const uint first = term * kCoarseBlocks;
+        if (kCoarse == 4) {
+            for (uint i = 0; i < 16; i++) values[i] = averages[first + i];
+            haarBlock(values, slots, summary);
+        } else {
+            summary = vec2(0);
+            slots[15] = haarStep(averages[first], averages[first + 1], averages[first + 2], averages[first + 3], 12,
+                                 slots, summary);
+        }
+        addToSummary(slots[15], summary);
+        storeBlock((firstRow + term + 1) * kRowBlocks - 6 + face, slots, summary);
     }
 }

@@ -19,13 +19,12 @@ std::optional<double> BakeTraffic::cpu(const std::string& stage) const {
 }
 
 std::optional<double> BakeTraffic::device(const std::string& stage) const {
-    constexpr double kTriangleIndices = 12, kCoefficient = 16, kIndex = 4, kValue = 4;
-    const double summaries = mCoefficients / 15 * 8; // a block of 15 coefficients each
+    constexpr double kTriangleIndices = 12, kCoefficient = 12, kIndex = 4, kValue = 4;
+    const double blocks = mCoefficients / 15, summaries = blocks * 8, slots = blocks * 16 * kCoefficient;
     if (stage == "visibility draw") return mTexels + mTriangles * kTriangleIndices; // a byte a texel
     if (stage == "visibility pack") return 3 * mTexels + mTexels / 8;               // copied, then packed
     if (stage == "visibility trace") return mTexels / 8;
-    if (stage == "transport") return mTexels / 8 + mCoefficients * kCoefficient + summaries;
-    if (stage == "haar") return 2 * mCoefficients / 16 * kCoefficient; // of averages
+    if (stage == "transport") return mTexels / 8 + slots + blocks * kCoefficient + summaries; // averages twice
     if (stage == "select") return summaries + mKept * (kCoefficient + kIndex);
     if (stage == "quantise") return mKept * (kIndex + kCoefficient + kValue);
     if (stage == "compact") return mKept * 2 * (kIndex + kValue);

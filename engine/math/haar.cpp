@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -43,6 +44,25 @@ void haarInverse(std::span<vec3> values, int size) {
         for (int y = 0; y < 2 * half; y++)
             for (int x = 0; x < 2 * half; x++) values[y * size + x] = level[y * size + x];
     }
+}
+
+size_t haarSlot(size_t coefficient, size_t size) {
+    const size_t face = coefficient / (size * size), y = coefficient / size % size, x = coefficient % size;
+    const size_t level = std::bit_floor(std::max(x, y)); // a side, of the details it belongs to
+    const size_t detail = (x >= level) + 2 * size_t(y >= level) - 1;
+    size_t first = 0;
+    for (const size_t side : {size / 4, size / 16, size_t(1)}) {
+        const auto place = [&](size_t bx, size_t by, size_t slot) {
+            return 16 * (first + (face * side + by) * side + bx) + slot;
+        };
+        if (level == 2 * side) {
+            const size_t qx = x % level, qy = y % level;
+            return place(qx / 2, qy / 2, 3 * (qx % 2 + 2 * (qy % 2)) + detail);
+        }
+        if (level == side) return place(x % level, y % level, 12 + detail);
+        first += 6 * side * side;
+    }
+    return 16 * (first - 6 + face) + 15; // the average
 }
 
 } // namespace relume

@@ -1,4 +1,5 @@
-// The orthonormal, non-standard 2D Haar basis. GLSL twins: shaders/transport.comp, shaders/light_haar.comp.
+// The orthonormal, non-standard 2D Haar basis. GLSL twins: shaders/lib/haar_step.glsl,
+// shaders/light_haar.comp.
 //
 // One level turns each 2×2 block [a b; c d] into
 //   (a + b + c + d) / 2 at (x, y), (a - b + c - d) / 2 at (x + h, y),
@@ -9,6 +10,7 @@
 
 #include "engine/math/vector.h"
 
+#include <cstddef>
 #include <span>
 
 namespace relume {
@@ -18,5 +20,9 @@ void haarForward(std::span<vec3> values, int size);
 
 // The inverse of haarForward.
 void haarInverse(std::span<vec3> values, int size);
+
+// Where the bake's kernels put a coefficient, face · size² + y · size + x, of six faces: 16 · block + slot.
+// GLSL twin: shaders/lib/haar_block.glsl.
+size_t haarSlot(size_t coefficient, size_t size);
 
 } // namespace relume

@@ -154,6 +154,9 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
             RELUME_CHECK_LE(binding.bytes, mDevice.largestStorageBuffer());
             buffers[i] = {binding.buffer->handle(), binding.offset, binding.bytes};
             write.pBufferInfo = &buffers[i];
+        } else if (binding.texels) {
+            RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER));
+            write.pTexelBufferView = &binding.texels->view();
         } else {
             RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER));
             images[i] = {binding.sampler->handle(), binding.image->view(),
@@ -171,10 +174,11 @@ VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
         if (mActivePool == mDescriptorPools.size()) {
             const VkDescriptorPoolSize sizes[] = {
                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
-                {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * kSetsPerPool}};
+                {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * kSetsPerPool},
+                {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kSetsPerPool}};
             VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
             create.maxSets = kSetsPerPool;
-            create.poolSizeCount = 2;
+            create.poolSizeCount = uint32_t(std::size(sizes));
             create.pPoolSizes = sizes;
             VkDescriptorPool pool;
             RELUME_VK(vkCreateDescriptorPool(mDevice.handle(), &create, nullptr, &pool));

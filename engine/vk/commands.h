@@ -6,6 +6,7 @@
 #include "engine/vk/buffer.h"
 #include "engine/vk/image.h"
 #include "engine/vk/program.h"
+#include "engine/vk/texel_buffer.h"
 
 #include <functional>
 #include <initializer_list>
@@ -20,10 +21,13 @@ struct Binding {
     Binding(const Image& texture, const Sampler& textureSampler)
         : image(&texture), sampler(&textureSampler) {}
 
+    Binding(const TexelBuffer& texelBuffer) : texels(&texelBuffer) {}
+
     const Buffer* buffer = nullptr;
     uint64_t offset = 0, bytes = 0;
     const Image* image = nullptr;
     const Sampler* sampler = nullptr;
+    const TexelBuffer* texels = nullptr;
 };
 
 // Which work waits for which: everything written by `from` is seen by `to`.

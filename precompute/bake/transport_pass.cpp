@@ -1,8 +1,6 @@
 #include "precompute/bake/transport_pass.h"
 
-#include "engine/vk/upload.h"
 #include "shaders/compact_comp.h"
-#include "shaders/haar_comp.h"
 #include "shaders/quantise_comp.h"
 #include "shaders/row_starts_comp.h"
 #include "shaders/select_comp.h"
@@ -15,50 +13,51 @@ namespace relume {
 
 namespace {
 
-constexpr uint64_t kCoefficientBytes = 16; // r, g, b, squared magnitude
-
-uint64_t rowBytes(const BakeOptions& options) {
-    return 6ull * uint64_t(options.faceSize) * uint64_t(options.faceSize) * kCoefficientBytes;
-}
-
-// Blocks of coefficients that have a summary: shaders/lib/haar_block.glsl.
+// Rows as shaders/lib/haar_block.glsl lays them out.
 uint64_t rowBlocks(uint64_t faceSize) {
     const uint64_t fine = faceSize / 4, coarse = faceSize / 16;
     return 6 * (fine * fine + coarse * coarse + 1);
 }
 
-// For lookups of one fetch a channel: three layers a term, one a channel, whose texel (x, y) holds what a
-// lookup between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
-vk::Image makeCornerTexture(const vk::Device& device, const FactoredBrdf& brdf) {
-    const int side = brdf.size + 1;
+// For lookups of one fetch a channel: texel ((y · (S + 1) + x) · K + term) · 3 + channel holds what a lookup
+// between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
+vk::TexelBuffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
     const auto column = [&](int x) {
         return brdf.mapping == DiskMapping::Polar ? (x + brdf.size) % brdf.size
                                                   : std::clamp(x, 0, brdf.size - 1);
     };
     std::vector<vec4> texels;
-    texels.reserve(size_t(brdf.terms) * 3 * size_t(side) * size_t(side));
-    for (int term = 0; term < brdf.terms; term++)
-        for (int channel = 0; channel < 3; channel++)
-            for (int y = 0; y < side; y++)
-                for (int x = 0; x < side; x++) {
-                    const vec3* above = brdf.lightMap(term) + std::max(y - 1, 0) * brdf.size;
-                    const vec3* below = brdf.lightMap(term) + std::min(y, brdf.size - 1) * brdf.size;
+    texels.reserve(size_t(brdf.terms) * 3 * size_t(brdf.size + 1) * size_t(brdf.size + 1));
+    for (int y = 0; y <= brdf.size; y++)
+        for (int x = 0; x <= brdf.size; x++)
+            for (int term = 0; term < brdf.terms; term++) {
+                const vec3* above = brdf.lightMap(term) + std::max(y - 1, 0) * brdf.size;
+                const vec3* below = brdf.lightMap(term) + std::min(y, brdf.size - 1) * brdf.size;
+                for (int channel = 0; channel < 3; channel++)
                     texels.emplace_back(above[column(x - 1)][channel], above[column(x)][channel],
                                         below[column(x - 1)][channel], below[column(x)][channel]);
-                }
-    return vk::uploadImage(
-        device, {.width = uint32_t(side), .height = uint32_t(side), .layers = 3 * uint32_t(brdf.terms)},
-        std::as_bytes(std::span(texels)), "light map corners");
+            }
+    return {device, texels, "light map corners"};
 }
 
 } // namespace
+
+uint64_t TransportPass::rowBytes(const BakeOptions& options) {
+    return rowBlocks(uint64_t(options.faceSize)) * 16 * sizeof(vec3);
+}
+
+TransportTuning TransportTuning::of(const vk::Device& device) {
+    if (device.info().type != "software") return {64, ~0ull};
+    // A group of one subgroup needs no switching between subgroups. Rows that are worked on soon after they
+    // were written come from the cache.
+    return {std::min(64u, device.info().subgroupSize), 16ull << 20};
+}
 
 uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
     const auto entries = uint64_t(options.coefficients);
     // Coefficients, selected, values; entries as they come back.
     return uint64_t(terms) *
-           (rowBytes(options) + rowBlocks(uint64_t(options.faceSize)) * sizeof(shared::BlockSummary) +
-            16 * entries);
+           (rowBytes(options) + rowBlocks(uint64_t(options.faceSize)) * sizeof(vec2) + 16 * entries);
 }
 
 uint32_t TransportPass::largestBatch(const vk::Device& device, const BakeOptions& options) {
@@ -66,7 +65,7 @@ uint32_t TransportPass::largestBatch(const vk::Device& device, const BakeOptions
 }
 
 TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
-                             uint32_t capacity)
+                             uint32_t capacity, const TransportTuning& tuning)
     : mFaceSize(uint32_t(options.faceSize)), mKept(uint32_t(options.coefficients)) {
     using enum vk::BufferUse;
     const uint32_t largestBatch = TransportPass::largestBatch(device, options);
@@ -84,28 +83,26 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
                            {device, rows * mKept * 8, Readback, "row entries"}});
     }
     const uint64_t rows = uint64_t(capacity) * termsTogether;
-    mCoefficients = {device, rows * rowBytes(options), Device, "coefficients"};
+    mTogether = uint32_t(
+        std::clamp<uint64_t>(tuning.coefficientBytes / (termsTogether * rowBytes(options)), 1, capacity));
+    const uint64_t rowsTogether = uint64_t(mTogether) * termsTogether;
+    mCoefficients = {device, rowsTogether * rowBytes(options), Device, "coefficients"};
     mSelected = {device, rows * mKept * 4, Device, "selected indices"};
     mSelectedCounts = {device, rows * 4, Device, "selected counts"};
     mValues = {device, rows * mKept * 4, Device, "packed values"};
     mStarts = {device, rows * 4, Device, "row starts"};
 
-    mBlocks = {device, rows * rowBlocks(mFaceSize) * sizeof(shared::BlockSummary), Device,
-               "coefficient blocks"};
+    mSummaries = {device, rowsTogether * rowBlocks(mFaceSize) * sizeof(vec2), Device, "block summaries"};
 
-    mLightMaps = makeCornerTexture(device, brdf);
-    mSampler = {device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                "light maps"};
-    const uint32_t count = 6 * mFaceSize * mFaceSize;
+    mCorners = makeCorners(device, brdf);
     const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
     mTransport = {device,
                   transport_comp_spirv,
                   {mFaceSize, uint32_t(options.visibilitySize), samplesPerSide, uint32_t(brdf.size),
-                   uint32_t(brdf.mapping), uint32_t(terms == 1)},
+                   uint32_t(brdf.mapping), terms, tuning.lanes},
                   "transport"};
-    mHaar = {device, haar_comp_spirv, {mFaceSize, 6 * (mFaceSize / 16) * (mFaceSize / 16)}, "haar"};
-    mSelect = {device, select_comp_spirv, {mFaceSize}, "select"};
-    mQuantise = {device, quantise_comp_spirv, {count}, "quantise"};
+    mSelect = {device, select_comp_spirv, {mFaceSize, tuning.lanes}, "select"};
+    mQuantise = {device, quantise_comp_spirv, {mFaceSize}, "quantise"};
     mRowStarts = {device, row_starts_comp_spirv, {}, "row starts"};
     mCompact = {device, compact_comp_spirv, {}, "compact"};
 }
@@ -119,39 +116,39 @@ void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uin
 void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points,
                                 uint32_t count, const vk::Buffer& bits) const {
     using enum vk::Stage;
-    const uint32_t rowCount = count * group.terms;
-    const shared::RowsPush rows{rowCount, mKept};
-    const auto groupPerRow = [&](const vk::ComputeProgram& program) {
+    const auto groupPerRow = [&](const vk::ComputeProgram& program, uint32_t rowCount) {
         return uvec3(rowCount * program.groupSize()[0], 1, 1);
     };
-    commands.barrier(Compute, Compute);
-    commands.pass("transport", [&] {
-        commands.dispatch(mTransport, {points, bits, {mLightMaps, mSampler}, mCoefficients, mBlocks},
-                          shared::TransportPush{group.firstTerm, group.terms},
-                          {mFaceSize / 4 * mFaceSize / 4, 6, count});
-    });
-    commands.barrier(Compute, Compute);
-    commands.pass("haar", [&] {
-        commands.dispatch(mHaar, {mCoefficients, mBlocks}, rows, groupPerRow(mHaar));
-    });
-    commands.barrier(Compute, Compute);
-    commands.pass("select", [&] {
-        commands.dispatch(mSelect, {mCoefficients, mBlocks, mSelected, mSelectedCounts, group.statistics},
-                          rows, groupPerRow(mSelect));
-    });
-    commands.barrier(Compute, Compute);
-    commands.pass("quantise", [&] {
-        commands.dispatch(mQuantise,
-                          {mCoefficients, mSelected, mSelectedCounts, mValues, group.counts, group.scales,
-                           group.statistics},
-                          rows, groupPerRow(mQuantise));
-    });
+    for (uint32_t first = 0; first < count; first += mTogether) {
+        const uint32_t pointCount = std::min(mTogether, count - first), rowCount = pointCount * group.terms;
+        const shared::RowsPush rows{rowCount, mKept, first * group.terms};
+        commands.barrier(Compute, Compute);
+        commands.pass("transport", [&] {
+            commands.dispatch(mTransport, {points, bits, mCorners, mCoefficients, mSummaries},
+                              shared::TransportPush{group.firstTerm, group.terms, first},
+                              {6 * mTransport.groupSize()[0], pointCount, 1});
+        });
+        commands.barrier(Compute, Compute);
+        commands.pass("select", [&] {
+            commands.dispatch(mSelect,
+                              {mCoefficients, mSummaries, mSelected, mSelectedCounts, group.statistics}, rows,
+                              groupPerRow(mSelect, rowCount));
+        });
+        commands.barrier(Compute, Compute);
+        commands.pass("quantise", [&] {
+            commands.dispatch(mQuantise,
+                              {mCoefficients, mSelected, mSelectedCounts, mValues, group.counts, group.scales,
+                               group.statistics},
+                              rows, groupPerRow(mQuantise, rowCount));
+        });
+    }
+    const shared::RowsPush rows{count * group.terms, mKept, 0};
     commands.barrier(Compute, Compute);
     commands.pass("compact", [&] {
         commands.dispatch(mRowStarts, {group.counts, mStarts}, rows, {mRowStarts.groupSize()[0], 1, 1});
         commands.barrier(Compute, Compute);
         commands.dispatch(mCompact, {mSelected, mSelectedCounts, mValues, mStarts, group.entries}, rows,
-                          groupPerRow(mCompact));
+                          groupPerRow(mCompact, rows.rows));
     });
 }
 

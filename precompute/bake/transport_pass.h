@@ -22,12 +22,23 @@ struct TransportLosses {
     }
 };
 
+// How the kernels are cut for a device. Rows are the same for any; what they lost, but for rounding.
+struct TransportTuning {
+    uint32_t lanes;            // of a workgroup: a power of two, at most 64
+    uint64_t coefficientBytes; // of rows that are worked on together, about
+
+    static TransportTuning of(const vk::Device& device);
+};
+
 // Evaluates, transforms, selects, quantises and compacts a batch of points at a time. Terms that do not
-// fit a storage buffer together take turns.
+// fit a storage buffer together take turns, and so do points as tuning asks.
 class TransportPass {
   public:
     TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
-                  uint32_t capacity);
+                  uint32_t capacity)
+        : TransportPass(device, brdf, options, capacity, TransportTuning::of(device)) {}
+    TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
+                  uint32_t capacity, const TransportTuning& tuning);
 
     // Records all terms of the first `count` BakePoints, whose bits lie at the front of `bits`.
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
@@ -36,9 +47,12 @@ class TransportPass {
     // After the submission: appends the batch's rows, and what each lost.
     void collect(uint32_t count, SparseTransport& transport, std::vector<TransportLosses>& losses) const;
 
-    // The coefficients of the last term group, row by row, for parity tests: see record()'s kernels. Blocks
-    // of texels that nothing reaches are left as they were.
+    // The coefficients of the last term group, and of the last points that were worked on together, for
+    // parity tests. Rows are laid out as in shaders/lib/haar_block.glsl, see haarSlot(); blocks of texels
+    // that nothing reaches are left as they were.
     const vk::Buffer& coefficients() const { return mCoefficients; }
+
+    static uint64_t rowBytes(const BakeOptions& options); // of the coefficients of one row
 
     // Device and host-visible bytes that one point of a batch takes; and points that fit one storage buffer.
     static uint64_t bytesPerPoint(int terms, const BakeOptions& options);
@@ -53,12 +67,11 @@ class TransportPass {
     void recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points, uint32_t count,
                      const vk::Buffer& bits) const;
 
-    uint32_t mFaceSize, mKept;
-    vk::Image mLightMaps;
-    vk::Sampler mSampler;
+    uint32_t mFaceSize, mKept, mTogether;
+    vk::TexelBuffer mCorners;
     std::vector<TermGroup> mGroups;
-    vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mBlocks;
-    vk::ComputeProgram mTransport, mHaar, mSelect, mQuantise, mRowStarts, mCompact;
+    vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mSummaries;
+    vk::ComputeProgram mTransport, mSelect, mQuantise, mRowStarts, mCompact;
 };
 
 } // namespace relume

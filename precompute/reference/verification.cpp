@@ -1,6 +1,7 @@
 #include "precompute/reference/verification.h"
 
 #include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
 #include "engine/render/relighter.h"
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
@@ -63,11 +64,13 @@ class DeviceStages {
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
         const auto visibility = makeVisibility(device, bakedMethod(asset), asset.occluder, size, batch,
                                                visibilityNearDistance(asset.visibilityOffset));
-        const TransportPass transport(device, set.brdf, options, batch);
+        TransportTuning tuning = TransportTuning::of(device);
+        tuning.coefficientBytes = ~0ull; // all points together, to see all of them
+        const TransportPass transport(device, set.brdf, options, batch, tuning);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
-        const uint64_t coefficientBytes = batch * mTerms * mFaceCoefficients * sizeof(vec4);
-        const vk::Buffer coefficientsBack(device, coefficientBytes, vk::BufferUse::Readback,
+        const uint64_t pointBytes = mTerms * TransportPass::rowBytes(options);
+        const vk::Buffer coefficientsBack(device, batch * pointBytes, vk::BufferUse::Readback,
                                           "coefficients back");
         vk::Commands commands(device, "verify");
         for (uint32_t first = 0; first < vertices.size(); first += batch) {
@@ -82,7 +85,7 @@ class DeviceStages {
             transport.record(commands, points, count, bits);
             commands.barrier(vk::Stage::Compute, vk::Stage::Transfer);
             commands.copy(bits, bitsBack, count * bitBytes);
-            commands.copy(transport.coefficients(), coefficientsBack, count * coefficientBytes / batch);
+            commands.copy(transport.coefficients(), coefficientsBack, count * pointBytes);
             commands.barrier(vk::Stage::Transfer, vk::Stage::Host);
             commands.submitAndWait();
             visibility->check();
@@ -91,24 +94,28 @@ class DeviceStages {
                 std::vector<uint8_t>& cube = mVisibility.emplace_back(words.size() * 32);
                 for (size_t texel = 0; texel < cube.size(); texel++)
                     cube[texel] = words[texel / 32] >> texel % 32 & 1;
-                const auto rows = coefficientsBack.map<vec4>().subspan(point * mTerms * mFaceCoefficients,
-                                                                       mTerms * mFaceCoefficients);
-                mCoefficients.emplace_back(rows.begin(), rows.end());
+                for (uint32_t term = 0; term < mTerms; term++) {
+                    const size_t rowSlots = TransportPass::rowBytes(options) / sizeof(vec3);
+                    const auto slots =
+                        coefficientsBack.map<vec3>().subspan((point * mTerms + term) * rowSlots, rowSlots);
+                    std::vector<vec3>& row = mCoefficients.emplace_back();
+                    for (size_t i = 0; i < mFaceCoefficients; i++)
+                        row.push_back(slots[haarSlot(i, size_t(asset.faceSize))]);
+                }
             }
         }
     }
 
     const std::vector<uint8_t>& visibility(size_t point) const { return mVisibility[point]; }
-    std::vector<vec3> coefficients(size_t point, size_t term) const {
-        const auto begin = mCoefficients[point].begin() + ptrdiff_t(term * mFaceCoefficients);
-        return {begin, begin + ptrdiff_t(mFaceCoefficients)};
+    const std::vector<vec3>& coefficients(size_t point, size_t term) const {
+        return mCoefficients[point * mTerms + term];
     }
 
   private:
     uint64_t mFaceCoefficients;
     uint32_t mTerms;
     std::vector<std::vector<uint8_t>> mVisibility;
-    std::vector<std::vector<vec4>> mCoefficients;
+    std::vector<std::vector<vec3>> mCoefficients; // row by row
 };
 
 vec3 dequantise(uint32_t packed, float scale) {
@@ -141,7 +148,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
         std::vector<vec3> expected = transportVector(visibility, size, asset.faceSize, asset.transportSamples,
                                                      set.brdf, term, tangentFrame(normal));
         haarFaces(expected, asset.faceSize);
-        const std::vector<vec3> found = device.coefficients(point, size_t(term));
+        const std::vector<vec3>& found = device.coefficients(point, size_t(term));
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
 
         std::vector<bool> kept(expected.size(), false);

@@ -1,6 +1,13 @@
 // How a row of coefficients is cut into blocks, two Haar levels at a time: 4×4 values become 15 details and an
 // average, a value of the next, four times coarser stage. A face of F² texels is (F / 4)² blocks, and so on to
-// its last block, of 2² values where F = 32, which keeps its average as well.
+// its last block, of 2² values where F = 32.
+//
+// In memory a row is its blocks, each of 16 slots of three floats, r, g, b: the details of its four quads (0 to
+// 11), those of the block (12 to 14), its average (15, a coefficient in a face's last block only). Of blocks of
+// zeros nothing but the average is written, and of blocks of 2² values no details of quads. What selection
+// asks of a block before it looks inside is its summary: the largest squared magnitude of a coefficient, and
+// their sum.
+// C++ twin: haarSlot in precompute/bake/transport_pass.h.
 #ifndef RELUME_LIB_HAAR_BLOCK_GLSL
 #define RELUME_LIB_HAAR_BLOCK_GLSL
 
@@ -10,13 +17,42 @@
 #define HAAR_COARSE_BLOCKS(faceSize) (6 * ((faceSize) / 16) * ((faceSize) / 16))
 #define HAAR_BLOCKS(faceSize) (HAAR_FINE_BLOCKS(faceSize) + HAAR_COARSE_BLOCKS(faceSize) + 6)
 
-// Coefficient `slot` of a block, as a place on its face: `width` is the blocks a side of its stage. Slots 0 to
-// 11 are the details of its four quads, 12 to 14 those of the block, 15 its average.
-uvec2 haarSlotPlace(uvec2 block, uint slot, uint width) {
+// The slots of a block that hold coefficients, a bit each.
+uint haarCoefficientSlots(uint block, uint faceSize) {
+    const bool isLast = block >= HAAR_FINE_BLOCKS(faceSize) + HAAR_COARSE_BLOCKS(faceSize);
+    return !isLast ? 0x7fff : faceSize == 32 ? 0xf000 : 0xffff;
+}
+
+// The coefficient, face · F² + y · F + x, in a slot of a block.
+uint haarCoefficient(uint block, uint slot, uint faceSize) {
+    const uint coarse = HAAR_FINE_BLOCKS(faceSize), last = coarse + HAAR_COARSE_BLOCKS(faceSize);
+    const uint width = block < coarse ? faceSize / 4 : block < last ? faceSize / 16 : 1; // blocks a side
+    const uint inStage = block - (block < coarse ? 0 : block < last ? coarse : last);
+    const uint face = inStage / (width * width), inFace = inStage % (width * width);
+    const uvec2 at = uvec2(inFace % width, inFace / width);
     const uint detail = slot < 12 ? slot % 3 : slot - 12;
     const uvec2 offset = detail == 3 ? uvec2(0) : uvec2(detail != 1, detail != 0);
-    if (slot < 12) return block * 2 + uvec2(slot / 3 % 2, slot / 6) + offset * 2 * width;
-    return block + offset * width;
+    const uvec2 place =
+        slot < 12 ? at * 2 + uvec2(slot / 3 % 2, slot / 6) + offset * 2 * width : at + offset * width;
+    return (face * faceSize + place.y) * faceSize + place.x;
+}
+
+// Where a coefficient lies: 16 · block + slot.
+uint haarSlot(uint coefficient, uint faceSize) {
+    const uint face = coefficient / (faceSize * faceSize);
+    const uvec2 place = uvec2(coefficient % faceSize, coefficient / faceSize % faceSize);
+    const uint widest = max(place.x, place.y);
+    const uint level = widest == 0 ? 0 : 1u << findMSB(widest); // a side, of the details it belongs to
+    const uint width = level >= faceSize / 4 ? faceSize / 4 : level >= faceSize / 16 ? faceSize / 16 : 1;
+    const uint first = width == faceSize / 4    ? 0
+                       : width == faceSize / 16 ? HAAR_FINE_BLOCKS(faceSize)
+                                                : HAAR_FINE_BLOCKS(faceSize) + HAAR_COARSE_BLOCKS(faceSize);
+    const uint detail = uint(place.x >= level) + 2 * uint(place.y >= level) - 1;
+    const uvec2 at = level == 0 ? uvec2(0) : place & (level - 1);
+    const bool isQuad = level == 2 * width;
+    const uvec2 block = isQuad ? at / 2 : at;
+    const uint slot = isQuad ? 3 * (at.x % 2 + 2 * (at.y % 2)) + detail : level == 0 ? 15 : 12 + detail;
+    return 16 * (first + (face * width + block.y) * width + block.x) + slot;
 }
 
 #endif

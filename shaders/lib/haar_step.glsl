@@ -1,41 +1,44 @@
-// Haar steps on blocks of values: lib/haar_block.glsl says where their results belong.
+// Haar steps on the values of a block: lib/haar_block.glsl says what becomes of them.
 #ifndef RELUME_LIB_HAAR_STEP_GLSL
 #define RELUME_LIB_HAAR_STEP_GLSL
 #include "shaders/lib/haar_block.glsl"
-#include "shaders/shared/bake.h"
-
-// Kernels that include this say where coefficients go.
-void storeCoefficient(uint row, uint face, uvec2 place, vec3 value, float squared);
 
 float squaredMagnitude(vec3 value) {
     precise float sum = value.r * value.r + value.g * value.g + value.b * value.b;
     return sum;
 }
 
-void addCoefficient(uint row, uint face, uvec2 place, vec3 value, inout BlockSummary summary) {
-    const float squared = squaredMagnitude(value);
-    storeCoefficient(row, face, place, value, squared);
-    summary.largest = max(summary.largest, squared);
-    summary.energy += squared;
+void addToSummary(vec3 coefficient, inout vec2 summary) {
+    const float squared = squaredMagnitude(coefficient);
+    summary = vec2(max(summary.x, squared), summary.y + squared);
 }
 
-// One Haar step on [a b; c d]: stores the details, the first of which is `slot`, and returns the average.
-vec3 haarStep(vec3 a, vec3 b, vec3 c, vec3 d, uint row, uint face, uvec2 block, uint slot, uint width,
-              inout BlockSummary summary) {
-    addCoefficient(row, face, haarSlotPlace(block, slot, width), 0.5 * (a - b + c - d), summary);
-    addCoefficient(row, face, haarSlotPlace(block, slot + 1, width), 0.5 * (a + b - c - d), summary);
-    addCoefficient(row, face, haarSlotPlace(block, slot + 2, width), 0.5 * (a - b - c + d), summary);
+// One Haar step on [a b; c d]: its details, from slot `first` on, and the average, which it returns.
+vec3 haarStep(vec3 a, vec3 b, vec3 c, vec3 d, uint first, inout vec3 slots[16], inout vec2 summary) {
+    slots[first] = 0.5 * (a - b + c - d);
+    slots[first + 1] = 0.5 * (a + b - c - d);
+    slots[first + 2] = 0.5 * (a - b - c + d);
+    for (uint i = 0; i < 3; i++) addToSummary(slots[first + i], summary);
     return 0.5 * (a + b + c + d);
 }
 
-vec3 haarBlock(vec3 values[16], uint row, uint face, uvec2 block, uint width, inout BlockSummary summary) {
+// 4×4 values to 16 slots; the average is not in the summary.
+void haarBlock(vec3 values[16], out vec3 slots[16], out vec2 summary) {
     vec3 quads[4];
+    summary = vec2(0);
     for (uint i = 0; i < 4; i++) {
         const uint corner = (i / 2) * 8 + (i % 2) * 2;
-        quads[i] = haarStep(values[corner], values[corner + 1], values[corner + 4], values[corner + 5], row, face,
-                            block, 3 * i, width, summary);
+        quads[i] = haarStep(values[corner], values[corner + 1], values[corner + 4], values[corner + 5], 3 * i, slots,
+                            summary);
     }
-    return haarStep(quads[0], quads[1], quads[2], quads[3], row, face, block, 12, width, summary);
+    slots[15] = haarStep(quads[0], quads[1], quads[2], quads[3], 12, slots, summary);
+}
+
+// Four floats of a block, of 12 such: stores of four are the quickest.
+vec4 slotQuarter(vec3 slots[16], uint quarter) {
+    const uint first = quarter / 3 * 4;
+    const vec3 a = slots[first], b = slots[first + 1], c = slots[first + 2], d = slots[first + 3];
+    return quarter % 3 == 0 ? vec4(a, b.r) : quarter % 3 == 1 ? vec4(b.gb, c.rg) : vec4(c.b, d);
 }
 
 #endif

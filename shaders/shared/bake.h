@@ -57,21 +57,16 @@ const uint kBvhCountShift = 26;
 struct TransportPush {
     uint firstTerm; // of this dispatch; its rows are point-major: (point, term of the dispatch)
     uint terms;
+    uint firstPoint; // of this dispatch
 };
-RELUME_SHARED_SIZE(TransportPush, 8)
-
-// What selection asks of a block of coefficients (lib/haar_block.glsl) before it looks inside.
-struct BlockSummary {
-    float largest; // squared magnitude of a coefficient
-    float energy;  // sum of the squared magnitudes
-};
-RELUME_SHARED_SIZE(BlockSummary, 8)
+RELUME_SHARED_SIZE(TransportPush, 12)
 
 struct RowsPush {
     uint rows;
-    uint kept; // N
+    uint kept;     // N
+    uint firstRow; // whose coefficients are those of row 0
 };
-RELUME_SHARED_SIZE(RowsPush, 8)
+RELUME_SHARED_SIZE(RowsPush, 12)
 
 // What packing measured of a row. Sums of squares over the three channels.
 struct RowStatistics {

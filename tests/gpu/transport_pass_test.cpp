@@ -1,12 +1,12 @@
 // Transport, Haar, selection, quantisation and compaction on the device against their CPU twins.
 #include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
 #include "engine/vk/upload.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/reference/transport_stages.h"
 #include "shaders/select_comp.h"
 #include "tests/support/test_device.h"
 
-#include <bit>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -211,6 +211,26 @@ TEST_CASE("transport pass: more terms than fit one buffer take turns") {
     checkSame(apart, bakeSamples(device, {device, brdf, options, 2}, samples, 2));
 }
 
+TEST_CASE("transport pass: any tuning gives the same rows") {
+    const TestDevice device;
+    BakeOptions options;
+    options.visibilitySize = 128;
+    const FactoredBrdf brdf = makeMaps(3, 16, DiskMapping::EqualArea);
+    const Samples samples = makeSamples(5, 128);
+    const uint64_t pointBytes = 3 * TransportPass::rowBytes(options);
+    const auto bake = [&](const TransportTuning& tuning) {
+        return bakeSamples(device, {device, brdf, options, 5, tuning}, samples, 5);
+    };
+    const Rows expected = bake({64, ~0ull});
+    checkSame(bake({64, 2 * pointBytes}), expected); // 2, 2 and 1 point
+    checkSame(bake({64, 0}), expected);
+    Rows narrow = bake({8, ~0ull});
+    CHECK(narrow.losses.dropped == doctest::Approx(expected.losses.dropped));
+    CHECK(narrow.losses.total == doctest::Approx(expected.losses.total));
+    narrow.losses = expected.losses; // but for rounding
+    checkSame(narrow, expected);
+}
+
 TEST_CASE("transport pass: any batch gives the same rows, whatever an earlier one left behind") {
     const TestDevice device;
     BakeOptions options;
@@ -231,51 +251,38 @@ TEST_CASE("transport pass: any batch gives the same rows, whatever an earlier on
 
 namespace {
 
-// The block, of those that are numbered in shaders/lib/haar_block.glsl, that a coefficient belongs to: found
-// from the level, whose width in coefficients is the highest power of two in x or y.
-size_t blockOf(size_t coefficient, size_t faceSize) {
-    const size_t face = coefficient / (faceSize * faceSize), y = coefficient / faceSize % faceSize,
-                 x = coefficient % faceSize;
-    const size_t level = std::bit_floor(std::max(x, y));
-    size_t first = 0;
-    for (const size_t side : {faceSize / 4, faceSize / 16, size_t(1)}) {
-        const auto inStage = [&](size_t bx, size_t by) { return first + (face * side + by) * side + bx; };
-        if (level == 2 * side) return inStage(x % level / 2, y % level / 2);
-        if (level == side) return inStage(x % level, y % level);
-        first += 6 * side * side;
-    }
-    return first - 6 + face; // the average
-}
-
 // What select.comp reads of rows of coefficients: blocks of zeros are not written.
 struct SelectInput {
-    std::vector<vec4> coefficients;
-    std::vector<shared::BlockSummary> blocks;
+    std::vector<vec3> slots;
+    std::vector<vec2> summaries;
 };
 SelectInput makeSelectInput(const std::vector<std::vector<vec3>>& rows, size_t faceSize) {
     const size_t count = 6 * faceSize * faceSize;
     const size_t rowBlocks = 6 * (faceSize * faceSize / 16 + faceSize * faceSize / 256 + 1);
     SelectInput input;
     for (const std::vector<vec3>& row : rows) {
-        std::vector<shared::BlockSummary> blocks(rowBlocks, {0, 0});
-        const auto squared = [](vec3 c) { return c.x * c.x + c.y * c.y + c.z * c.z; };
+        std::vector<vec2> summaries(rowBlocks, vec2(0));
+        std::vector<vec3> slots(16 * rowBlocks, vec3(std::numeric_limits<float>::quiet_NaN()));
         for (size_t i = 0; i < count; i++) {
-            shared::BlockSummary& block = blocks[blockOf(i, faceSize)];
-            block.largest = std::max(block.largest, squared(row[i]));
-            block.energy += squared(row[i]);
+            const float squared = row[i].x * row[i].x + row[i].y * row[i].y + row[i].z * row[i].z;
+            vec2& summary = summaries[haarSlot(i, faceSize) / 16];
+            summary = {std::max(summary.x, squared), summary.y + squared};
         }
-        for (size_t i = 0; i < count; i++)
-            input.coefficients.push_back(blocks[blockOf(i, faceSize)].largest > 0
-                                             ? vec4(row[i], squared(row[i]))
-                                             : vec4(std::numeric_limits<float>::quiet_NaN()));
-        input.blocks.insert(input.blocks.end(), blocks.begin(), blocks.end());
+        for (size_t i = 0; i < count; i++) {
+            const size_t slot = haarSlot(i, faceSize);
+            REQUIRE(std::isnan(slots[slot].x)); // its own
+            if (summaries[slot / 16].x > 0) slots[slot] = row[i];
+        }
+        input.slots.insert(input.slots.end(), slots.begin(), slots.end());
+        input.summaries.insert(input.summaries.end(), summaries.begin(), summaries.end());
     }
     return input;
 }
 
-void checkSelect(const vk::Device& device, uint32_t faceSize) {
+void checkSelect(const vk::Device& device, uint32_t faceSize, uint32_t lanes) {
     const uint32_t count = 6 * faceSize * faceSize;
     CAPTURE(faceSize);
+    CAPTURE(lanes);
     std::mt19937 random(11);
     std::vector<std::vector<vec3>> rows(7, std::vector<vec3>(count, vec3(0)));
     for (vec3& value : rows[0]) value = vec3(float(random() % 4), 0, 0);              // many ties, many zeros
@@ -285,10 +292,10 @@ void checkSelect(const vk::Device& device, uint32_t faceSize) {
     for (vec3& value : rows[5]) value = vec3(float(random()), -float(random()), float(random()));
     for (uint32_t i = 0; i < count; i += 97) rows[6][i] = vec3(float(i % 7), 0, 1); // few in few blocks
 
-    const vk::ComputeProgram select(device, select_comp_spirv, {faceSize}, "select");
+    const vk::ComputeProgram select(device, select_comp_spirv, {faceSize, lanes}, "select");
     const SelectInput input = makeSelectInput(rows, faceSize);
-    const auto coefficients = vk::upload<vec4>(device, input.coefficients, "coefficients");
-    const auto blocks = vk::upload<shared::BlockSummary>(device, input.blocks, "blocks");
+    const auto coefficients = vk::upload<vec3>(device, input.slots, "coefficients");
+    const auto summaries = vk::upload<vec2>(device, input.summaries, "summaries");
     for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 3000u, count}) {
         CAPTURE(kept);
         const vk::Buffer selected(device, rows.size() * kept * 4, vk::BufferUse::Readback, "selected");
@@ -296,8 +303,8 @@ void checkSelect(const vk::Device& device, uint32_t faceSize) {
         const vk::Buffer statistics(device, rows.size() * 12, vk::BufferUse::Readback, "statistics");
         vk::Commands commands(device, "select test");
         commands.begin();
-        commands.dispatch(select, {coefficients, blocks, selected, counts, statistics},
-                          shared::RowsPush{uint32_t(rows.size()), kept},
+        commands.dispatch(select, {coefficients, summaries, selected, counts, statistics},
+                          shared::RowsPush{uint32_t(rows.size()), kept, 0},
                           {uint32_t(rows.size()) * select.groupSize()[0], 1, 1});
         commands.barrier(vk::Stage::Compute, vk::Stage::Host);
         commands.submitAndWait();
@@ -323,6 +330,8 @@ void checkSelect(const vk::Device& device, uint32_t faceSize) {
 
 TEST_CASE("select: ties, zeros and few candidates as in selectLargest") {
     const TestDevice device;
-    checkSelect(device, 32);
-    checkSelect(device, 64);
+    for (const uint32_t lanes : {4u, 8u, 64u}) {
+        checkSelect(device, 32, lanes);
+        checkSelect(device, 64, lanes);
+    }
 }
