@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace relume {
 
@@ -50,7 +51,8 @@ TransportTuning TransportTuning::of(const vk::Device& device) {
     if (device.info().type != "software") return {64, ~0ull};
     // A group of one subgroup needs no switching between subgroups. Rows that are worked on soon after they
     // were written come from the cache.
-    return {std::min(64u, device.info().subgroupSize), 16ull << 20};
+    return {std::min(64u, device.info().subgroupSize),
+            uint64_t(std::max(1u, std::thread::hardware_concurrency())) << 21};
 }
 
 uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
