@@ -2,6 +2,7 @@
 
 #include "engine/math/cubemap.h"
 #include "engine/render/relighter.h"
+#include "precompute/bake/baked_options.h"
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/brdf/factorization_error.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 
 namespace relume {
@@ -35,14 +35,6 @@ struct Sums {
     double brdf = 0;
 };
 
-// How the asset's visibility was found.
-VisibilityMethod bakedMethod(const Asset& asset) {
-    const auto options = nlohmann::json::parse(asset.provenance.options, nullptr, false);
-    const bool raster = options.is_object() && options.value("visibility", nlohmann::json()) ==
-                                                   visibilityMethodName(VisibilityMethod::Raster);
-    return raster ? VisibilityMethod::Raster : VisibilityMethod::Traced;
-}
-
 // What the device makes of some points of a part: bits and all coefficients, back on the host.
 class DeviceStages {
   public:
@@ -61,8 +53,8 @@ class DeviceStages {
         const uint64_t bitBytes = visibilityBytes(size);
 
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
-        const auto visibility = makeVisibility(device, bakedMethod(asset), asset.occluder, size, batch,
-                                               visibilityNearDistance(asset.visibilityOffset));
+        const auto visibility = makeVisibility(device, *optionsOf(asset).visibilityMethod, asset.occluder,
+                                               size, batch, visibilityNearDistance(asset.visibilityOffset));
         const TransportPass transport(device, set.brdf, options, batch);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
