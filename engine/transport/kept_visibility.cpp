@@ -21,7 +21,10 @@ static ByteSource sourceOf(const std::filesystem::path& path) {
 }
 
 KeptVisibility::KeptVisibility(const std::filesystem::path& path)
-    : mFile(sourceOf(path), path.string()), mMeta(readMeta(mFile, AssetFileKind::Bake)),
+    : KeptVisibility(sourceOf(path), path.string()) {}
+
+KeptVisibility::KeptVisibility(ByteSource source, const std::string& name)
+    : mFile(std::move(source), name), mMeta(readMeta(mFile, AssetFileKind::Bake)),
       mBlock(blockVertices(mMeta.asset)) {
     for (uint32_t part = 0; part < mMeta.sizes.size(); part++) mRuns.push_back(mFile.find(kVisibility, part));
 }

@@ -13,6 +13,8 @@ class KeptVisibility {
     // Opens a .relume file, whether it keeps visibility or not, and verifies its checksums. Holds little of
     // it at a time. Throws Error for one that cannot be read.
     explicit KeptVisibility(const std::filesystem::path& path);
+    // The same of bytes that `name` stands for in errors.
+    KeptVisibility(ByteSource source, const std::string& name);
 
     // Says of what the visibility is, and how it was found (visibility_key.h); empty: none is kept.
     const std::string& key() const { return mMeta.visibilityKey; }
