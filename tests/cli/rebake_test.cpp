@@ -176,6 +176,19 @@ TEST_CASE("rebake: killed at every write, bake and rebake go on to the same byte
     }
 }
 
+TEST_CASE("rebake: shards keep visibility, and their merge does") {
+    const RebakeFolder folder;
+    REQUIRE_EQ(folder.bake(kKept, "kept.relume").exitCode, 0);
+    for (const std::string shard : {"0", "1"}) {
+        const Outcome bake =
+            folder.bake(std::string(kKept) + " --shard " + shard + "/2", "part" + shard + ".relume");
+        REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
+    }
+    const Outcome merge = runRelume(folder, "merge part0.relume part1.relume -o whole.relume", kNoThreads);
+    REQUIRE_MESSAGE(merge.exitCode == 0, merge.err);
+    CHECK(folder.bytes("whole.relume") == folder.bytes("kept.relume"));
+}
+
 TEST_CASE("rebake: says what is wrong and what to do") {
     const RebakeFolder folder;
     REQUIRE_EQ(folder.bake(kKept, "kept.relume").exitCode, 0);
