@@ -1,5 +1,7 @@
 #include "apps/relume/bake_bench.h"
 
+#include "engine/transport/asset_arrays.h"
+#include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/bake_plan.h"
 #include "precompute/bake/part_passes.h"
 #include "precompute/cpu/cpu_baker.h"
@@ -170,22 +172,90 @@ DevicePath::DevicePath(const vk::Device& device, const BakeSample& sample, const
 
 DevicePath::~DevicePath() = default;
 
+// Seconds of all parts' passes so far, times `sign`.
+template <typename Parts>
+void addStages(const Parts& parts, double sign, vk::PassTimes& stages) {
+    for (const auto& part : parts)
+        for (const auto& [name, seconds] : part.passes->times()) vk::addTime(stages, name, sign * seconds);
+}
+
+static std::vector<BakedRows> emptyRows(const AssetPart& part) {
+    std::vector<BakedRows> rows;
+    for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
+    return rows;
+}
+
+static std::vector<SparseTransport> transportsOf(std::vector<BakedRows> baked) {
+    std::vector<SparseTransport> rows;
+    for (BakedRows& set : baked) rows.push_back(std::move(set.transport));
+    return rows;
+}
+
 SampleRun DevicePath::run() {
     vk::PassTimes before;
-    for (const Part& part : mParts)
-        for (const auto& [name, seconds] : part.passes->times()) vk::addTime(before, name, -seconds);
+    addStages(mParts, -1, before);
     SampleRun run = timeRun(mSample, [&](size_t part, auto points) {
-        std::vector<BakedRows> baked;
-        for (const MaterialSet& set : mSample.asset.parts[part].sets)
-            baked.emplace_back(uint32_t(set.brdf.terms));
+        std::vector<BakedRows> baked = emptyRows(mSample.asset.parts[part]);
         mParts[part].passes->bake(points, baked);
-        std::vector<SparseTransport> rows;
-        for (BakedRows& set : baked) rows.push_back(std::move(set.transport));
-        return rows;
+        return transportsOf(std::move(baked));
     });
     run.stages = before;
-    for (const Part& part : mParts)
-        for (const auto& [name, seconds] : part.passes->times()) vk::addTime(run.stages, name, seconds);
+    addStages(mParts, 1, run.stages);
+    addRest(run, "host and submission");
+    return run;
+}
+
+struct RebakePath::Part {
+    std::unique_ptr<PartPasses> passes;
+    std::vector<StoredChunk> blocks; // of kRun points
+};
+
+RebakePath::RebakePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options)
+    : mSample(sample), mOptions(options) {
+    mOptions.visibilityMethod = VisibilityMethod::Traced;
+    mOptions.keepVisibility = true;
+    const auto size = uint32_t(options.visibilitySize);
+    for (size_t number = 0; number < sample.points.size(); number++) {
+        const AssetPart& part = sample.asset.parts[number];
+        Part& made = mParts.emplace_back();
+        PartPasses finder(device, sample.asset, part, mOptions);
+        for (std::span<const shared::BakePoint> rest = sample.points[number]; !rest.empty();) {
+            const auto block = rest.first(std::min<size_t>(kRun, rest.size()));
+            std::vector<BakedRows> rows = emptyRows(part);
+            std::vector<uint32_t> bits;
+            finder.bake(block, rows, {}, &bits);
+            made.blocks.push_back(storeChunk(kVisibility, uint32_t(number), uint32_t(made.blocks.size()),
+                                             encodeVisibility(bits, size)));
+            rest = rest.subspan(block.size());
+        }
+        made.passes = std::make_unique<PartPasses>(device, sample.asset, part, mOptions, BakeLimits{},
+                                                   VisibilitySource::Given);
+    }
+}
+
+RebakePath::~RebakePath() = default;
+
+SampleRun RebakePath::run() {
+    vk::PassTimes before;
+    addStages(mParts, -1, before);
+    double decoding = 0;
+    SampleRun run = timeRun(mSample, [&](size_t part, auto points) {
+        std::vector<BakedRows> baked = emptyRows(mSample.asset.parts[part]);
+        for (const StoredChunk& stored : mParts[part].blocks) {
+            const auto block = points.first(std::min<size_t>(kRun, points.size()));
+            const auto start = std::chrono::steady_clock::now();
+            const std::vector<uint32_t> bits =
+                decodeVisibility(unpackChunk(stored.entry, stored.bytes, "sample"), block.size(),
+                                 uint32_t(mOptions.visibilitySize), "sample");
+            decoding += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            mParts[part].passes->bake(block, baked, bits);
+            points = points.subspan(block.size());
+        }
+        return transportsOf(std::move(baked));
+    });
+    run.stages = before;
+    addStages(mParts, 1, run.stages);
+    vk::addTime(run.stages, "visibility decode", decoding);
     addRest(run, "host and submission");
     return run;
 }

@@ -71,6 +71,20 @@ class DevicePath : public BakePath {
     std::vector<Part> mParts;
 };
 
+// As the traced DevicePath, from visibility as a file keeps it: found once, before the first run.
+class RebakePath : public BakePath {
+  public:
+    RebakePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options);
+    ~RebakePath() override;
+    SampleRun run() override;
+
+  private:
+    struct Part;
+    const BakeSample& mSample;
+    BakeOptions mOptions;
+    std::vector<Part> mParts;
+};
+
 // Triangles that RasterVisibility draws for the whole sample, over all cube faces.
 uint64_t countDrawnTriangles(const vk::Device& device, const BakeSample& sample, const BakeOptions& options);
 

@@ -29,6 +29,7 @@ struct Arguments {
     bool json = false;
 };
 
+constexpr const char* kRebake = "rebake";
 constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Raster, VisibilityMethod::Traced};
 
 // Every figure of one path, a value for each repetition.
@@ -47,12 +48,17 @@ struct PathSeries {
     }
 };
 
+// Of two paths' times in the same rounds.
+double medianRatio(const PathSeries& path, const PathSeries& other) {
+    std::vector<double> ratios;
+    for (size_t i = 0; i < path.seconds.size(); i++) ratios.push_back(path.seconds[i] / other.seconds[i]);
+    return median(ratios);
+}
+
 using StageBytes = std::function<std::optional<double>(const std::string& stage)>;
 
 Json describe(const PathSeries& path, const PathSeries& cpu, double vertices, const StageBytes& bytes,
               double bandwidth) {
-    std::vector<double> ratios;
-    for (size_t i = 0; i < path.seconds.size(); i++) ratios.push_back(path.seconds[i] / cpu.seconds[i]);
     Json stages = Json::object();
     for (const std::string& name : path.stages) {
         Json& stage = stages[name];
@@ -63,7 +69,7 @@ Json describe(const PathSeries& path, const PathSeries& cpu, double vertices, co
         }
     }
     return {{"ms_per_vertex", 1e3 * median(path.seconds) / vertices},
-            {"ratio_to_cpu", median(ratios)},
+            {"ratio_to_cpu", medianRatio(path, cpu)},
             {"difference_to_cpu", path.difference},
             {"stages", stages}};
 }
@@ -147,6 +153,8 @@ void print(const Json& result) {
         if (path.contains("triangles_per_second"))
             fmt::print("  {:.1f} million triangles per second, {:.0f} per vertex\n",
                        1e-6 * number(path["triangles_per_second"]), number(path["triangles_per_vertex"]));
+        if (path.contains("ratio_to_traced"))
+            fmt::print("  {:.2f} of the traced bake\n", number(path["ratio_to_traced"]));
         if (name != "cpu")
             fmt::print("  rows differ from the CPU's by {:.2f} %\n", 100 * number(path["difference_to_cpu"]));
     }
@@ -166,6 +174,7 @@ void run(Arguments& arguments) {
     for (VisibilityMethod method : kMethods)
         paths.emplace_back(visibilityMethodName(method),
                            std::make_unique<DevicePath>(*device, sample, options, method));
+    paths.emplace_back(kRebake, std::make_unique<RebakePath>(*device, sample, options));
     const auto series = runPaths(paths, arguments.repeats, options.faceSize, arguments.json);
 
     const auto vertices = double(sample.sampled()), rays = double(cpuCounts.rays());
@@ -186,6 +195,9 @@ void run(Arguments& arguments) {
         if (name == visibilityMethodName(VisibilityMethod::Raster)) {
             entry["triangles_per_vertex"] = triangles / vertices;
             entry["triangles_per_second"] = triangles / visibilitySeconds(own, "visibility draw");
+        } else if (name == kRebake) {
+            entry["ratio_to_traced"] =
+                medianRatio(own, series.at(std::string(visibilityMethodName(VisibilityMethod::Traced))));
         } else {
             entry["rays_per_vertex"] = rays / vertices;
             entry["rays_per_second"] = rays / seconds;
@@ -226,8 +238,10 @@ void addBenchBakeCommand(CLI::App& bench) {
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
-        "The CPU traces with Embree on all threads. Every path bakes the same vertices; medians are per\n"
-        "vertex, the floor of a stage is the time to copy the bytes that it moves.");
+        "The CPU traces with Embree on all threads; rebake takes visibility as a file keeps it. Every path\n"
+        "bakes the same vertices; medians are per vertex, the floor of a stage is the time to copy the "
+        "bytes\n"
+        "that it moves.");
     command->callback([arguments, command, &bench] {
         for (const CLI::Option* option : bench.get_options())
             if (option->count() > 0)

@@ -28,9 +28,11 @@ DiskMapping mappingFor(Factorization method) {
 
 } // namespace
 
-void FactorizationArguments::add(CLI::App& command, int defaultTerms) {
-    mTerms = std::to_string(defaultTerms);
-    mMethod = factorizationName(options.method);
+void FactorizationArguments::add(CLI::App& command, std::optional<int> defaultTerms) {
+    if (defaultTerms) {
+        mTerms = std::to_string(*defaultTerms);
+        mMethod = factorizationName(options.method);
+    }
     command
         .add_option("-K,--terms", mTerms,
                     "BRDF terms, 1 to 32; or auto:E, the fewest whose expected relative error of reflected "
@@ -52,9 +54,15 @@ void FactorizationArguments::add(CLI::App& command, int defaultTerms) {
         ->check(CLI::IsMember({"orthographic", "polar", "equal-area"}));
 }
 
-void FactorizationArguments::resolve() {
-    options.method = *factorizationFromName(mMethod);
-    mapping = mMapping.empty() ? mappingFor(options.method) : *diskMappingFromName(mMapping);
+void FactorizationArguments::resolve(const FactorizationOptions& otherwise, DiskMapping map) {
+    options = otherwise;
+    mapping = map;
+    if (!mMethod.empty()) {
+        options.method = *factorizationFromName(mMethod);
+        mapping = mappingFor(options.method);
+    }
+    if (!mMapping.empty()) mapping = *diskMappingFromName(mMapping);
+    if (mTerms.empty()) return;
     const bool isAutomatic = mTerms.starts_with(kAuto);
     options.terms = isAutomatic ? kMaxTerms : termsFrom(mTerms);
     options.wantedError.reset();

@@ -1,6 +1,7 @@
 #include "apps/relume/commands.h"
 #include "engine/transport/asset.h"
 #include "engine/transport/asset_info.h"
+#include "engine/transport/kept_visibility.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -33,7 +34,8 @@ void addInfoCommand(CLI::App& program) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] {
         const Asset asset = readAsset(arguments->file);
-        const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file));
+        const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file),
+                                                   KeptVisibility(arguments->file).storedBytes());
         if (arguments->json)
             fmt::print("{}", text);
         else

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
         "130 stopped by Ctrl-C, 143 stopped by SIGTERM.");
     addBakeCommand(program);
     addMergeCommand(program);
+    addRebakeCommand(program);
     addRenderCommand(program);
     addReferenceCommand(program);
     addCompareCommand(program);

@@ -11,6 +11,16 @@
 
 namespace relume {
 
+std::string joinMaterials(const std::vector<std::string>& materials, bool separate) {
+    if (materials.size() == 1) return materials.front();
+    nlohmann::json list = nlohmann::json::array();
+    for (const std::string& material : materials)
+        list.push_back(looksLikeJson(material) ? parseMaterial(material) : nlohmann::json(material));
+    // Bytes that are not UTF-8 lead to an unknown name.
+    return nlohmann::json{{separate ? "separate" : "set", list}}.dump(
+        -1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 void SceneArguments::add(CLI::App& command) {
     command
         .add_option("INPUT", input,
@@ -72,13 +82,7 @@ Scene SceneArguments::load() const {
 
 std::optional<std::string> SceneArguments::chosenMaterial() const {
     if (mMaterials.empty()) return hasOwnMaterials(input) ? std::nullopt : std::optional(kDefaultMaterial);
-    if (mMaterials.size() == 1) return mMaterials.front();
-    nlohmann::json list = nlohmann::json::array();
-    for (const std::string& material : mMaterials)
-        list.push_back(looksLikeJson(material) ? parseMaterial(material) : nlohmann::json(material));
-    // Bytes that are not UTF-8 lead to an unknown name.
-    return nlohmann::json{{mSeparate ? "separate" : "set", list}}.dump(
-        -1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return joinMaterials(mMaterials, mSeparate);
 }
 
 void SceneArguments::checkMaterials(const Scene& scene) const {

@@ -15,6 +15,9 @@ namespace relume {
 // What a mesh without materials of its own is made of, where none is named.
 constexpr const char* kDefaultMaterial = "ashikhmin-shirley";
 
+// Of one material or several, as options name them: the text that readMaterials() takes.
+std::string joinMaterials(const std::vector<std::string>& materials, bool separate);
+
 // MESH|SCENE.json, --material, --separate, --up, --ground…
 struct SceneArguments {
     std::string input = "knot";

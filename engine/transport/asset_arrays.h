@@ -14,6 +14,7 @@ constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP"
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kTransport = chunkTag("TRAN");
+constexpr ChunkTag kVisibility = chunkTag("visb");
 // In a shard of a bake only.
 constexpr ChunkTag kShard = chunkTag("SHRD"), kBlockLosses = chunkTag("LOSS");
 

@@ -159,8 +159,8 @@ void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t s
 } // namespace
 
 void addChunks(ChunkWriter& file, const Asset& asset, std::span<const uint64_t> setEntries,
-               const std::function<void(uint32_t set)>& addTransport) {
-    const std::string meta = encodeMeta(asset, setEntries);
+               const std::function<void(uint32_t set)>& addTransport, const std::string& visibilityKey) {
+    const std::string meta = encodeMeta(asset, setEntries, visibilityKey);
     file.add(kMeta, kWholeFile, 0, std::as_bytes(std::span(meta)));
     forEachArray(
         asset,

@@ -108,7 +108,8 @@ Json describeTotal(const Asset& asset) {
 
 } // namespace
 
-std::string describeAssetJson(const Asset& asset, uint64_t fileBytes) {
+std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t visibilityBytes) {
+    const Json total = describeTotal(asset);
     Json parts = Json::array();
     for (const AssetPart& part : asset.parts) parts.push_back(describePart(part));
     const Json info = {{"format_version", kAssetFormatVersion},
@@ -122,7 +123,10 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes) {
                        {"quantization_error", asset.quantisationError},
                        {"approximations", describeApproximations(asset)},
                        {"occluder_triangles", asset.occluder.triangleCount()},
-                       {"total", describeTotal(asset)},
+                       {"total", total},
+                       {"kept_visibility",
+                        {{"bytes", visibilityBytes},
+                         {"bytes_per_vertex", ratio(visibilityBytes, total["vertices"].get<uint64_t>())}}},
                        {"parts", parts},
                        {"provenance",
                         {{"program", asset.provenance.program},

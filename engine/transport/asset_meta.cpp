@@ -173,10 +173,11 @@ Json parseBounded(std::string_view text, const std::string& where) {
 
 } // namespace
 
-std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries) {
+std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries,
+                       const std::string& visibilityKey) {
     Json parts = Json::array();
     for (const AssetPart& part : asset.parts) parts.push_back(partJson(part, setEntries));
-    const Json meta = {
+    Json meta = {
         {"faceSize", asset.faceSize},
         {"visibilitySize", asset.visibilitySize},
         {"coefficients", asset.coefficients},
@@ -192,6 +193,7 @@ std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries)
           {"device", asset.provenance.device},
           {"options", asset.provenance.options},
           {"inputs", asset.provenance.inputs}}}};
+    if (!visibilityKey.empty()) meta["visibilityKey"] = visibilityKey;
     std::string text = meta.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (text.size() > kLargestMeta)
         throw Error(
@@ -222,6 +224,12 @@ AssetMeta decodeMeta(std::string_view text, const std::string& name) {
     const Reader provenance = in.object("provenance");
     meta.asset.provenance = {provenance.text("program"), provenance.text("device"),
                              provenance.text("options"), provenance.text("inputs")};
+    if (in.has("visibilityKey")) {
+        meta.visibilityKey = in.text("visibilityKey");
+        if (meta.visibilityKey.size() != kVisibilityKeyDigits ||
+            meta.visibilityKey.find_first_not_of("0123456789abcdef") != std::string::npos)
+            throw Error("{}: \"visibilityKey\": expected {} hexadecimal digits", where, kVisibilityKeyDigits);
+    }
     return meta;
 }
 

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <numeric>
+#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -80,13 +81,82 @@ class CheckpointSink : public BakeSink {
     Checkpoint& mCheckpoint;
 };
 
-// What a checkpoint was begun with, else what is faster.
-void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, BakePlan& plan) {
-    for (const VisibilityMethod method : {VisibilityMethod::Traced, VisibilityMethod::Raster}) {
+// Visibility in a file that may hold any, or not even be one.
+std::unique_ptr<KeptVisibility> findKept(const std::filesystem::path& path) {
+    try {
+        auto kept = std::make_unique<KeptVisibility>(path);
+        if (!kept->key().empty()) return kept;
+    } catch (const Error&) {
+    }
+    return nullptr;
+}
+
+// Unless it is that of the plan, and whole.
+void dropUnfit(std::unique_ptr<KeptVisibility>& kept, const BakePlan& plan) {
+    if (!kept) return;
+    try {
+        if (kept->key() != plan.visibilityKey)
+            kept.reset();
+        else
+            kept->verify(plan.asset);
+    } catch (const Error& damage) {
+        spdlog::warn("{}; visibility is found anew", damage.what());
+        kept.reset();
+    }
+}
+
+// What a checkpoint was begun with, else what is kept, else what is faster.
+void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, const KeptVisibility* kept,
+                      BakePlan& plan) {
+    constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Traced, VisibilityMethod::Raster};
+    for (const VisibilityMethod method : kMethods) {
         setVisibility(plan, method);
         if (checkpoint.matches(plan)) return;
     }
+    for (const VisibilityMethod method : kMethods) {
+        setVisibility(plan, method);
+        if (kept && kept->key() == plan.visibilityKey) return;
+    }
     setVisibility(plan, fasterVisibility(device, plan.asset));
+}
+
+// All blocks, or a shard's.
+BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility* kept,
+                        const std::optional<Shard>& shard, Checkpoint& checkpoint,
+                        const std::filesystem::path& output, const BakeLimits& limits,
+                        BakeObserver& observer) {
+    checkpoint.resume(plan);
+    BakeSummary summary{0, 0, timesOf(plan)};
+    std::vector<uint32_t> own, missing;
+    for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+        if (shard && !shard->has(block)) continue;
+        own.push_back(block);
+        summary.vertices += plan.blocks[block].count();
+        if (checkpoint.has(block))
+            summary.resumed += plan.blocks[block].count();
+        else
+            missing.push_back(block);
+    }
+    observer.resumed(summary.resumed, summary.vertices);
+    if (kept && !missing.empty())
+        spdlog::info("{}: visibility of {} vertices reused", kept->file().name(),
+                     summary.vertices - summary.resumed);
+    CheckpointSink sink(plan, checkpoint);
+    bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times, kept);
+    observer.stage(BakeStage::Writing, "");
+    // Of its own name: the checkpoint's lock keeps other bakes off.
+    AtomicFile file(output, ".partial");
+    const ChunkWriter::Output write = [&](std::span<const std::byte> bytes) {
+        if (observer.wantsStop()) throw BakeStopped("stopped");
+        file.write(bytes);
+    };
+    if (shard)
+        writeShard(plan, *shard, checkpoint, write);
+    else
+        writeBake(plan, checkpoint, write);
+    file.commit();
+    checkpoint.remove();
+    return summary;
 }
 
 } // namespace
@@ -99,7 +169,9 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options) {
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
            BakeTimes* timesOut) {
     const Clock::time_point start = Clock::now();
-    BakePlan plan = planBake(device, std::move(scene), options, observer);
+    BakeOptions inMemory = options;
+    inMemory.keepVisibility = false;
+    BakePlan plan = planBake(device, std::move(scene), inMemory, observer);
     if (!options.visibilityMethod) setVisibility(plan, fasterVisibility(device, plan.asset));
     BakeTimes times = timesOf(plan);
     std::vector<uint32_t> blocks(plan.blocks.size());
@@ -124,35 +196,30 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     const Clock::time_point start = Clock::now();
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
-    if (!options.visibilityMethod) chooseVisibility(device, checkpoint, plan);
-    checkpoint.resume(plan);
-    BakeSummary summary{0, 0, timesOf(plan)};
-    std::vector<uint32_t> own, missing;
-    for (uint32_t block = 0; block < plan.blocks.size(); block++) {
-        if (shard && !shard->has(block)) continue;
-        own.push_back(block);
-        summary.vertices += plan.blocks[block].count();
-        if (checkpoint.has(block))
-            summary.resumed += plan.blocks[block].count();
-        else
-            missing.push_back(block);
-    }
-    observer.resumed(summary.resumed, summary.vertices);
-    CheckpointSink sink(plan, checkpoint);
-    bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times);
-    observer.stage(BakeStage::Writing, "");
-    // Of its own name: the checkpoint's lock keeps other bakes off.
-    AtomicFile file(output, ".partial");
-    const ChunkWriter::Output write = [&](std::span<const std::byte> bytes) {
-        if (observer.wantsStop()) throw BakeStopped("stopped");
-        file.write(bytes);
-    };
-    if (shard)
-        writeShard(plan, *shard, checkpoint, write);
-    else
-        writeBake(plan, checkpoint, write);
-    file.commit();
-    checkpoint.remove();
+    std::unique_ptr<KeptVisibility> kept = findKept(output);
+    if (!options.visibilityMethod) chooseVisibility(device, checkpoint, kept.get(), plan);
+    dropUnfit(kept, plan);
+    BakeSummary summary = bakePlanned(device, plan, kept.get(), shard, checkpoint, output, limits, observer);
+    summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
+    return summary;
+}
+
+BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset skeleton,
+                         const std::vector<std::string>& materials, const BakeOptions& options,
+                         const std::filesystem::path& output, const BakeLimits& limits,
+                         BakeObserver& observer) {
+    const Clock::time_point start = Clock::now();
+    Checkpoint checkpoint(checkpointPath(output));
+    const std::string bakedOn = skeleton.provenance.device;
+    BakePlan plan = planRebake(device, std::move(skeleton), materials, options, observer);
+    if (kept.key() != plan.visibilityKey)
+        throw Error(
+            "{}: its visibility was found by another program, driver or device ({}; this is {}) or for "
+            "another mesh; `relume bake --keep-visibility` it again here",
+            kept.file().name(), bakedOn, plan.asset.provenance.device);
+    kept.verify(plan.asset);
+    BakeSummary summary =
+        bakePlanned(device, plan, &kept, std::nullopt, checkpoint, output, limits, observer);
     summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
     return summary;
 }

@@ -27,9 +27,18 @@ std::filesystem::path checkpointPath(const std::filesystem::path& output);
 // Finished blocks go to the checkpoint beside it, which a later call with the same scene, options and device
 // goes on from; the file itself appears whole, after the last block, and the checkpoint goes. With a shard
 // only its blocks are baked, and the file is one for mergeShards() (merge.h). Throws BakeStopped, Error; then
-// the checkpoint stays and `output` is as it was.
+// the checkpoint stays and `output` is as it was. Visibility that `output` keeps, of the same key, is not
+// found again; the log says so.
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
                        const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
                        const std::optional<Shard>& shard = std::nullopt);
+
+// The same for a bake that keeps its visibility: to the file that bakeToFile() makes of its inputs with these
+// materials and options, as planRebake() takes them. `output` may be the bake itself. Throws also when the
+// kept visibility is not that of the bake on this device by this program.
+BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset skeleton,
+                         const std::vector<std::string>& materials, const BakeOptions& options,
+                         const std::filesystem::path& output, const BakeLimits& limits,
+                         BakeObserver& observer);
 
 } // namespace relume

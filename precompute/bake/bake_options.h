@@ -22,6 +22,8 @@ struct BakeOptions {
     int transportSamples = 1; // 1, 4 or 16 light-map evaluations per lighting texel
     // Triangles that cast shadows, 0: all; the rest are simplified away.
     size_t occluderTriangles = 0;
+    // Whether a file keeps the visibility it was made from: KeptVisibility. An asset in memory does not.
+    bool keepVisibility = false;
 
     // Throws UsageError naming the option, its valid values and what was given.
     void validate() const;

@@ -1,11 +1,14 @@
 #include "precompute/bake/bake_plan.h"
 
 #include "engine/base/check.h"
-#include "engine/base/hash.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
+#include "precompute/bake/baked_options.h"
+#include "precompute/bake/content_hash.h"
+#include "precompute/bake/transport_pass.h"
 #include "precompute/bake/vertex_order.h"
+#include "precompute/bake/visibility_key.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/visibility/occluder.h"
 
@@ -39,22 +42,6 @@ void checkPaint(const AssetPart& part) {
     }
 }
 
-nlohmann::json describe(const BakeOptions& options) {
-    const FactorizationOptions& factorization = options.factorization;
-    return {{"terms", factorization.terms},
-            {"error", factorization.wantedError ? nlohmann::json(*factorization.wantedError) : nullptr},
-            {"factorization", factorizationName(factorization.method)},
-            {"coefficients", options.coefficients},
-            {"map_size", options.mapSize},
-            {"map", diskMappingName(options.mapping)},
-            {"face_size", options.faceSize},
-            {"visibility_size", options.visibilitySize},
-            {"transport_samples", options.transportSamples},
-            {"occluder_triangles", options.occluderTriangles},
-            {"visibility", visibilityMethodName(*options.visibilityMethod)},
-            {"vertex_order", "morton"}};
-}
-
 nlohmann::json describeInputs(const Scene& scene) {
     auto inputs = nlohmann::json::array();
     for (const Part& part : scene.parts) {
@@ -65,19 +52,28 @@ nlohmann::json describeInputs(const Scene& scene) {
     return inputs;
 }
 
+// With transport that has no rows yet.
+void setMaterials(AssetPart& part, std::vector<MaterialSet> sets) {
+    for (MaterialSet& set : sets) {
+        set.transport.vertices = uint32_t(part.mesh.vertexCount());
+        set.transport.terms = uint32_t(set.brdf.terms);
+    }
+    part.sets = std::move(sets);
+}
+
 void makeParts(std::vector<Part> parts, BakePlan& plan) {
     const BakeOptions& options = plan.options;
     MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
     for (Part& part : parts) {
         std::vector<MaterialSet> sets =
             materials.make(part.material, part.materialFolder, part.baseColor.has_value());
-        for (MaterialSet& set : sets) {
-            set.transport.vertices = uint32_t(part.mesh.vertexCount());
-            set.transport.terms = uint32_t(set.brdf.terms);
-        }
-        plan.asset.parts.push_back({part.name, std::move(part.mesh), std::move(sets),
-                                    std::move(part.baseColor), std::move(part.materialMap),
+        plan.asset.parts.push_back({part.name,
+                                    std::move(part.mesh),
+                                    {},
+                                    std::move(part.baseColor),
+                                    std::move(part.materialMap),
                                     part.paintedByColors});
+        setMaterials(plan.asset.parts.back(), std::move(sets));
         checkPaint(plan.asset.parts.back());
     }
 }
@@ -95,24 +91,36 @@ void cutBlocks(BakePlan& plan) {
     }
 }
 
-template <typename Element>
-void addTo(Hasher& hasher, const std::vector<Element>& elements) {
-    const uint64_t bytes = elements.size() * sizeof(Element);
-    hasher.add(std::as_bytes(std::span(&bytes, 1)));
-    hasher.add(std::as_bytes(std::span(elements)));
+// META holds every number and text of an asset, provenance included.
+std::string identityOf(const BakePlan& plan) {
+    size_t sets = 0;
+    for (const AssetPart& part : plan.asset.parts) sets += part.sets.size();
+    ContentHash hash;
+    hash.add(encodeMeta(plan.asset, std::vector<uint64_t>(sets, 0),
+                        plan.options.keepVisibility ? plan.visibilityKey : ""));
+    for (const Kernels& kernels : {visibilityKernels(VisibilityMethod::Raster),
+                                   visibilityKernels(VisibilityMethod::Traced), TransportPass::kernels()})
+        for (const auto kernel : kernels) hash.add(kernel);
+    forEachArray(
+        plan.asset, [&](ChunkTag, uint32_t, const auto& elements) { hash.add(std::span(elements)); },
+        [](uint32_t, const MaterialSet&) {});
+    return hash.text();
 }
 
-// META holds every number and text of an asset, provenance included.
-std::string identityOf(const Asset& asset) {
-    size_t sets = 0;
-    for (const AssetPart& part : asset.parts) sets += part.sets.size();
-    const std::string meta = encodeMeta(asset, std::vector<uint64_t>(sets, 0));
-    Hasher hasher;
-    addTo(hasher, std::vector<char>(meta.begin(), meta.end()));
-    forEachArray(
-        asset, [&](ChunkTag, uint32_t, const auto& elements) { addTo(hasher, elements); },
-        [](uint32_t, const MaterialSet&) {});
-    return hasher.text();
+// Settings and provenance, but for inputs and what setVisibility() decides.
+void describeTo(const vk::Device& device, const BakeOptions& options, Asset& asset) {
+    asset.faceSize = options.faceSize;
+    asset.visibilitySize = options.visibilitySize;
+    asset.coefficients = options.coefficients;
+    asset.transportSamples = options.transportSamples;
+    asset.provenance.program = "relume " RELUME_VERSION;
+    asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
+}
+
+void finish(BakePlan& plan) {
+    checkSkeleton(plan.asset, "the bake");
+    cutBlocks(plan);
+    setVisibility(plan, plan.options.visibilityMethod.value_or(VisibilityMethod::Traced));
 }
 
 } // namespace
@@ -123,18 +131,21 @@ uint64_t BakePlan::vertices() const {
     return sum;
 }
 
-BakePlan planOf(Asset asset) {
+BakePlan planOf(Asset asset, const std::string& visibilityKey) {
     BakePlan plan;
     plan.asset = std::move(asset);
+    plan.options.keepVisibility = !visibilityKey.empty();
+    plan.visibilityKey = visibilityKey;
     cutBlocks(plan);
-    plan.identity = identityOf(plan.asset);
+    plan.identity = identityOf(plan);
     return plan;
 }
 
 void setVisibility(BakePlan& plan, VisibilityMethod method) {
     plan.options.visibilityMethod = method;
-    plan.asset.provenance.options = describe(plan.options).dump();
-    plan.identity = identityOf(plan.asset);
+    plan.asset.provenance.options = describeOptions(plan.options);
+    plan.visibilityKey = visibilityKey(plan.asset, method);
+    plan.identity = identityOf(plan);
 }
 
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer) {
@@ -144,12 +155,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     for (Part& part : scene.parts) orderVertices(part.mesh);
 
     Asset& asset = plan.asset;
-    asset.faceSize = options.faceSize;
-    asset.visibilitySize = options.visibilitySize;
-    asset.coefficients = options.coefficients;
-    asset.transportSamples = options.transportSamples;
-    asset.provenance.program = "relume " RELUME_VERSION;
-    asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
+    describeTo(device, options, asset);
     asset.provenance.inputs = describeInputs(scene).dump();
 
     Clock::time_point stage = Clock::now();
@@ -164,9 +170,34 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     makeParts(std::move(scene.parts), plan);
     plan.factorisationSeconds = secondsSince(stage);
 
-    checkSkeleton(asset, "the bake");
-    cutBlocks(plan);
-    setVisibility(plan, options.visibilityMethod.value_or(VisibilityMethod::Traced));
+    finish(plan);
+    return plan;
+}
+
+BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<std::string>& materials,
+                    const BakeOptions& options, BakeObserver& observer) {
+    options.validate();
+    RELUME_CHECK_EQ(materials.size(), skeleton.parts.size());
+    const BakeOptions own = optionsOf(skeleton);
+    const bool isFactoredSo = options.factorization == own.factorization && options.mapSize == own.mapSize &&
+                              options.mapping == own.mapping;
+    BakePlan plan{options};
+    plan.asset = std::move(skeleton);
+    describeTo(device, options, plan.asset);
+    plan.asset.truncationError = plan.asset.quantisationError = 0;
+
+    const Clock::time_point stage = Clock::now();
+    observer.stage(BakeStage::Factorisation, "");
+    MaterialFactory factory(options.factorization, options.mapSize, options.mapping);
+    for (size_t number = 0; number < plan.asset.parts.size(); number++) {
+        AssetPart& part = plan.asset.parts[number];
+        if (materials[number].empty() && isFactoredSo) continue;
+        const std::string text = materials[number].empty() ? materialsOf(part) : materials[number];
+        setMaterials(part, factory.make(text, {}, part.baseColor.has_value()));
+        checkPaint(part);
+    }
+    plan.factorisationSeconds = secondsSince(stage);
+    finish(plan);
     return plan;
 }
 

@@ -22,8 +22,9 @@ struct BakePlan {
     uint32_t blockVertices = 0;
     std::vector<BakeBlock> blocks;  // part after part, in vertex order
     std::vector<uint32_t> firstSet; // per part: its first set's number, counted over all parts
-    // Content hash of everything that decides the file's bytes: program, device and driver, options, and all
-    // of the asset. Results of plans with equal identities can be joined.
+    std::string visibilityKey;      // visibility_key.h
+    // Content hash of everything that decides the file's bytes: program and kernels, device and driver,
+    // options, and all of the asset. Results of plans with equal identities can be joined.
     std::string identity;
     double factorisationSeconds = 0, occluderSeconds = 0;
 
@@ -34,8 +35,17 @@ struct BakePlan {
 // gives its name. Options that leave the visibility's method open give a plan for Traced. Throws Error.
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer);
 
-// The plan that a bake had whose asset this is, rows left out, but for its options.
-BakePlan planOf(Asset asset);
+// For the meshes, occluder, textures and inputs of a bake that was read without rows (readSkeleton): gives
+// the plan that planBake() gives for the same with these materials. `materials`: of every part as
+// readMaterials() takes them, paths being relative to the current folder; where it is empty, the part keeps
+// its own, factored anew if `options` ask for that. `options` must agree with the bake's own in all that
+// decides visibility. Throws Error.
+BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<std::string>& materials,
+                    const BakeOptions& options, BakeObserver& observer);
+
+// The plan that a bake had whose asset this is, rows left out, but for its options. `visibilityKey`: of its
+// kept visibility; empty for none.
+BakePlan planOf(Asset asset, const std::string& visibilityKey = {});
 
 // Decides how visibility is found, and the identity with it.
 void setVisibility(BakePlan& plan, VisibilityMethod method);

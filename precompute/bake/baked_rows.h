@@ -18,9 +18,10 @@ struct BakedRows {
     BakedRows vertices(uint32_t first, uint32_t end) const;
 };
 
-// A block: its rows, a BakedRows per set of its part.
+// A block: its rows, a BakedRows per set of its part, and its visibility.
 struct BakedBlock {
     std::vector<BakedRows> sets;
+    std::vector<uint32_t> visibility; // bits, vertex after vertex, where the plan keeps them
 
     // Summed set after set, row by row: the same however it was baked.
     TransportLosses losses() const;

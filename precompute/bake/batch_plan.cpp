@@ -26,7 +26,9 @@ uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int ter
     // A quarter of the largest heap, and never more than 1 GiB: the rest belongs to others.
     uint64_t memory = std::min<uint64_t>(device.info().largestHeap / 4, 1ull << 30);
     if (limits.memory > 0) memory = std::min(memory, limits.memory);
-    const uint64_t bytesPerPoint = 2 * blockedBytes + visibilityBytes(uint32_t(size)) +
+    // Kept visibility: as it comes back, in the block, and coded.
+    const uint64_t copies = options.keepVisibility ? 4 : 1;
+    const uint64_t bytesPerPoint = 2 * blockedBytes + copies * visibilityBytes(uint32_t(size)) +
                                    TransportPass::bytesPerPoint(terms, options) +
                                    uint64_t(terms) * uint64_t(options.coefficients) * kHostBytesPerEntry;
     if (limits.memory > 0 && limits.memory < bytesPerPoint)

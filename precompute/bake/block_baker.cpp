@@ -32,12 +32,24 @@ constexpr int kProbeRounds = 3;
 
 bool isProbed(const BakeEstimate::Part& part) { return part.vertices - part.doneBefore >= kProbedVertices; }
 
+int termsOf(const AssetPart& part) {
+    int terms = 0;
+    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
+    return terms;
+}
+
+// Of points of a part: rows, per set, and visibility bits where these are found and kept.
+struct BakedPoints {
+    std::vector<BakedRows> rows;
+    std::vector<uint32_t> visibility;
+};
+
 class BlockBaker {
   public:
     BlockBaker(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
                std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
-               BakeObserver& observer)
-        : mDevice(device), mPlan(plan), mLimits(limits), mSink(sink), mObserver(observer),
+               BakeObserver& observer, KeptVisibility* kept)
+        : mDevice(device), mPlan(plan), mLimits(limits), mSink(sink), mObserver(observer), mKept(kept),
           mEstimate(estimateParts(blocks, all)) {}
 
     // Blocks of one part.
@@ -48,10 +60,12 @@ class BlockBaker {
                                                   std::span<const uint32_t> all);
     void probe(std::vector<BakeEstimate::Part>& parts, uint32_t first);
     void bakeGroup(std::span<const uint32_t> blocks);
-    std::vector<BakedRows> bakePoints(std::span<const shared::BakePoint> points);
-    std::vector<BakedRows> tryPoints(std::span<const shared::BakePoint> points);
+    // `given`: the points' bits, where visibility is kept already.
+    BakedPoints bakePoints(std::span<const shared::BakePoint> points, std::span<const uint32_t> given = {});
+    BakedPoints tryPoints(std::span<const shared::BakePoint> points, std::span<const uint32_t> given);
     std::vector<shared::BakePoint> pointsOf(const BakeBlock& block) const;
-    void submit(std::span<const shared::BakePoint> points, std::span<BakedRows> rows);
+    void submit(std::span<const shared::BakePoint> points, std::span<const uint32_t> given,
+                BakedPoints& baked);
     const AssetPart& part() const { return mPlan.asset.parts[mPart]; }
     void usePasses(uint32_t part);
 
@@ -60,6 +74,7 @@ class BlockBaker {
     const BakeLimits& mLimits;
     BakeSink& mSink;
     BakeObserver& mObserver;
+    KeptVisibility* mKept;
     uint32_t mPart = ~0u;
     std::unique_ptr<PartPasses> mPasses; // of mPart
     uint32_t mLargest = kFirstSubmission;
@@ -70,7 +85,8 @@ void BlockBaker::usePasses(uint32_t number) {
     if (mPart == number) return;
     mPasses.reset(); // never two at a time
     mPart = number;
-    mPasses = std::make_unique<PartPasses>(mDevice, mPlan.asset, part(), mPlan.options, mLimits);
+    mPasses = std::make_unique<PartPasses>(mDevice, mPlan.asset, part(), mPlan.options, mLimits,
+                                           mKept ? VisibilitySource::Given : VisibilitySource::Found);
     mLargest = kFirstSubmission;
 }
 
@@ -86,6 +102,11 @@ std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32
     for (uint32_t block : all) parts[mPlan.blocks[block].part].vertices += mPlan.blocks[block].count();
     for (BakeEstimate::Part& part : parts) part.doneBefore = part.vertices;
     for (uint32_t block : blocks) parts[mPlan.blocks[block].part].doneBefore -= mPlan.blocks[block].count();
+    if (mKept) { // what is left to do goes with the terms
+        for (size_t number = 0; number < parts.size(); number++)
+            parts[number].probedSeconds = termsOf(mPlan.asset.parts[number]);
+        return parts;
+    }
     if (std::ranges::count_if(parts, isProbed) > 1) probe(parts, mPlan.blocks[blocks.front()].part);
     return parts;
 }
@@ -94,11 +115,6 @@ std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32
 // be baked tell both for all.
 void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
     usePasses(first);
-    const auto termsOf = [](const AssetPart& part) {
-        int terms = 0;
-        for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
-        return double(terms);
-    };
     const double ownTerms = termsOf(part());
     const auto rowSeconds = [&] {
         return vk::secondsOf(mPasses->times()) - vk::secondsOf(mPasses->times(), "visibility");
@@ -127,18 +143,21 @@ void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
         if (!isProbed(part)) part.probedSeconds = usual;
 }
 
-void BlockBaker::submit(std::span<const shared::BakePoint> points, std::span<BakedRows> rows) {
+void BlockBaker::submit(std::span<const shared::BakePoint> points, std::span<const uint32_t> given,
+                        BakedPoints& baked) {
     if (mObserver.wantsStop()) throw BakeStopped("stopped");
     const Clock::time_point start = Clock::now();
-    mPasses->bake(points, rows);
+    const bool isWanted = mPlan.options.keepVisibility && !mKept;
+    mPasses->bake(points, baked.rows, given, isWanted ? &baked.visibility : nullptr);
     const double perPoint = secondsSince(start) / double(points.size());
     mLargest = uint32_t(std::clamp(kSubmissionSeconds / perPoint, 1.0, double(mPasses->batch())));
 }
 
-std::vector<BakedRows> BlockBaker::bakePoints(std::span<const shared::BakePoint> points) {
+BakedPoints BlockBaker::bakePoints(std::span<const shared::BakePoint> points,
+                                   std::span<const uint32_t> given) {
     for (;;) {
         try {
-            return tryPoints(points);
+            return tryPoints(points, given);
         } catch (const vk::OutOfMemory& failure) {
             if (!mPasses->halveBatch(failure.what())) throw;
         } catch (const std::bad_alloc&) {
@@ -147,17 +166,20 @@ std::vector<BakedRows> BlockBaker::bakePoints(std::span<const shared::BakePoint>
     }
 }
 
-std::vector<BakedRows> BlockBaker::tryPoints(std::span<const shared::BakePoint> points) {
-    std::vector<BakedRows> rows = emptyRows(part());
+BakedPoints BlockBaker::tryPoints(std::span<const shared::BakePoint> points,
+                                  std::span<const uint32_t> given) {
+    BakedPoints baked{emptyRows(part()), {}};
+    const size_t givenWords = given.size() / points.size();
     while (!points.empty()) {
         // Evenly, rather than full ones and a rest.
         const size_t largest = std::min(mLargest, mPasses->batch());
         const size_t submissions = (points.size() + largest - 1) / largest;
         const size_t count = (points.size() + submissions - 1) / submissions;
-        submit(points.first(count), rows);
+        submit(points.first(count), given.first(count * givenWords), baked);
         points = points.subspan(count);
+        given = given.subspan(count * givenWords);
     }
-    return rows;
+    return baked;
 }
 
 std::vector<shared::BakePoint> BlockBaker::pointsOf(const BakeBlock& block) const {
@@ -168,16 +190,26 @@ std::vector<shared::BakePoint> BlockBaker::pointsOf(const BakeBlock& block) cons
 }
 
 void BlockBaker::bakeGroup(std::span<const uint32_t> blocks) {
-    std::vector<shared::BakePoint> points;
-    for (uint32_t block : blocks)
-        std::ranges::copy(pointsOf(mPlan.blocks[block]), std::back_inserter(points));
     const Clock::time_point start = Clock::now();
-    const std::vector<BakedRows> rows = bakePoints(points);
+    std::vector<shared::BakePoint> points;
+    std::vector<uint32_t> given;
+    for (uint32_t block : blocks) {
+        const BakeBlock& place = mPlan.blocks[block];
+        std::ranges::copy(pointsOf(place), std::back_inserter(points));
+        if (mKept)
+            std::ranges::copy(mKept->bits(place.part, place.first, place.end), std::back_inserter(given));
+    }
+    const BakedPoints all = bakePoints(points, given);
+    const std::vector<uint32_t>& visibility = mKept ? given : all.visibility;
+    const size_t vertexWords = visibilityBytes(uint32_t(mPlan.asset.visibilitySize)) / 4;
     uint32_t first = 0;
     for (uint32_t block : blocks) {
         const uint32_t end = first + mPlan.blocks[block].count();
         BakedBlock baked;
-        for (const BakedRows& set : rows) baked.sets.push_back(set.vertices(first, end));
+        for (const BakedRows& set : all.rows) baked.sets.push_back(set.vertices(first, end));
+        if (mPlan.options.keepVisibility)
+            baked.visibility.assign(visibility.begin() + ptrdiff_t(first * vertexWords),
+                                    visibility.begin() + ptrdiff_t(end * vertexWords));
         mSink.take(block, std::move(baked));
         first = end;
     }
@@ -202,9 +234,9 @@ void BlockBaker::bakePart(std::span<const uint32_t> blocks, BakeTimes& times) {
 
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
                 std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
-                BakeObserver& observer, BakeTimes& times) {
+                BakeObserver& observer, BakeTimes& times, KeptVisibility* kept) {
     if (blocks.empty()) return;
-    BlockBaker baker(device, plan, blocks, all, limits, sink, observer);
+    BlockBaker baker(device, plan, blocks, all, limits, sink, observer, kept);
     while (!blocks.empty()) {
         const uint32_t part = plan.blocks[blocks.front()].part;
         const auto next =

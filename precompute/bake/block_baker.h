@@ -1,6 +1,7 @@
 // Bakes blocks of a plan, one after another.
 #pragma once
 
+#include "engine/transport/kept_visibility.h"
 #include "engine/vk/commands.h"
 #include "precompute/bake/bake_plan.h"
 #include "precompute/bake/baked_rows.h"
@@ -28,9 +29,10 @@ class BakeSink {
 
 // Bakes the blocks of these numbers in their order; those of a part had best be together. Progress is told of
 // `all` blocks, those done before among them. What a block gives depends on the plan alone. A device or host
-// short of memory halves the batch, saying so. Throws BakeStopped when the observer wants it, Error.
+// short of memory halves the batch, saying so. Throws BakeStopped when the observer wants it, Error. `kept`:
+// verified visibility of the plan's key, taken instead of finding it.
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
                 std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
-                BakeObserver& observer, BakeTimes& times);
+                BakeObserver& observer, BakeTimes& times, KeptVisibility* kept = nullptr);
 
 } // namespace relume

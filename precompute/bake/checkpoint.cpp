@@ -168,11 +168,10 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     const auto block = in.get<uint32_t>(), chunkCount = in.get<uint32_t>();
     const auto bodyBytes = in.get<uint64_t>(), checksum = in.get<uint64_t>();
     if (block >= plan.blocks.size() || mBlocks[block]) return false;
-    const AssetPart& part = plan.asset.parts[plan.blocks[block].part];
+    const size_t chunks = chunksOf(plan, block);
     uint64_t most = kLossBytes;
-    for (const MaterialSet& set : part.sets) most += kChunkBytes + mostRunBytes(plan, block, set);
-    if (chunkCount != part.sets.size() || bodyBytes < kLossBytes + chunkCount * kChunkBytes ||
-        bodyBytes > most)
+    for (size_t chunk = 0; chunk < chunks; chunk++) most += kChunkBytes + mostRawBytes(plan, block, chunk);
+    if (chunkCount != chunks || bodyBytes < kLossBytes + chunkCount * kChunkBytes || bodyBytes > most)
         return false;
     std::vector<std::byte> body(bodyBytes);
     if (!read(mBytes + header.size(), body) ||
@@ -182,9 +181,9 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     ByteReader rest(body, "");
     Kept kept{getLosses(rest), {}};
     uint64_t offset = mBytes + header.size() + kLossBytes + chunkCount * kChunkBytes;
-    for (size_t set = 0; set < chunkCount; set++) {
+    for (size_t chunk = 0; chunk < chunks; chunk++) {
         ChunkEntry entry = getChunk(rest);
-        if (!isPlausible(plan, block, set, entry)) return false;
+        if (!isPlausible(plan, block, chunk, entry)) return false;
         entry.offset = offset;
         offset += entry.storedSize;
         kept.chunks.push_back(entry);

@@ -3,6 +3,7 @@
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/transport_chunk.h"
+#include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/shard_difference.h"
 
 #include <algorithm>
@@ -81,14 +82,14 @@ void ShardBlocks::addShard(const ShardFile& file) {
     size_t used = 0;
     for (uint32_t block = file.shard().index; block < blocks; block += file.shard().count) {
         mLosses[block] = losses[block / file.shard().count];
-        const size_t sets = mPlan.asset.parts[mPlan.blocks[block].part].sets.size();
-        for (size_t set = 0; set < sets; set++, used++) {
-            const ChunkEntry expected = expectedChunk(mPlan, block, set);
+        for (size_t chunk = 0; chunk < chunksOf(mPlan, block); chunk++) {
+            const ChunkEntry expected = expectedChunk(mPlan, block, chunk);
+            used += expected.tag == kTransport;
             const ChunkEntry* entry = file.chunks().findRun(expected.tag, expected.owner, expected.run);
-            if (!entry || !isPlausible(mPlan, block, set, *entry))
-                throw Error("{}: chunk TRAN of set {}, run {}, is missing or of a wrong size; bake the shard "
-                            "again",
-                            file.name(), expected.owner, expected.run);
+            if (!entry || !isPlausible(mPlan, block, chunk, *entry))
+                throw Error("{}: chunk {} of part or set {}, run {}, is missing or of a wrong size; bake the "
+                            "shard again",
+                            file.name(), tagText(expected.tag), expected.owner, expected.run);
             mChunks[block].push_back(*entry);
         }
     }
@@ -105,6 +106,12 @@ std::vector<std::byte> ShardBlocks::load(uint32_t block, const ChunkEntry& entry
     const ShardFile& file = fileOf(block);
     std::vector<std::byte> stored = file.chunks().loadStored(entry);
     const BakeBlock& place = mPlan.blocks[block];
+    if (entry.tag == kVisibility) {
+        decodeVisibility(
+            unpackChunk(entry, stored, file.name()), place.count(), uint32_t(mPlan.asset.visibilitySize),
+            fmt::format("{}: chunk visb of part {}, run {}", file.name(), entry.owner, entry.run));
+        return stored;
+    }
     const uint32_t set = entry.owner - mPlan.firstSet[place.part];
     const std::string where =
         fmt::format("{}: chunk TRAN of set {}, run {}", file.name(), entry.owner, entry.run);

@@ -60,19 +60,25 @@ void writeShard(const BakePlan& plan, const Shard& shard, const StoredBlocks& bl
     };
     const size_t sets = plan.firstSet.back() + plan.asset.parts.back().sets.size();
     std::vector<std::vector<Run>> runs(sets); // over all parts
+    std::vector<Run> visibility;
     std::vector<TransportLosses> losses;
     for (uint32_t block = shard.index; block < plan.blocks.size(); block += shard.count) {
         losses.push_back(blocks.losses(block));
-        for (const ChunkEntry& entry : blocks.chunks(block)) runs[entry.owner].push_back({block, entry});
+        for (const ChunkEntry& entry : blocks.chunks(block))
+            (entry.tag == kVisibility ? visibility : runs[entry.owner]).push_back({block, entry});
     }
     ChunkWriter chunks;
     addShard(chunks, plan, shard);
     addLosses(chunks, losses);
     // META as the identity knows it: numbers of entries and errors are those of no shard.
-    addChunks(chunks, plan.asset, std::vector<uint64_t>(sets, 0), [&](uint32_t set) {
-        for (const Run& run : runs[set])
+    const auto addStored = [&](const std::vector<Run>& stored) {
+        for (const Run& run : stored)
             chunks.addStored(run.entry, [&blocks, run] { return blocks.load(run.block, run.entry); });
-    });
+    };
+    addChunks(
+        chunks, plan.asset, std::vector<uint64_t>(sets, 0), [&](uint32_t set) { addStored(runs[set]); },
+        plan.options.keepVisibility ? plan.visibilityKey : "");
+    addStored(visibility);
     chunks.finish(output);
 }
 
@@ -100,7 +106,7 @@ BakePlan ShardFile::plan() const {
     AssetMeta meta = mMeta;
     readArrays(mChunks, meta);
     checkSkeleton(meta.asset, name());
-    BakePlan plan = planOf(std::move(meta.asset));
+    BakePlan plan = planOf(std::move(meta.asset), meta.visibilityKey);
     if (plan.identity != mIdentity)
         throw Error(
             "{}: holds something else than its identity says; the file was edited, or made by another "

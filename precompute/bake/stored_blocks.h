@@ -7,7 +7,7 @@
 
 namespace relume {
 
-// A finished block: a TRAN chunk per set of its part.
+// A finished block: a TRAN chunk per set of its part, then a visb chunk where visibility is kept.
 struct StoredBlock {
     TransportLosses losses;
     std::vector<StoredChunk> chunks;
@@ -16,16 +16,19 @@ struct StoredBlock {
 // Checks the rows, encodes and compresses them. Throws Error for rows that make no valid asset.
 StoredBlock storeBlock(const BakePlan& plan, uint32_t block, const BakedBlock& baked);
 
-// The chunk that a block's set must have, but for sizes and checksum.
-ChunkEntry expectedChunk(const BakePlan& plan, uint32_t block, size_t set);
+// How many chunks a block has.
+size_t chunksOf(const BakePlan& plan, uint32_t block);
 
-// Most bytes of a block's set before compression.
-uint64_t mostRunBytes(const BakePlan& plan, uint32_t block, const MaterialSet& set);
+// One of these as it must be, but for sizes and checksum.
+ChunkEntry expectedChunk(const BakePlan& plan, uint32_t block, size_t chunk);
 
-// Whether an entry can be that of a block's set.
-bool isPlausible(const BakePlan& plan, uint32_t block, size_t set, const ChunkEntry& entry);
+// Most bytes of it before compression.
+uint64_t mostRawBytes(const BakePlan& plan, uint32_t block, size_t chunk);
 
-// Transport entries that a plausible chunk of a block stands for.
+// Whether an entry can be it.
+bool isPlausible(const BakePlan& plan, uint32_t block, size_t chunk, const ChunkEntry& entry);
+
+// Transport entries that a plausible TRAN chunk of a block stands for.
 uint64_t entriesOf(const BakePlan& plan, uint32_t block, const ChunkEntry& entry);
 
 // All blocks of a plan, or some, that are kept on disk.

@@ -40,6 +40,9 @@ class TransportPass {
     TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
                   uint32_t capacity, const TransportTuning& tuning);
 
+    // SPIR-V of all kernels of it.
+    static std::vector<std::span<const uint32_t>> kernels();
+
     // Records all terms of the first `count` BakePoints, whose bits lie at the front of `bits`.
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const;

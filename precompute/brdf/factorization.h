@@ -36,6 +36,8 @@ struct FactorizationOptions {
     // at or below this; where all of them are not enough, all, and the log says so. Not for NonNegative,
     // whose terms are only good together.
     std::optional<float> wantedError;
+
+    bool operator==(const FactorizationOptions&) const = default;
 };
 
 // Factors the tables jointly: a layer each, one set of light maps. Every table counts alike, whatever its

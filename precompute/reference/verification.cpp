@@ -3,6 +3,7 @@
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
 #include "engine/render/relighter.h"
+#include "precompute/bake/baked_options.h"
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/brdf/factorization_error.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 
 namespace relume {
@@ -36,14 +36,6 @@ struct Sums {
     double brdf = 0;
 };
 
-// How the asset's visibility was found.
-VisibilityMethod bakedMethod(const Asset& asset) {
-    const auto options = nlohmann::json::parse(asset.provenance.options, nullptr, false);
-    const bool raster = options.is_object() && options.value("visibility", nlohmann::json()) ==
-                                                   visibilityMethodName(VisibilityMethod::Raster);
-    return raster ? VisibilityMethod::Raster : VisibilityMethod::Traced;
-}
-
 // What the device makes of some points of a part: bits and all coefficients, back on the host.
 class DeviceStages {
   public:
@@ -62,8 +54,8 @@ class DeviceStages {
         const uint64_t bitBytes = visibilityBytes(size);
 
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
-        const auto visibility = makeVisibility(device, bakedMethod(asset), asset.occluder, size, batch,
-                                               visibilityNearDistance(asset.visibilityOffset));
+        const auto visibility = makeVisibility(device, *optionsOf(asset).visibilityMethod, asset.occluder,
+                                                size, batch, visibilityNearDistance(asset.visibilityOffset));
         TransportTuning tuning = TransportTuning::of(device);
         tuning.coefficientBytes = ~0ull; // all points together, to see all of them
         const TransportPass transport(device, set.brdf, options, batch, tuning);

@@ -70,6 +70,11 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
     mDraw = {device, visibility_vert_spirv, visibility_frag_spirv, {}, options, "visibility draw"};
 }
 
+Kernels RasterVisibility::kernels() {
+    return {visibility_cull_reset_comp_spirv, visibility_cull_comp_spirv, visibility_vert_spirv,
+            visibility_frag_spirv, visibility_pack_comp_spirv};
+}
+
 void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occluder) {
     std::vector<uint32_t> indices;
     std::vector<shared::TriangleCluster> clusters;

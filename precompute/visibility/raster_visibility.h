@@ -16,6 +16,8 @@ class RasterVisibility : public Visibility {
     RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
                      float nearDistance, Culling culling = Culling::On);
 
+    static Kernels kernels();
+
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const override;
 

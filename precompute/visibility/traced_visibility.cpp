@@ -53,6 +53,8 @@ TracedVisibility::TracedVisibility(const vk::Device& device, const Mesh& occlude
               vk::ComputeProgram::Subgroups::Full};
 }
 
+Kernels TracedVisibility::kernels() { return {visibility_trace_comp_spirv}; }
+
 void TracedVisibility::record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                               const vk::Buffer& bits) const {
     constexpr uint32_t kLoopTest = 2; // turns that a loop should take, unknown to the compiler

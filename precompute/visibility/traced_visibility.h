@@ -12,6 +12,8 @@ class TracedVisibility : public Visibility {
     // As makeVisibility. Throws Error when the device has no subgroups that suit.
     TracedVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size);
 
+    static Kernels kernels();
+
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const override;
 

@@ -9,6 +9,10 @@ std::string_view visibilityMethodName(VisibilityMethod method) {
     return method == VisibilityMethod::Raster ? "raster" : "traced";
 }
 
+Kernels visibilityKernels(VisibilityMethod method) {
+    return method == VisibilityMethod::Traced ? TracedVisibility::kernels() : RasterVisibility::kernels();
+}
+
 std::unique_ptr<Visibility> makeVisibility(const vk::Device& device, VisibilityMethod method,
                                            const Mesh& occluder, uint32_t size, uint32_t capacity,
                                            float nearDistance) {

@@ -7,7 +7,9 @@
 #include "shaders/shared/bake.h"
 
 #include <memory>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace relume {
 
@@ -41,9 +43,15 @@ class Visibility {
     virtual void check() const {}
 };
 
+// SPIR-V of some kernels.
+using Kernels = std::vector<std::span<const uint32_t>>;
+
 // How visibility is found: by the fixed-function rasteriser or by rays in a compute shader.
 enum class VisibilityMethod { Raster, Traced };
 std::string_view visibilityMethodName(VisibilityMethod method); // "raster", "traced"
+
+// All that a method runs.
+Kernels visibilityKernels(VisibilityMethod method);
 
 // `size` a multiple of 32; at most `capacity` points a batch. Throws OutOfMemory when a smaller batch may do,
 // Error when the occluder has more triangles than the device can bind.

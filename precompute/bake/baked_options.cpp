@@ -1,0 +1,148 @@
+#include "precompute/bake/baked_options.h"
+
+#include "engine/base/error.h"
+#include "precompute/brdf/material_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kVertexOrder = "morton";
+
+constexpr const char* kRemedy = "bake it again from its inputs";
+
+// Reads members of the options' object, each of which must be there.
+class OptionReader {
+  public:
+    explicit OptionReader(const std::string& text) {
+        constexpr size_t kLongest = 4096; // the options are a handful: no depth to speak of either
+        if (text.size() <= kLongest) mOptions = json::parse(text, nullptr, false);
+        if (!mOptions.is_object()) fail("expected a JSON object");
+    }
+
+    uint64_t whole(const char* key, uint64_t most) {
+        const json& value = take(key);
+        if (!value.is_number_unsigned() || value.get<uint64_t>() > most)
+            fail(fmt::format("\"{}\": expected a whole number up to {}", key, most));
+        return value.get<uint64_t>();
+    }
+    int integer(const char* key) { return int(whole(key, 1u << 20)); }
+
+    std::optional<float> error() {
+        const json& value = take("error");
+        if (value.is_null()) return std::nullopt;
+        if (!value.is_number() || !(value.get<double>() > 0 && value.get<double>() <= 1))
+            fail("\"error\": expected null, or a number above 0 and up to 1");
+        return value.get<float>();
+    }
+
+    // `parse` gives an std::optional, empty for a name it does not know.
+    template <typename Parse>
+    auto name(const char* key, const Parse& parse) {
+        const json& value = take(key);
+        const auto known = parse(value.is_string() ? value.get<std::string>() : std::string());
+        if (!known) fail(fmt::format("\"{}\": is unknown", key));
+        return *known;
+    }
+
+    void expectEnd() const {
+        if (mTaken != mOptions.size()) fail("there are options that this program does not know");
+    }
+
+    [[noreturn]] static void fail(const std::string& what) {
+        throw Error("the bake's own options: {}; {}", what, kRemedy);
+    }
+
+  private:
+    const json& take(const char* key) {
+        const auto found = mOptions.find(key);
+        if (found == mOptions.end()) fail(fmt::format("\"{}\" is missing", key));
+        mTaken++;
+        return *found;
+    }
+
+    json mOptions;
+    size_t mTaken = 0;
+};
+
+std::optional<VisibilityMethod> methodFromName(const std::string& name) {
+    for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
+        if (name == visibilityMethodName(method)) return method;
+    return std::nullopt;
+}
+
+} // namespace
+
+std::string describeOptions(const BakeOptions& options) {
+    const FactorizationOptions& factorization = options.factorization;
+    return json{{"terms", factorization.terms},
+                {"error", factorization.wantedError ? json(*factorization.wantedError) : nullptr},
+                {"factorization", factorizationName(factorization.method)},
+                {"coefficients", options.coefficients},
+                {"map_size", options.mapSize},
+                {"map", diskMappingName(options.mapping)},
+                {"face_size", options.faceSize},
+                {"visibility_size", options.visibilitySize},
+                {"transport_samples", options.transportSamples},
+                {"occluder_triangles", options.occluderTriangles},
+                {"visibility", visibilityMethodName(*options.visibilityMethod)},
+                {"vertex_order", kVertexOrder}}
+        .dump();
+}
+
+BakeOptions optionsOf(const Asset& asset) {
+    OptionReader in(asset.provenance.options);
+    BakeOptions options;
+    options.factorization.terms = in.integer("terms");
+    options.factorization.wantedError = in.error();
+    options.factorization.method =
+        in.name("factorization", [](const std::string& name) { return factorizationFromName(name); });
+    options.coefficients = in.integer("coefficients");
+    options.mapSize = in.integer("map_size");
+    options.mapping = in.name("map", [](const std::string& name) { return diskMappingFromName(name); });
+    options.faceSize = in.integer("face_size");
+    options.visibilitySize = in.integer("visibility_size");
+    options.transportSamples = in.integer("transport_samples");
+    options.occluderTriangles = in.whole("occluder_triangles", uint64_t(1) << 40);
+    options.visibilityMethod = in.name("visibility", methodFromName);
+    in.name("vertex_order", [](const std::string& name) {
+        return name == kVertexOrder ? std::optional(true) : std::nullopt;
+    });
+    in.expectEnd();
+    try {
+        options.validate();
+    } catch (const UsageError& wrong) {
+        OptionReader::fail(wrong.what());
+    }
+    if (options.coefficients != asset.coefficients || options.faceSize != asset.faceSize ||
+        options.visibilitySize != asset.visibilitySize || options.transportSamples != asset.transportSamples)
+        OptionReader::fail("they are not those of what it holds");
+    return options;
+}
+
+std::string materialsOf(const AssetPart& part) {
+    json sets = json::array();
+    for (const MaterialSet& set : part.sets) {
+        json materials = json::array();
+        for (const AssetMaterial& material : set.materials) {
+            json description;
+            try {
+                description = parseMaterial(material.description);
+            } catch (const UsageError&) {
+            }
+            if (!description.is_object())
+                throw Error("part \"{}\": the description of \"{}\" is no JSON object; name its material",
+                            part.name, material.name);
+            description["name"] = material.name;
+            materials.push_back(std::move(description));
+        }
+        sets.push_back({{"set", std::move(materials)}});
+    }
+    return json{{"separate", std::move(sets)}}.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+} // namespace relume

@@ -1,0 +1,59 @@
+// A small asset whose file keeps visibility.
+#pragma once
+
+#include "engine/transport/asset_arrays.h"
+#include "engine/transport/visibility_chunk.h"
+#include "tests/support/asset_sample.h"
+
+#include <nlohmann/json.hpp>
+
+namespace relume::test {
+
+constexpr const char* kVisibilityKey = "0123456789abcdef0123456789abcdef";
+
+// Of visibility in the least size that can be kept.
+inline Asset keptAsset() {
+    Asset asset = sampleAsset();
+    asset.visibilitySize = 64;
+    return asset;
+}
+
+constexpr size_t kKeptVertexWords = 6 * 64 * 64 / 32;
+
+inline std::vector<uint32_t> bitsOf(uint32_t part, size_t vertices) {
+    std::mt19937 random(part);
+    std::vector<uint32_t> bits(vertices * kKeptVertexWords);
+    for (uint32_t& word : bits) word = random() % 8 == 0 ? random() : 0;
+    return bits;
+}
+
+// Writes a key, of whatever form, into META, the first chunk.
+inline void setVisibilityKey(std::vector<RawChunk>& chunks, const std::string& key) {
+    std::vector<std::byte>& raw = chunks[0].raw;
+    auto meta =
+        nlohmann::ordered_json::parse(std::string(reinterpret_cast<const char*>(raw.data()), raw.size()));
+    meta["visibilityKey"] = key;
+    const std::string text = meta.dump();
+    const auto bytes = std::as_bytes(std::span(text));
+    raw.assign(bytes.begin(), bytes.end());
+}
+
+// The chunks of keptAsset() with its visibility.
+inline std::vector<RawChunk> keptChunks() {
+    const Asset asset = keptAsset();
+    std::vector<RawChunk> chunks = chunksOf(encodeAsset(asset));
+    setVisibilityKey(chunks, kVisibilityKey);
+    const uint32_t block = blockVertices(asset);
+    for (uint32_t part = 0; part < asset.parts.size(); part++) {
+        const size_t vertices = asset.parts[part].mesh.vertexCount();
+        const std::vector<uint32_t> bits = bitsOf(part, vertices);
+        for (uint32_t run = 0; run * block < vertices; run++) {
+            const size_t first = run * block, count = std::min<size_t>(block, vertices - first);
+            const auto own = std::span(bits).subspan(first * kKeptVertexWords, count * kKeptVertexWords);
+            chunks.push_back({kVisibility, part, run, encodeVisibility(own, 64)});
+        }
+    }
+    return chunks;
+}
+
+} // namespace relume::test
