@@ -24,7 +24,8 @@ std::optional<double> BakeTraffic::device(const std::string& stage) const {
     if (stage == "visibility draw") return mTexels + mTriangles * kTriangleIndices; // a byte a texel
     if (stage == "visibility pack") return 3 * mTexels + mTexels / 8;               // copied, then packed
     if (stage == "visibility trace") return mTexels / 8;
-    if (stage == "transport") return mTexels / 8 + slots + blocks * kCoefficient + summaries; // averages twice
+    if (stage == "transport")
+        return mTexels / 8 + slots + blocks * kCoefficient + summaries; // averages twice
     if (stage == "select") return summaries + mKept * (kCoefficient + kIndex);
     if (stage == "quantise") return mKept * (kIndex + kCoefficient + kValue);
     if (stage == "compact") return mKept * 2 * (kIndex + kValue);

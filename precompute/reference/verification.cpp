@@ -55,7 +55,7 @@ class DeviceStages {
 
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
         const auto visibility = makeVisibility(device, *optionsOf(asset).visibilityMethod, asset.occluder,
-                                                size, batch, visibilityNearDistance(asset.visibilityOffset));
+                                               size, batch, visibilityNearDistance(asset.visibilityOffset));
         TransportTuning tuning = TransportTuning::of(device);
         tuning.coefficientBytes = ~0ull; // all points together, to see all of them
         const TransportPass transport(device, set.brdf, options, batch, tuning);

@@ -6,8 +6,8 @@
 
 namespace relume {
 
-// Finds the visibility of some vertices of the asset, spread over its parts, in each way, and says on stderr what
-// it chose. Needs the asset's occluder, meshes and sizes. The answer may differ from one run to another.
+// Finds the visibility of some vertices of the asset, spread over its parts, in each way, and says on stderr
+// what it chose. Needs the asset's occluder, meshes and sizes. The answer may differ from one run to another.
 VisibilityMethod fasterVisibility(const vk::Device& device, const Asset& asset);
 
 } // namespace relume

@@ -41,8 +41,8 @@ struct TracePush {
 };
 RELUME_SHARED_SIZE(TracePush, 4)
 
-// One of the eight children of a node of the bounding volume hierarchy. `entry` is what traversal keeps of it: a
-// node's number, or kBvhLeaf with the number of triangles - 1 in five bits and the first of them in 26.
+// One of the eight children of a node of the bounding volume hierarchy. `entry` is what traversal keeps of
+// it: a node's number, or kBvhLeaf with the number of triangles - 1 in five bits and the first of them in 26.
 struct BvhChild {
     vec3 low;
     uint entry;
