@@ -87,9 +87,10 @@ void ShardBlocks::addShard(const ShardFile& file) {
             used += expected.tag == kTransport;
             const ChunkEntry* entry = file.chunks().findRun(expected.tag, expected.owner, expected.run);
             if (!entry || !isPlausible(mPlan, block, chunk, *entry))
-                throw Error("{}: chunk {} of part or set {}, run {}, is missing or of a wrong size; bake the "
+                throw Error("{}: chunk {} of {} {}, run {}, is missing or of a wrong size; bake the "
                             "shard again",
-                            file.name(), tagText(expected.tag), expected.owner, expected.run);
+                            file.name(), tagText(expected.tag), expected.tag == kVisibility ? "part" : "set",
+                            expected.owner, expected.run);
             mChunks[block].push_back(*entry);
         }
     }
