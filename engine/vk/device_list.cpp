@@ -44,6 +44,11 @@ static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion)
     VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12};
     vkGetPhysicalDeviceFeatures2(physical, &features);
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    constexpr uint32_t kSharedMemory = 20 << 10; // of select.comp, rounded up; Vulkan promises 16 KiB only
+    if (properties.limits.maxComputeSharedMemorySize < kSharedMemory)
+        return "20 KiB of shared memory are needed";
     if (!features12.scalarBlockLayout) return "scalarBlockLayout is needed";
     if (!features12.shaderOutputLayer) return "shaderOutputLayer is needed";
     if (!features.features.multiDrawIndirect) return "multiDrawIndirect is needed";

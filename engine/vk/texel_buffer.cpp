@@ -1,5 +1,6 @@
 #include "engine/vk/texel_buffer.h"
 
+#include "engine/base/error.h"
 #include "engine/vk/result.h"
 #include "engine/vk/upload.h"
 
@@ -10,8 +11,9 @@ namespace relume::vk {
 TexelBuffer::TexelBuffer(const Device& device, std::span<const vec4> texels, std::string_view name)
     : mDevice(&device) {
     if (texels.size() > device.limits().maxTexelBufferElements)
-        throw OutOfMemory("{}: {} texels asked for, {} allows {} in a buffer", name, texels.size(),
-                          device.name(), device.limits().maxTexelBufferElements);
+        throw Error(
+            "{}: {} texels are more than the {} that {} allows in a buffer; use fewer terms or smaller maps",
+            name, texels.size(), device.limits().maxTexelBufferElements, device.name());
     mBuffer = upload(device, texels, name);
     VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     create.buffer = mBuffer.handle();

@@ -9,7 +9,7 @@ namespace relume::vk {
 class TexelBuffer {
   public:
     TexelBuffer() = default;
-    // Holds a copy of `texels`, at least one. Waits for the copy. Throws OutOfMemory, also where the device
+    // Holds a copy of `texels`, at least one. Waits for the copy. Throws OutOfMemory; Error where the device
     // allows fewer texels.
     TexelBuffer(const Device& device, std::span<const vec4> texels, std::string_view name);
     ~TexelBuffer() { destroy(); }
