@@ -19,7 +19,6 @@ layout(constant_id = 1) const uint kVisibilitySize = 256; // a multiple of F, at
 layout(constant_id = 2) const uint kSamplesPerSide = 1;  // evaluations a side of a lighting texel
 layout(constant_id = 3) const uint kMapSize = 48;
 layout(constant_id = 4) const uint kMapping = 0;
-// Without a loop over terms, the places of all 16 lookups need not be kept: a quarter faster on lavapipe.
 layout(constant_id = 5) const uint kTerms = 4; // K, of all dispatches
 layout(local_size_x_id = 6) in;
 

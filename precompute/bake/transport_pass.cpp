@@ -48,7 +48,7 @@ uint64_t TransportPass::rowBytes(const BakeOptions& options) {
 }
 
 TransportTuning TransportTuning::of(const vk::Device& device) {
-    if (device.info().type != "software") return {64, ~0ull};
+    if (!device.info().isSoftware) return {64, ~0ull};
     // A group of one subgroup needs no switching between subgroups. Rows that are worked on soon after they
     // were written come from the cache.
     return {std::min(64u, device.info().subgroupSize),
