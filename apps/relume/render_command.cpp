@@ -46,6 +46,9 @@ void run(const Arguments& arguments) {
     arguments.image.check();
     if (!arguments.timings.empty()) expectWritable(arguments.timings);
     const Asset asset = readAsset(arguments.file);
+    if (const std::optional<float> share = asset.provenance.bakedShare)
+        spdlog::warn("{}: is a preview: {:.0f} % of its vertices are baked, the others interpolated",
+                     arguments.file, 100 * *share);
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     LightPass light(*device, asset.faceSize);

@@ -52,6 +52,8 @@ struct Provenance {
     std::string device;  // Name and driver of the device that baked it
     std::string options; // JSON object: every bake option that decides the bytes
     std::string inputs;  // JSON array: {"name", "file", "hash"} of every input file
+    // Of a preview: the share of the vertices that are baked. The rows of the others are interpolated.
+    std::optional<float> bakedShare = std::nullopt;
 };
 
 struct Asset {

@@ -45,6 +45,8 @@ void checkSettings(const Asset& asset, const std::string& name) {
     expect(isMagnitude(asset.visibilityOffset) && isMagnitude(asset.quantisationError) &&
                isMagnitude(asset.truncationError),
            name, "an offset and errors that are finite and not negative");
+    const float share = asset.provenance.bakedShare.value_or(1);
+    expect(share >= 0 && share <= 1, name, "a share of baked vertices of 0 to 1");
 }
 
 void checkTriangles(const Mesh& mesh, const std::string& where) {

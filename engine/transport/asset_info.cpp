@@ -83,6 +83,9 @@ Json describeApproximations(const Asset& asset) {
             list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}{}", part.name, set.brdf.terms,
                                        set.brdf.size, set.brdf.size,
                                        set.brdf.layers > 1 ? ", light maps shared in a set" : ""));
+    if (asset.provenance.bakedShare)
+        list.push_back(fmt::format("preview: {:.0f} % of the vertices are baked, the others interpolated",
+                                   100 * *asset.provenance.bakedShare));
     if (asset.visibilityOffset > 0)
         list.push_back(fmt::format("visibility: taken {} above each vertex", asset.visibilityOffset));
     return list;
@@ -112,27 +115,28 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t v
     const Json total = describeTotal(asset);
     Json parts = Json::array();
     for (const AssetPart& part : asset.parts) parts.push_back(describePart(part));
-    const Json info = {{"format_version", kAssetFormatVersion},
-                       {"file_bytes", fileBytes},
-                       {"face_size", asset.faceSize},
-                       {"visibility_size", asset.visibilitySize},
-                       {"coefficients", asset.coefficients},
-                       {"transport_samples", asset.transportSamples},
-                       {"visibility_offset", asset.visibilityOffset},
-                       {"truncation_error", asset.truncationError},
-                       {"quantization_error", asset.quantisationError},
-                       {"approximations", describeApproximations(asset)},
-                       {"occluder_triangles", asset.occluder.triangleCount()},
-                       {"total", total},
-                       {"kept_visibility",
-                        {{"bytes", visibilityBytes},
-                         {"bytes_per_vertex", ratio(visibilityBytes, total["vertices"].get<uint64_t>())}}},
-                       {"parts", parts},
-                       {"provenance",
-                        {{"program", asset.provenance.program},
-                         {"device", asset.provenance.device},
-                         {"options", jsonOrText(asset.provenance.options)},
-                         {"inputs", jsonOrText(asset.provenance.inputs)}}}};
+    Json info = {{"format_version", kAssetFormatVersion},
+                 {"file_bytes", fileBytes},
+                 {"face_size", asset.faceSize},
+                 {"visibility_size", asset.visibilitySize},
+                 {"coefficients", asset.coefficients},
+                 {"transport_samples", asset.transportSamples},
+                 {"visibility_offset", asset.visibilityOffset},
+                 {"truncation_error", asset.truncationError},
+                 {"quantization_error", asset.quantisationError},
+                 {"approximations", describeApproximations(asset)},
+                 {"occluder_triangles", asset.occluder.triangleCount()},
+                 {"total", total},
+                 {"kept_visibility",
+                  {{"bytes", visibilityBytes},
+                   {"bytes_per_vertex", ratio(visibilityBytes, total["vertices"].get<uint64_t>())}}},
+                 {"parts", parts},
+                 {"provenance",
+                  {{"program", asset.provenance.program},
+                   {"device", asset.provenance.device},
+                   {"options", jsonOrText(asset.provenance.options)},
+                   {"inputs", jsonOrText(asset.provenance.inputs)}}}};
+    if (asset.provenance.bakedShare) info["preview"] = {{"baked_share", *asset.provenance.bakedShare}};
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

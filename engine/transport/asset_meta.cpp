@@ -194,6 +194,8 @@ std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries,
           {"options", asset.provenance.options},
           {"inputs", asset.provenance.inputs}}}};
     if (!visibilityKey.empty()) meta["visibilityKey"] = visibilityKey;
+    const std::optional<float> share = asset.provenance.bakedShare;
+    if (share) meta["provenance"]["bakedShare"] = *share;
     std::string text = meta.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (text.size() > kLargestMeta)
         throw Error(
@@ -230,6 +232,7 @@ AssetMeta decodeMeta(std::string_view text, const std::string& name) {
             meta.visibilityKey.find_first_not_of("0123456789abcdef") != std::string::npos)
             throw Error("{}: \"visibilityKey\": expected {} hexadecimal digits", where, kVisibilityKeyDigits);
     }
+    if (provenance.has("bakedShare")) meta.asset.provenance.bakedShare = provenance.real("bakedShare");
     return meta;
 }
 

@@ -78,6 +78,7 @@ void checkSame(const Asset& a, const Asset& b) {
     CHECK(a.provenance.device == b.provenance.device);
     CHECK(a.provenance.options == b.provenance.options);
     CHECK(a.provenance.inputs == b.provenance.inputs);
+    CHECK(a.provenance.bakedShare == b.provenance.bakedShare);
     REQUIRE(a.parts.size() == b.parts.size());
     for (size_t i = 0; i < a.parts.size(); i++) checkSamePart(a.parts[i], b.parts[i]);
 }
@@ -374,6 +375,18 @@ TEST_CASE("asset file: META cannot stand for much memory") {
     Asset wordy = sampleAsset();
     wordy.provenance.options = std::string(size_t(2) << 20, 'x');
     CHECK_THROWS_WITH_AS(encodeAsset(wordy), doctest::Contains("provenance take"), Error);
+}
+
+TEST_CASE("asset file: a preview says how much of it is baked") {
+    Asset preview = sampleAsset();
+    preview.provenance.bakedShare = 0.25f;
+    const std::vector<std::byte> bytes = encodeAsset(preview);
+    checkSame(decodeAsset(bytes, "file"), preview);
+    const auto info = nlohmann::json::parse(describeAssetJson(preview, bytes.size()));
+    CHECK_EQ(info["preview"]["baked_share"], 0.25);
+    CHECK_FALSE(nlohmann::json::parse(describeAssetJson(sampleAsset(), 1)).contains("preview"));
+    preview.provenance.bakedShare = 1.5f;
+    CHECK_THROWS_WITH_AS(encodeAsset(preview), doctest::Contains("share of baked vertices"), Error);
 }
 
 TEST_CASE("asset file: transport chunks that do not add up are refused") {
