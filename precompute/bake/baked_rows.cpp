@@ -29,6 +29,24 @@ BakedRows BakedRows::vertices(uint32_t first, uint32_t end) const {
     return part;
 }
 
+void append(SparseTransport& all, const SparseTransport& more) {
+    RELUME_CHECK_EQ(all.terms, more.terms);
+    const auto join = [](auto& values, const auto& others) {
+        values.insert(values.end(), others.begin(), others.end());
+    };
+    const uint64_t before = all.entries();
+    for (size_t row = 0; row < more.rows(); row++) all.rowStarts.push_back(before + more.rowStarts[row + 1]);
+    join(all.scales, more.scales);
+    join(all.indices, more.indices);
+    join(all.values, more.values);
+    all.vertices += more.vertices;
+}
+
+void BakedRows::append(const BakedRows& more) {
+    relume::append(transport, more.transport);
+    losses.insert(losses.end(), more.losses.begin(), more.losses.end());
+}
+
 TransportLosses BakedBlock::losses() const {
     TransportLosses sum;
     for (const BakedRows& set : sets)

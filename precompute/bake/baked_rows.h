@@ -16,7 +16,12 @@ struct BakedRows {
     explicit BakedRows(uint32_t terms);
     // Of vertices [first, end) alone.
     BakedRows vertices(uint32_t first, uint32_t end) const;
+    // Adds those vertices behind its own.
+    void append(const BakedRows& more);
 };
+
+// Adds the vertices of `more`, of as many terms, behind those of `all`.
+void append(SparseTransport& all, const SparseTransport& more);
 
 // A block: its rows, a BakedRows per set of its part, and its visibility.
 struct BakedBlock {

@@ -1,0 +1,164 @@
+#include "precompute/bake/coarse_neighbours.h"
+
+#include "engine/base/check.h"
+#include "engine/math/tangent_frame.h"
+#include "precompute/bake/coarse_vertices.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+constexpr uint32_t kLeafPoints = 8;
+constexpr size_t kMostNeighbours = 8;
+// How much the distance from another vertex's tangent plane counts beside that along it: what lies in another
+// layer, or around a corner, sees other things.
+constexpr float kPlaneWeight = 3;
+
+constexpr float kSlopeDamping = 0.05f;
+
+float squared(float x) { return x * x; }
+
+} // namespace
+
+struct CoarseNeighbours::Search {
+    struct Found {
+        float squaredDistance;
+        uint32_t coarse;
+    };
+    Point of;
+    std::vector<Found> found; // rising; the last is the first that is left out
+
+    bool isFull() const { return found.size() > kMostNeighbours; }
+    bool canBe(float squaredDistance) const {
+        return !isFull() || squaredDistance < found.back().squaredDistance;
+    }
+    void offer(Found candidate) {
+        if (!canBe(candidate.squaredDistance)) return;
+        if (isFull()) found.pop_back();
+        found.insert(std::ranges::upper_bound(found, candidate.squaredDistance, {}, &Found::squaredDistance),
+                     candidate);
+    }
+};
+
+CoarseNeighbours::Point CoarseNeighbours::pointOf(const Mesh& mesh, uint32_t vertex) const {
+    const vec3 p = mesh.positions[vertex] * mScale, normal = mesh.normals[vertex];
+    // Rows are of light maps in the vertex's frame: where frames turn, so do they.
+    const vec3 n = normal * kNormalWeight, s = tangentFrame(normal).s * kNormalWeight;
+    return {{p.x, p.y, p.z, n.x, n.y, n.z, s.x, s.y, s.z}, normal, 0};
+}
+
+CoarseNeighbours::CoarseNeighbours(const Mesh& mesh, std::span<const uint32_t> coarse, float spacing)
+    : mMesh(mesh), mScale(1 / spacing), mCoarse(coarse.begin(), coarse.end()) {
+    RELUME_CHECK(!coarse.empty());
+    for (uint32_t i = 0; i < coarse.size(); i++) {
+        mPoints.push_back(pointOf(mesh, coarse[i]));
+        mPoints.back().coarse = i;
+    }
+    build(0, uint32_t(mPoints.size()));
+}
+
+void CoarseNeighbours::build(uint32_t first, uint32_t end) {
+    const size_t number = mNodes.size();
+    const std::span points = std::span(mPoints).subspan(first, end - first);
+    Node node{points[0].feature, points[0].feature, first, end, 0};
+    size_t longest = 0;
+    for (size_t axis = 0; axis < node.low.size(); axis++) {
+        for (const Point& point : points) {
+            node.low[axis] = std::min(node.low[axis], point.feature[axis]);
+            node.high[axis] = std::max(node.high[axis], point.feature[axis]);
+        }
+        if (node.high[axis] - node.low[axis] > node.high[longest] - node.low[longest]) longest = axis;
+    }
+    mNodes.push_back(node);
+    if (points.size() <= kLeafPoints) return;
+    const uint32_t middle = first + (end - first) / 2;
+    std::ranges::nth_element(points, points.begin() + (middle - first), {}, [&](const Point& point) {
+        return std::pair(point.feature[longest], point.coarse);
+    });
+    build(first, middle);
+    mNodes[number].right = uint32_t(mNodes.size());
+    build(middle, end);
+}
+
+void CoarseNeighbours::search(uint32_t number, Search& search) const {
+    const auto distanceTo = [&](const Node& node) {
+        float sum = 0;
+        for (size_t axis = 0; axis < node.low.size(); axis++) {
+            const float at = search.of.feature[axis];
+            sum += squared(at - std::clamp(at, node.low[axis], node.high[axis]));
+        }
+        return sum;
+    };
+    const Node& node = mNodes[number];
+    if (node.right != 0) {
+        const std::pair left{distanceTo(mNodes[number + 1]), number + 1};
+        const std::pair right{distanceTo(mNodes[node.right]), node.right};
+        for (const auto& [distance, half] : {std::min(left, right), std::max(left, right)})
+            if (search.canBe(distance)) this->search(half, search);
+        return;
+    }
+    for (const Point& point : std::span(mPoints).subspan(node.first, node.end - node.first)) {
+        if (!(glm::dot(point.normal, search.of.normal) > kLeastNormalCosine)) continue;
+        float distance = 0;
+        for (size_t axis = 0; axis < point.feature.size(); axis++)
+            distance += squared(point.feature[axis] - search.of.feature[axis]);
+        const auto along = [&](const Point& plane) {
+            float sum = 0;
+            for (int axis = 0; axis < 3; axis++)
+                sum += plane.normal[axis] * (point.feature[size_t(axis)] - search.of.feature[size_t(axis)]);
+            return kPlaneWeight * sum;
+        };
+        distance += 0.5f * (squared(along(point)) + squared(along(search.of)));
+        search.offer({distance, point.coarse});
+    }
+}
+
+// Makes the middle of the neighbours, in the tangent plane, the vertex itself, where it lies among them.
+void CoarseNeighbours::balance(uint32_t vertex, std::vector<CoarseNeighbour>& neighbours) const {
+    const TangentFrame frame = tangentFrame(mMesh.normals[vertex]);
+    std::vector<vec2> places;
+    vec2 middle(0);
+    glm::mat2 spread(0);
+    for (const CoarseNeighbour& neighbour : neighbours) {
+        const vec3 away = mMesh.positions[mCoarse[neighbour.coarse]] - mMesh.positions[vertex];
+        const vec2 place(frame.toLocal(away * mScale));
+        middle += neighbour.weight * place;
+        spread += neighbour.weight * glm::outerProduct(place, place);
+        places.push_back(place);
+    }
+    // Places in a line, or all one, leave a slope open; this keeps it small.
+    spread += kSlopeDamping * (spread[0][0] + spread[1][1]) * glm::mat2(1);
+    if (!(glm::determinant(spread) > 0)) return;
+    const vec2 slope = glm::inverse(spread) * middle;
+    for (size_t i = 0; i < places.size(); i++)
+        neighbours[i].weight *= std::max(0.0f, 1 - glm::dot(slope, places[i]));
+}
+
+std::vector<CoarseNeighbour> CoarseNeighbours::of(uint32_t vertex) const {
+    Search search{pointOf(mMesh, vertex), {}};
+    this->search(0, search);
+    RELUME_CHECK(!search.found.empty());
+    const float nearest = std::sqrt(search.found.front().squaredDistance);
+    if (nearest < 1e-6f || search.found.size() == 1) return {{search.found.front().coarse, 1}};
+    // Where there are no more, the last is taken all the same.
+    const float reach = std::sqrt(search.found.back().squaredDistance) * (search.isFull() ? 1 : 1.5f);
+    std::vector<CoarseNeighbour> neighbours;
+    for (const Search::Found& found : search.found) {
+        const float distance = std::sqrt(found.squaredDistance);
+        // Relative to the nearest, so that nothing overflows.
+        const float weight = squared((reach - distance) / reach * (nearest / distance));
+        if (weight > 0) neighbours.push_back({found.coarse, weight});
+    }
+    balance(vertex, neighbours);
+    std::erase_if(neighbours, [](const CoarseNeighbour& neighbour) { return !(neighbour.weight > 0); });
+    if (neighbours.empty()) return {{search.found.front().coarse, 1}};
+    float sum = 0;
+    for (const CoarseNeighbour& neighbour : neighbours) sum += neighbour.weight;
+    for (CoarseNeighbour& neighbour : neighbours) neighbour.weight /= sum;
+    return neighbours;
+}
+
+} // namespace relume
