@@ -12,6 +12,7 @@ struct Arguments {
     BakeArguments bake;
     BakeJob job;
     std::optional<std::string> shard; // none: all
+    bool preview = false;
 };
 
 void run(Arguments& arguments) {
@@ -31,7 +32,8 @@ void run(Arguments& arguments) {
     const std::unique_ptr<vk::Device> device = job.device.open();
     for (const Part& part : scene.parts) logPart(part.name, part.mesh, part.material);
     job.run(*device, [&](BakeObserver& observer) {
-        return bakeToFile(*device, std::move(scene), options, job.output, job.limits, observer, shard);
+        return bakeToFile(*device, std::move(scene), options, job.output, job.limits, observer,
+                          {shard, arguments.preview});
     });
 }
 
@@ -43,11 +45,20 @@ void addBakeCommand(CLI::App& program) {
     arguments->scene.add(*command);
     arguments->bake.add(*command);
     arguments->job.add(*command);
+    CLI::Option* shard =
+        command
+            ->add_option(
+                "--shard", arguments->shard,
+                "Bake every N-th block of vertices from the I-th on, I from 0 to N - 1, into a part for "
+                "`relume merge`: docs/many_machines.md")
+            ->type_name("I/N");
     command
-        ->add_option("--shard", arguments->shard,
-                     "Bake every N-th block of vertices from the I-th on, I from 0 to N - 1, into a part for "
-                     "`relume merge`: docs/many_machines.md")
-        ->type_name("I/N");
+        ->add_flag(
+            "--preview", arguments->preview,
+            "Write a preview first, of a twelfth of the vertices and others interpolated from these, and "
+            "refine it as the bake goes")
+        ->excludes(shard)
+        ->excludes(command->get_option("--keep-visibility"));
     command->footer(
         "With no INPUT it bakes a built-in torus knot: relume bake -o knot.relume\n"
         "A material with parameters: -m '{\"model\": \"ashikhmin-shirley\", \"nu\": 50, \"nv\": 50}'\n"

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -17,6 +18,8 @@ const char* stageName(BakeStage stage) {
         return "occluder";
     case BakeStage::Factorisation:
         return "factorisation";
+    case BakeStage::Preview:
+        return "preview";
     case BakeStage::Baking:
         return "baking";
     case BakeStage::Writing:
@@ -36,6 +39,7 @@ void BakeReport::event(const char* name, nlohmann::ordered_json fields) const {
 }
 
 void BakeReport::stage(BakeStage stage, const std::string& part) {
+    mInPreview = stage == BakeStage::Preview;
     mStage = stageName(stage);
     event("stage", {{"stage", mStage}, {"part", part}});
     if (!part.empty()) mStage += " " + part;
@@ -49,11 +53,17 @@ void BakeReport::resumed(uint64_t done, uint64_t vertices) {
     mVertices = vertices;
     event("start", {{"vertices", vertices}, {"done", done}});
     if (mStoppable) catchInterrupts();
+    showBar(vertices);
+}
+
+void BakeReport::showBar(uint64_t vertices) {
     if (mStyle == ReportStyle::Text) mBar.emplace(mStage, vertices, "vertices");
+    mBarVertices = vertices;
 }
 
 void BakeReport::progress(const BakeStatus& status) {
-    mDone = status.done;
+    if (!mInPreview) mDone = status.done;
+    if (status.vertices != mBarVertices) showBar(status.vertices);
     if (mBar) mBar->update({status.done, status.fraction, status.verticesPerSecond, status.secondsLeft});
     const auto now = std::chrono::steady_clock::now();
     if (status.done < status.vertices && now - mLastEvent < kEventInterval) return;
@@ -63,6 +73,16 @@ void BakeReport::progress(const BakeStatus& status) {
                        {"fraction", status.fraction},
                        {"vertices_per_second", status.verticesPerSecond},
                        {"seconds_left", status.secondsLeft}});
+}
+
+void BakeReport::preview(double bakedShare) {
+    event("preview", {{"baked_share", bakedShare}});
+    if (mStyle == ReportStyle::Text && !mHasPreview) {
+        mBar.reset(); // its line is for others
+        spdlog::info("a preview is there; it is refined as the bake goes on");
+        showBar(mVertices);
+    }
+    mHasPreview = true;
 }
 
 bool BakeReport::wantsStop() { return mStoppable && caughtInterrupt() != 0; }

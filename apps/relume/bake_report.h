@@ -21,6 +21,7 @@ class BakeReport : public BakeObserver {
     void stage(BakeStage stage, const std::string& part) override;
     void resumed(uint64_t done, uint64_t vertices) override;
     void progress(const BakeStatus& status) override;
+    void preview(double bakedShare) override;
     bool wantsStop() override;
 
     // Prints {"event": name, …fields} on a line of its own, for Json.
@@ -33,11 +34,15 @@ class BakeReport : public BakeObserver {
     uint64_t vertices() const { return mVertices; }
 
   private:
+    void showBar(uint64_t vertices);
+
     ReportStyle mStyle;
     bool mStoppable;
     uint64_t mDone = 0, mVertices = 0;
+    bool mInPreview = false, mHasPreview = false;
     std::string mStage;
     std::optional<Progress> mBar;
+    uint64_t mBarVertices = 0;
     std::chrono::steady_clock::time_point mLastEvent;
 };
 

@@ -167,6 +167,7 @@ nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices) {
     vk::PassTimes stages = times.device;
     vk::addTime(stages, "factorisation", times.factorisation);
     vk::addTime(stages, "occluder", times.occluder);
+    if (times.previews > 0) vk::addTime(stages, "previews", times.previews);
     vk::addTime(stages, "host and submission", std::max(0.0, times.total - vk::secondsOf(stages)));
     nlohmann::ordered_json list;
     for (const auto& [name, seconds] : stages)

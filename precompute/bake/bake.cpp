@@ -1,7 +1,9 @@
 #include "precompute/bake/bake.h"
 
+#include "engine/base/check.h"
 #include "engine/base/file.h"
 #include "precompute/bake/checkpoint.h"
+#include "precompute/bake/preview.h"
 #include "precompute/bake/shard_file.h"
 #include "precompute/visibility/faster_visibility.h"
 
@@ -22,11 +24,6 @@ BakeTimes timesOf(const BakePlan& plan) {
     return times;
 }
 
-template <typename T>
-void append(std::vector<T>& values, const std::vector<T>& more) {
-    values.insert(values.end(), more.begin(), more.end());
-}
-
 // Rows at the end of those before: takes the blocks in order.
 class MemorySink : public BakeSink {
   public:
@@ -34,6 +31,7 @@ class MemorySink : public BakeSink {
         for (const AssetPart& part : plan.asset.parts)
             for (const MaterialSet& set : part.sets) {
                 mTransports.push_back(set.transport);
+                mTransports.back().vertices = 0;
                 mTransports.back().rowStarts = {0};
             }
     }
@@ -41,16 +39,8 @@ class MemorySink : public BakeSink {
     void take(uint32_t block, BakedBlock baked) override {
         mLosses.add(baked.losses());
         const uint32_t firstSet = mPlan.firstSet[mPlan.blocks[block].part];
-        for (size_t set = 0; set < baked.sets.size(); set++) {
-            SparseTransport& all = mTransports[firstSet + set];
-            const SparseTransport& rows = baked.sets[set].transport;
-            const uint64_t before = all.entries();
-            for (size_t row = 0; row < rows.rows(); row++)
-                all.rowStarts.push_back(before + rows.rowStarts[row + 1]);
-            append(all.scales, rows.scales);
-            append(all.indices, rows.indices);
-            append(all.values, rows.values);
-        }
+        for (size_t set = 0; set < baked.sets.size(); set++)
+            append(mTransports[firstSet + set], baked.sets[set].transport);
     }
 
     // The plan's asset, complete.
@@ -122,9 +112,13 @@ void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, co
 
 // All blocks, or a shard's.
 BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility* kept,
-                        const std::optional<Shard>& shard, Checkpoint& checkpoint,
+                        const OutputOptions& outputOptions, Checkpoint& checkpoint,
                         const std::filesystem::path& output, const BakeLimits& limits,
                         BakeObserver& observer) {
+    const std::optional<Shard>& shard = outputOptions.shard;
+    std::optional<Checkpoint> interpolated; // goes in the end, whoever began it
+    if (outputOptions.previews || std::filesystem::exists(interpolatedPath(output)))
+        interpolated.emplace(interpolatedPath(output));
     checkpoint.resume(plan);
     BakeSummary summary{0, 0, timesOf(plan)};
     std::vector<uint32_t> own, missing;
@@ -141,21 +135,32 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     if (kept && !missing.empty())
         spdlog::info("{}: visibility of {} vertices reused", kept->file().name(),
                      summary.vertices - summary.resumed);
-    CheckpointSink sink(plan, checkpoint);
-    bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times, kept);
-    observer.stage(BakeStage::Writing, "");
-    // Of its own name: the checkpoint's lock keeps other bakes off.
-    AtomicFile file(output, ".partial");
-    const ChunkWriter::Output write = [&](std::span<const std::byte> bytes) {
-        if (observer.wantsStop()) throw BakeStopped("stopped");
-        file.write(bytes);
+    const auto writeFile = [&](const std::function<void(const ChunkWriter::Output&)>& writeTo) {
+        // Of its own name: the checkpoint's lock keeps other bakes off.
+        AtomicFile file(output, ".partial");
+        writeTo([&](std::span<const std::byte> bytes) {
+            if (observer.wantsStop()) throw BakeStopped("stopped");
+            file.write(bytes);
+        });
+        file.commit();
     };
+    const auto writeWhole = [&](const StoredBlocks& blocks) {
+        writeFile([&](const ChunkWriter::Output& write) { writeBake(plan, blocks, write); });
+    };
+    CheckpointSink sink(plan, checkpoint);
+    if (outputOptions.previews && !missing.empty()) {
+        interpolated->resume(plan);
+        bakeWithPreviews(device, plan, missing, limits, checkpoint, *interpolated, sink, writeWhole, observer,
+                         summary.times, kept);
+    } else
+        bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times, kept);
+    observer.stage(BakeStage::Writing, "");
     if (shard)
-        writeShard(plan, *shard, checkpoint, write);
+        writeFile([&](const ChunkWriter::Output& write) { writeShard(plan, *shard, checkpoint, write); });
     else
-        writeBake(plan, checkpoint, write);
-    file.commit();
+        writeWhole(checkpoint);
     checkpoint.remove();
+    if (interpolated) interpolated->remove();
     return summary;
 }
 
@@ -190,16 +195,22 @@ std::filesystem::path checkpointPath(const std::filesystem::path& output) {
     return (isLink ? std::filesystem::weakly_canonical(output) : output).string() + ".checkpoint";
 }
 
+std::filesystem::path interpolatedPath(const std::filesystem::path& output) {
+    return checkpointPath(output).string() + ".preview";
+}
+
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
                        const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
-                       const std::optional<Shard>& shard) {
+                       const OutputOptions& outputOptions) {
+    RELUME_CHECK(!outputOptions.previews || (!outputOptions.shard && !options.keepVisibility));
     const Clock::time_point start = Clock::now();
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
     std::unique_ptr<KeptVisibility> kept = findKept(output);
     if (!options.visibilityMethod) chooseVisibility(device, checkpoint, kept.get(), plan);
     dropUnfit(kept, plan);
-    BakeSummary summary = bakePlanned(device, plan, kept.get(), shard, checkpoint, output, limits, observer);
+    BakeSummary summary =
+        bakePlanned(device, plan, kept.get(), outputOptions, checkpoint, output, limits, observer);
     summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
     return summary;
 }
@@ -218,8 +229,7 @@ BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset s
             "another mesh; `relume bake --keep-visibility` it again here",
             kept.file().name(), bakedOn, plan.asset.provenance.device);
     kept.verify(plan.asset);
-    BakeSummary summary =
-        bakePlanned(device, plan, &kept, std::nullopt, checkpoint, output, limits, observer);
+    BakeSummary summary = bakePlanned(device, plan, &kept, {}, checkpoint, output, limits, observer);
     summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
     return summary;
 }

@@ -14,6 +14,12 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options);
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
            BakeTimes* times = nullptr);
 
+// What bakeToFile() writes, beside or instead of the whole bake. Not both.
+struct OutputOptions {
+    std::optional<Shard> shard = std::nullopt; // its blocks alone: a file for mergeShards() (merge.h)
+    bool previews = false;                     // until the bake is done (preview.h)
+};
+
 // What bakeToFile() made.
 struct BakeSummary {
     uint64_t vertices = 0, resumed = 0; // of the shard, if any; resumed: found in the checkpoint
@@ -22,16 +28,18 @@ struct BakeSummary {
 
 // The checkpoint of a bake to `output`.
 std::filesystem::path checkpointPath(const std::filesystem::path& output);
+// A file like it, of blocks that were interpolated for previews.
+std::filesystem::path interpolatedPath(const std::filesystem::path& output);
 
 // Bakes to a file of the bytes that encodeAsset(bake(…)) has, holding no more than a few blocks at a time.
 // Finished blocks go to the checkpoint beside it, which a later call with the same scene, options and device
 // goes on from; the file itself appears whole, after the last block, and the checkpoint goes. With a shard
 // only its blocks are baked, and the file is one for mergeShards() (merge.h). Throws BakeStopped, Error; then
-// the checkpoint stays and `output` is as it was. Visibility that `output` keeps, of the same key, is not
-// found again; the log says so.
+// the checkpoint stays and `output` is as it was, or with previews the last of these. Visibility that
+// `output` keeps, of the same key, is not found again; the log says so.
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
                        const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
-                       const std::optional<Shard>& shard = std::nullopt);
+                       const OutputOptions& outputOptions = {});
 
 // The same for a bake that keeps its visibility: to the file that bakeToFile() makes of its inputs with these
 // materials and options, as planRebake() takes them. `output` may be the bake itself. Throws also when the

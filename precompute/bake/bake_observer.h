@@ -8,7 +8,7 @@
 
 namespace relume {
 
-enum class BakeStage { Occluder, Factorisation, Baking, Writing };
+enum class BakeStage { Occluder, Factorisation, Preview, Baking, Writing };
 
 // Where a bake stands.
 struct BakeStatus {
@@ -23,12 +23,15 @@ struct BakeStatus {
 class BakeObserver {
   public:
     virtual ~BakeObserver() = default;
-    // `part` is its name while baking, else empty.
+    // `part` is its name while baking, for a preview too, else empty.
     virtual void stage(BakeStage, const std::string& /*part*/) {}
     // Before the first block: vertices that a checkpoint holds already, of how many.
     virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
-    // After every few tenths of a second of baking; the last time with done == vertices.
+    // After every few tenths of a second of baking; the last time with done == vertices. In
+    // the stage Preview of the vertices that it takes alone.
     virtual void progress(const BakeStatus&) {}
+    // A preview was written to the output, with such a share of the vertices baked.
+    virtual void preview(double /*bakedShare*/) {}
     // Asked between submissions. If true, the bake ends with BakeStopped.
     virtual bool wantsStop() { return false; }
 };

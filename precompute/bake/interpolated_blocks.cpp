@@ -1,0 +1,164 @@
+#include "precompute/bake/interpolated_blocks.h"
+
+#include "precompute/bake/coarse_neighbours.h"
+#include "precompute/bake/coarse_vertices.h"
+#include "precompute/bake/row_interpolation.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+constexpr uint64_t kVerticesPerCoarse = 12;
+constexpr uint64_t kCoarseRowBytes = uint64_t(256) << 20;
+constexpr size_t kBlocksTogether = 64; // interpolated between two looks at whether to stop
+
+// Of rows in memory, with what they lost.
+uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
+    uint64_t terms = 0;
+    for (const MaterialSet& set : part.sets) terms += uint64_t(set.brdf.terms);
+    return terms *
+           (uint64_t(asset.coefficients) * 6 + sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses));
+}
+
+// The coarse vertices of a part; none of one that needs no blocks.
+struct CoarsePart {
+    std::vector<uint32_t> vertices;
+    float spacing = 1;
+};
+
+std::vector<CoarsePart> chooseVertices(const BakePlan& plan, std::span<const uint32_t> blocks) {
+    std::vector<CoarsePart> coarse(plan.asset.parts.size());
+    std::vector<bool> isNeeded(coarse.size(), false);
+    for (const uint32_t block : blocks) isNeeded[plan.blocks[block].part] = true;
+    uint64_t allBytes = 0;
+    for (const AssetPart& part : plan.asset.parts)
+        allBytes += part.mesh.vertexCount() * rowBytes(plan.asset, part);
+    const uint64_t each = std::max(kVerticesPerCoarse, (allBytes + kCoarseRowBytes - 1) / kCoarseRowBytes);
+    for (size_t number = 0; number < coarse.size(); number++) {
+        if (!isNeeded[number]) continue;
+        const Mesh& mesh = plan.asset.parts[number].mesh;
+        const size_t count = (mesh.vertexCount() + each - 1) / each;
+        coarse[number].spacing = vertexSpacing(mesh, count);
+        coarse[number].vertices = coarseVertices(mesh, count, coarse[number].spacing);
+    }
+    return coarse;
+}
+
+// A plan of the coarse vertices alone, without an occluder yet.
+BakePlan coarsePlan(const BakePlan& plan, const std::vector<CoarsePart>& coarse) {
+    BakePlan result{plan.options};
+    result.asset.faceSize = plan.asset.faceSize;
+    result.asset.coefficients = plan.asset.coefficients;
+    result.asset.visibilityOffset = plan.asset.visibilityOffset;
+    result.blockVertices = plan.blockVertices;
+    result.firstSet = plan.firstSet;
+    for (uint32_t number = 0; number < coarse.size(); number++) {
+        const AssetPart& part = plan.asset.parts[number];
+        AssetPart& fewer = result.asset.parts.emplace_back();
+        fewer.name = part.name;
+        fewer.sets = part.sets;
+        for (const uint32_t vertex : coarse[number].vertices) {
+            fewer.mesh.positions.push_back(part.mesh.positions[vertex]);
+            fewer.mesh.normals.push_back(part.mesh.normals[vertex]);
+        }
+        const auto vertices = uint32_t(fewer.mesh.vertexCount());
+        for (uint32_t first = 0; first < vertices; first += plan.blockVertices)
+            result.blocks.push_back({number, first, std::min(first + plan.blockVertices, vertices)});
+    }
+    return result;
+}
+
+// Rows of all vertices of a plan, a BakedRows per set over all parts: takes the blocks in order.
+class RowsSink : public BakeSink {
+  public:
+    explicit RowsSink(const BakePlan& plan) : mPlan(plan) {
+        for (const AssetPart& part : plan.asset.parts)
+            for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
+    }
+
+    void take(uint32_t block, BakedBlock baked) override {
+        const uint32_t firstSet = mPlan.firstSet[mPlan.blocks[block].part];
+        for (size_t set = 0; set < baked.sets.size(); set++) rows[firstSet + set].append(baked.sets[set]);
+    }
+
+    std::vector<BakedRows> rows;
+
+  private:
+    const BakePlan& mPlan;
+};
+
+// Tells of the coarse bake as of a stage of its own.
+class CoarseObserver : public BakeObserver {
+  public:
+    explicit CoarseObserver(BakeObserver& observer) : mObserver(observer) {}
+
+    void stage(BakeStage, const std::string& part) override { mObserver.stage(BakeStage::Preview, part); }
+    void progress(const BakeStatus& status) override { mObserver.progress(status); }
+    bool wantsStop() override { return mObserver.wantsStop(); }
+
+  private:
+    BakeObserver& mObserver;
+};
+
+std::vector<BakedRows> bakeCoarse(const vk::Device& device, BakePlan& plan,
+                                  const std::vector<CoarsePart>& coarse, const BakeLimits& limits,
+                                  BakeObserver& observer) {
+    BakePlan fewer = coarsePlan(plan, coarse);
+    std::swap(fewer.asset.occluder, plan.asset.occluder); // large: never twice
+    std::vector<uint32_t> blocks(fewer.blocks.size());
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    RowsSink sink(fewer);
+    CoarseObserver coarseObserver(observer);
+    BakeTimes times;
+    bakeBlocks(device, fewer, blocks, blocks, limits, sink, coarseObserver, times);
+    std::swap(fewer.asset.occluder, plan.asset.occluder);
+    return std::move(sink.rows);
+}
+
+} // namespace
+
+void interpolateBlocks(const vk::Device& device, BakePlan& plan, std::span<const uint32_t> blocks,
+                       const BakeLimits& limits, Checkpoint& interpolated, BakeObserver& observer) {
+    std::vector<uint32_t> lacking;
+    std::ranges::copy_if(blocks, std::back_inserter(lacking),
+                         [&](uint32_t block) { return !interpolated.has(block); });
+    if (lacking.empty()) return;
+    const std::vector<CoarsePart> coarse = chooseVertices(plan, lacking);
+    const std::vector<BakedRows> rows = bakeCoarse(device, plan, coarse, limits, observer);
+
+    std::vector<std::optional<CoarseNeighbours>> neighbours(coarse.size());
+    for (size_t part = 0; part < coarse.size(); part++)
+        if (!coarse[part].vertices.empty())
+            neighbours[part].emplace(plan.asset.parts[part].mesh, coarse[part].vertices,
+                                     coarse[part].spacing);
+    const auto interpolate = [&](uint32_t block) {
+        const BakeBlock& place = plan.blocks[block];
+        std::vector<std::vector<CoarseNeighbour>> of;
+        for (uint32_t vertex = place.first; vertex < place.end; vertex++)
+            of.push_back(neighbours[place.part]->of(vertex));
+        BakedBlock made;
+        for (size_t set = 0; set < plan.asset.parts[place.part].sets.size(); set++) {
+            const BakedRows& from = rows[plan.firstSet[place.part] + set];
+            RowInterpolator interpolator(from, 6 * plan.asset.faceSize * plan.asset.faceSize,
+                                         plan.asset.coefficients);
+            BakedRows& to = made.sets.emplace_back(from.transport.terms);
+            for (const auto& own : of) interpolator.append(own, to);
+        }
+        return storeBlock(plan, block, made);
+    };
+    for (std::span<const uint32_t> left(lacking); !left.empty();) {
+        if (observer.wantsStop()) throw BakeStopped("stopped");
+        const auto some = left.first(std::min(kBlocksTogether, left.size()));
+        std::vector<StoredBlock> stored(some.size());
+        tbb::parallel_for(size_t(0), some.size(), [&](size_t i) { stored[i] = interpolate(some[i]); });
+        for (size_t i = 0; i < some.size(); i++) interpolated.append(some[i], stored[i]);
+        left = left.subspan(some.size());
+    }
+}
+
+} // namespace relume

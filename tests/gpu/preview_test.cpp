@@ -1,0 +1,165 @@
+// Previews of a bake: how near they come, and that they leave no trace.
+#include "engine/base/file.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/scene.h"
+#include "precompute/bake/bake.h"
+#include "precompute/bake/interpolated_blocks.h"
+#include "precompute/bake/preview.h"
+#include "precompute/reference/transport_stages.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_device.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <numeric>
+#include <set>
+
+using namespace relume;
+using relume::test::TemporaryFolder;
+
+namespace {
+
+Scene knotOnGround() {
+    Scene scene;
+    scene.parts.push_back({"knot", makeKnot(2500), "gold", "built-in knot", ""});
+    addGround(scene, {.tessellation = 24}, "white-diffuse");
+    return scene;
+}
+
+BakeOptions smallOptions() {
+    BakeOptions options;
+    options.visibilitySize = 64;
+    options.faceSize = 32;
+    options.coefficients = 48;
+    options.factorization.terms = 2;
+    return options;
+}
+
+// What a fixed light that changes from side to side makes of every row.
+std::vector<vec3> relit(const Asset& asset) {
+    std::vector<vec3> light(size_t(6 * asset.faceSize * asset.faceSize));
+    for (size_t i = 0; i < light.size(); i++) light[i] = vec3(1 + float(i * 7 / light.size()));
+    haarFaces(light, asset.faceSize);
+    std::vector<vec3> sums;
+    for (const AssetPart& part : asset.parts) {
+        const SparseTransport& transport = part.sets[0].transport;
+        for (size_t row = 0; row < transport.rows(); row++) {
+            const vec3 step = transport.scales[row] / vec3(kRedMaximum, kGreenMaximum, kBlueMaximum);
+            vec3 sum(0);
+            for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++)
+                sum +=
+                    step * vec3(unpackCoefficient(transport.values[entry])) * light[transport.indices[entry]];
+            sums.push_back(sum);
+        }
+    }
+    return sums;
+}
+
+// Relative, over all rows.
+double errorOf(const std::vector<vec3>& found, const std::vector<vec3>& right) {
+    REQUIRE_EQ(found.size(), right.size());
+    double wrong = 0, all = 0;
+    for (size_t row = 0; row < right.size(); row++) {
+        wrong += double(glm::dot(found[row] - right[row], found[row] - right[row]));
+        all += double(glm::dot(right[row], right[row]));
+    }
+    return std::sqrt(wrong / all);
+}
+
+struct Previews : BakeObserver {
+    explicit Previews(std::filesystem::path file) : path(std::move(file)) {}
+
+    void stage(BakeStage stage, const std::string&) override { now = stage; }
+    void progress(const BakeStatus& status) override {
+        if (now == BakeStage::Preview) coarseVertices = std::max(coarseVertices, status.vertices);
+    }
+    void preview(double share) override {
+        const Asset asset = readAsset(path);
+        REQUIRE(asset.provenance.bakedShare);
+        CHECK_EQ(double(*asset.provenance.bakedShare), share);
+        shares.push_back(share);
+        sums.push_back(relit(asset));
+    }
+    bool wantsStop() override { return shares.size() >= stopAfter; }
+
+    std::filesystem::path path;
+    BakeStage now = BakeStage::Occluder;
+    uint64_t coarseVertices = 0;
+    size_t stopAfter = 100;
+    std::vector<double> shares;
+    std::vector<std::vector<vec3>> sums;
+};
+
+} // namespace
+
+TEST_CASE("preview: the blocks' portions are all of them once, each over the whole of every part") {
+    const TestDevice device;
+    BakeObserver silent;
+    const BakePlan plan = planBake(device, knotOnGround(), smallOptions(), silent);
+    std::vector<uint32_t> blocks(plan.blocks.size());
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    const auto portions = previewPortions(plan, blocks);
+    REQUIRE_EQ(portions.size(), 4);
+    std::set<uint32_t> seen;
+    for (const auto& portion : portions) {
+        std::vector<uint32_t> sorted = portion;
+        std::ranges::sort(sorted);
+        for (size_t i = 1; i < sorted.size(); i++)
+            if (plan.blocks[sorted[i]].part == plan.blocks[sorted[i - 1]].part)
+                CHECK_EQ(sorted[i] - sorted[i - 1], 4);
+        seen.insert(portion.begin(), portion.end());
+    }
+    CHECK_EQ(seen.size(), blocks.size());
+    CHECK(previewPortions(plan, std::vector<uint32_t>{6}) == std::vector<std::vector<uint32_t>>{{6}});
+}
+
+TEST_CASE("preview: near the finished bake, nearer each time, and without a trace in its bytes") {
+    const TestDevice device;
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.relume";
+    Previews previews(path);
+    const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), smallOptions()));
+    bakeToFile(device, knotOnGround(), smallOptions(), path, {}, previews, {.previews = true});
+    CHECK(readFile(path) == whole);
+    const Asset finished = readAsset(path);
+    CHECK_FALSE(finished.provenance.bakedShare);
+    const std::vector<vec3> right = relit(finished);
+    // A twelfth, rounded up.
+    CHECK_GE(previews.coarseVertices, (2500 + 625) / 12);
+    CHECK_LE(previews.coarseVertices, (2500 + 625) / 12 + 20);
+    REQUIRE_EQ(previews.shares.size(), 4);
+    for (size_t i = 0; i < 4; i++) {
+        CAPTURE(i);
+        CHECK(previews.shares[i] == doctest::Approx(0.25 * double(i)).epsilon(0.15));
+        const double error = errorOf(previews.sums[i], right);
+        CHECK_GT(error, 0);
+        CHECK_LT(error, i == 0 ? 0.16 : 0.95 * errorOf(previews.sums[i - 1], right));
+    }
+    for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+        CHECK_EQ(file.path().filename(), "a.relume");
+}
+
+TEST_CASE("preview: a bake that was stopped goes on from it, with previews or without") {
+    const TestDevice device;
+    const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), smallOptions()));
+    for (const bool again : {true, false}) {
+        CAPTURE(again);
+        const TemporaryFolder folder;
+        const auto path = folder.path() / "a.relume";
+        Previews stopped(path);
+        stopped.stopAfter = 1;
+        CHECK_THROWS_AS(
+            bakeToFile(device, knotOnGround(), smallOptions(), path, {}, stopped, {.previews = true}),
+            BakeStopped);
+        CHECK_GT(stopped.coarseVertices, 0);
+        CHECK(readAsset(path).provenance.bakedShare == 0.0f);
+        CHECK(std::filesystem::exists(interpolatedPath(path)));
+        Previews resumed(path);
+        bakeToFile(device, knotOnGround(), smallOptions(), path, {}, resumed, {.previews = again});
+        CHECK_EQ(resumed.coarseVertices, 0);
+        CHECK_EQ(resumed.shares.empty(), !again);
+        CHECK(readFile(path) == whole);
+        for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+            CHECK_EQ(file.path().filename(), "a.relume");
+    }
+}
