@@ -1,5 +1,6 @@
 #version 460
-// Integer sums of transport times light: a row, that is a vertex and a term, per invocation.
+// Tuples of transport times light: a row, that is a vertex and a term, per invocation. Sums are exact, so that
+// their order does not show.
 // C++ twin: relight() in precompute/reference/transport_stages.h. Layout: engine/render/relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,7 +13,9 @@ layout(push_constant, scalar) uniform Push { RelightPush push; };
 layout(binding = 0, std430) readonly buffer Starts { uint starts[]; };
 layout(binding = 1, std430) readonly buffer Entries { uvec4 entries[]; };
 layout(binding = 2, scalar) readonly buffer Table { PackedLight table[]; };
-layout(binding = 3, scalar) writeonly buffer Sums { ivec3 sums[]; };
+layout(binding = 3, scalar) readonly buffer Light { LightScale light; };
+layout(binding = 4, scalar) readonly buffer RowScales { float rowScales[]; };
+layout(binding = 5, scalar) writeonly buffer Tuples { vec3 tuples[]; };
 
 ivec3 product(uint index, uint value) { return unpackCoefficient(value) * unpackLight(table[index]); }
 
@@ -30,5 +33,7 @@ void main() {
                product(indices.z & 0xffff, second.x) + product(indices.z >> 16, second.y) +
                product(indices.w & 0xffff, second.z) + product(indices.w >> 16, second.w);
     }
-    sums[push.firstRow + row] = sum;
+    precise const vec3 tuple =
+        vec3(sum) * (light.scale * rowScales[push.firstRow + row]) * kCoefficientUnit;
+    tuples[push.firstRow + row] = tuple;
 }

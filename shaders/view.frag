@@ -16,10 +16,10 @@ const uint kSurfaceSlots = kLook == kSurfaceLook ? 2 : 0;
 const uint kUvSlot = kLook == kSurfaceLook ? kTerms : 0; // within the array even where nothing looks there
 const uint kColorSlot = kLook == kSurfaceLook ? kTerms + 1 : 0;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
-layout(binding = 4) uniform sampler2DArray viewMaps; // layer after layer of K maps
-layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
-layout(binding = 6) uniform sampler2DArray baseColor;
-layout(binding = 7) uniform sampler2DArray materialMap;
+layout(binding = 2) uniform sampler2DArray viewMaps; // layer after layer of K maps
+layout(binding = 3, scalar) readonly buffer Layers { ViewLayer layers[]; };
+layout(binding = 4) uniform sampler2DArray baseColor;
+layout(binding = 5) uniform sampler2DArray materialMap;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

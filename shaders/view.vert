@@ -1,8 +1,7 @@
 #version 460
-// A vertex with its light-modulated tuple: integer sums times the scales of row and light.
+// A vertex with its light-modulated tuple.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shaders/lib/packing.glsl"
 #include "shaders/shared/render.h"
 
 layout(constant_id = 0) const uint kTerms = 4; // of this draw
@@ -12,9 +11,7 @@ const uint kUvSlot = kLook == kSurfaceLook ? kTerms : 0; // within the array eve
 const uint kColorSlot = kLook == kSurfaceLook ? kTerms + 1 : 0;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 layout(binding = 0, scalar) readonly buffer Vertices { ViewVertex vertices[]; };
-layout(binding = 1, scalar) readonly buffer Sums { ivec3 sums[]; };
-layout(binding = 2, scalar) readonly buffer RowScales { float rowScales[]; };
-layout(binding = 3, scalar) readonly buffer Scale { LightScale light; };
+layout(binding = 1, scalar) readonly buffer Tuples { vec3 tuples[]; };
 
 // A part with more terms than a draw holds is drawn again where its depth is equal.
 invariant gl_Position;
@@ -34,7 +31,5 @@ void main() {
     gl_Position = push.clipFromWorld * vec4(vertex.position, 1);
 
     const uint firstRow = gl_VertexIndex * push.terms + push.firstTerm;
-    for (uint k = 0; k < kTerms; k++)
-        slots[k] = vec3(sums[firstRow + k]) * (light.scale * rowScales[firstRow + k]) /
-                   vec3(kCoefficientMaximum);
+    for (uint k = 0; k < kTerms; k++) slots[k] = tuples[firstRow + k];
 }

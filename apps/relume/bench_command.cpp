@@ -98,7 +98,7 @@ void run(Arguments& arguments) {
     });
     const nlohmann::ordered_json lightPasses = perRepeat(commands.times(), arguments.repeats);
     const double viewChange = medianMilliseconds(
-        commands, arguments.repeats, [&](int) { view.record(commands, camera, relighter, light); });
+        commands, arguments.repeats, [&](int) { view.record(commands, camera, relighter); });
 
     const nlohmann::ordered_json result = {{"device", device->info().name},
                                            {"driver", device->info().driver},

@@ -73,7 +73,7 @@ void run(const Arguments& arguments) {
                          arguments.threshold);
             relighter.record(commands, light, appearance);
         }
-        view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter, light);
+        view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter);
         commands.submitAndWait();
         frames.push_back(milliseconds(commands.times()));
         commands.clearTimes();

@@ -61,15 +61,16 @@ uint32_t Relighter::largestRowCount(uint64_t largestShard) const {
 
 Relighter::Set Relighter::makeSet(const SparseTransport& transport, const std::string& name,
                                   const RelighterOptions& options) const {
-    const uint64_t sumBytes = std::max<uint64_t>(transport.rows() * sizeof(ivec3), sizeof(ivec3));
-    if (sumBytes > mDevice.largestStorageBuffer())
-        throw Error("{}: {} vertices with {} terms need {} bytes of sums; {} binds at most {}; split the "
+    const uint64_t tupleBytes = std::max<uint64_t>(transport.rows() * sizeof(vec3), sizeof(vec3));
+    if (tupleBytes > mDevice.largestStorageBuffer())
+        throw Error("{}: {} vertices with {} terms need {} bytes of tuples; {} binds at most {}; split the "
                     "mesh into several parts",
-                    name, transport.vertices, transport.terms, sumBytes, mDevice.name(),
+                    name, transport.vertices, transport.terms, tupleBytes, mDevice.name(),
                     mDevice.largestStorageBuffer());
     Set set;
     set.rows = uint32_t(transport.rows());
-    set.sums = vk::Buffer(mDevice, sumBytes, vk::BufferUse::Device, name + " sums");
+    set.tuples = vk::Buffer(mDevice, tupleBytes, vk::BufferUse::Device, name + " tuples");
+    set.scales = vk::upload<float>(mDevice, transport.scales, name + " row scales");
 
     const uint64_t largestShard = std::min(options.largestShard, mDevice.largestStorageBuffer());
     const uint64_t largestGroups = largestShard / kGroupBytes;
@@ -93,21 +94,23 @@ Relighter::Set Relighter::makeSet(const SparseTransport& transport, const std::s
 void Relighter::record(vk::Commands& commands, const LightPass& light, const Appearance& appearance) const {
     RELUME_CHECK(appearance.empty() || appearance.size() == mParts.size());
     RELUME_CHECK_EQ(light.faceSize(), mFaceSize);
-    // An earlier frame of the same submission may still be reading the sums.
+    // An earlier frame of the same submission may still be reading the tuples.
     commands.barrier(Stage::Draw, Stage::Compute);
     commands.pass("relight", [&] {
         for (size_t part = 0; part < mParts.size(); part++) {
             const Set& set = mParts[part].at(appearance.empty() ? 0 : appearance[part].set);
             for (const Shard& shard : set.shards)
-                commands.dispatch(mProgram, {shard.starts, shard.entries, light.table(), set.sums},
-                                  shared::RelightPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
+                commands.dispatch(
+                    mProgram,
+                    {shard.starts, shard.entries, light.table(), light.scale(), set.scales, set.tuples},
+                    shared::RelightPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
         }
         commands.barrier(Stage::Compute, Stage::Draw);
     });
 }
 
-std::vector<ivec3> Relighter::readSums(size_t part, size_t set) const {
-    return vk::download<ivec3>(mDevice, mParts[part][set].sums, mParts[part][set].rows);
+std::vector<vec3> Relighter::readTuples(size_t part, size_t set) const {
+    return vk::download<vec3>(mDevice, mParts[part][set].tuples, mParts[part][set].rows);
 }
 
 } // namespace relume

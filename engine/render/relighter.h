@@ -1,4 +1,4 @@
-// Light change, second half: the K-tuple of every vertex as exact integer sums, on the device.
+// Light change, second half: the K-tuple of every vertex, on the device.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -19,21 +19,20 @@ struct RelighterOptions {
 // first), then eight words of packed 11/11/10 values. Rows are padded to whole groups with zeros.
 class Relighter {
   public:
-    // Throws OutOfMemory, or Error when a part has more rows than the device can bind sums for.
+    // Throws OutOfMemory, or Error when a part has more rows than the device can bind tuples for.
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
-    // Pass "relight": sums of every part's worn set (none given: the first) under the light recorded before.
-    // Draws may use them at once. Those of other sets stay as they are.
+    // Pass "relight": tuples of every part's worn set (none given: the first) under the light recorded
+    // before. Draws may use them at once. Those of other sets stay as they are.
     void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {}) const;
 
     size_t parts() const { return mParts.size(); }
     size_t shards(size_t part, size_t set = 0) const { return mParts[part][set].shards.size(); }
-    const vk::Buffer& sums(size_t part, size_t set = 0) const {
-        return mParts[part][set].sums;
-    } // ivec3 per row
+    // vec3 per row, row = vertex · terms + term: what the light gives of a term, the γ of the method.
+    const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set].tuples; }
 
-    // The sums of the last submission; row = vertex · terms + term. Waits for the device.
-    std::vector<ivec3> readSums(size_t part, size_t set = 0) const;
+    // Those of the last submission. Waits for the device.
+    std::vector<vec3> readTuples(size_t part, size_t set = 0) const;
 
   private:
     struct Shard {
@@ -44,7 +43,8 @@ class Relighter {
     struct Set {
         uint32_t rows = 0;
         std::vector<Shard> shards;
-        vk::Buffer sums;
+        vk::Buffer scales; // of rows
+        vk::Buffer tuples;
     };
 
     uint32_t largestRowCount(uint64_t largestShard) const;

@@ -115,7 +115,6 @@ ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& na
             "materials or terms in a set",
             name, brdf.layers, brdf.terms, maps, mDevice.name(), mDevice.limits().maxImageArrayLayers);
     Set set;
-    set.rowScales = uploadBindable(mDevice, source.transport.scales, name + " row scales");
     set.terms = uint32_t(brdf.terms);
     set.materials = uint32_t(source.materials.size());
     set.mapping = brdf.mapping;
@@ -175,8 +174,7 @@ void ViewPass::resize(int width, int height) {
 }
 
 void ViewPass::draw(vk::Commands& commands, const Frame& frame, const Part& part, uint32_t firstTerm,
-                    const vk::GraphicsProgram& program, const vk::Buffer& sums,
-                    const LightPass& light) const {
+                    const vk::GraphicsProgram& program, const vk::Buffer& tuples) const {
     const Set& set = wornSet(part);
     const bool isSingle = part.look == shared::kSingleLook;
     const shared::ViewPush push{frame.clipFromWorld,
@@ -190,13 +188,11 @@ void ViewPass::draw(vk::Commands& commands, const Frame& frame, const Part& part
                                 part.worn.painted ? part.paint : shared::kUnpainted,
                                 set.materials};
     if (&program == &mClampProgram)
-        commands.bind(program, {part.vertices, sums, set.rowScales, light.scale()}, push);
+        commands.bind(program, {part.vertices, tuples}, push);
     else
         commands.bind(program,
                       {part.vertices,
-                       sums,
-                       set.rowScales,
-                       light.scale(),
+                       tuples,
                        {set.viewMaps, set.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler},
                        part.layers,
                        {part.baseColor, mSurfaceSampler},
@@ -205,8 +201,7 @@ void ViewPass::draw(vk::Commands& commands, const Frame& frame, const Part& part
     commands.drawIndexed(part.indices, part.indexCount, 1);
 }
 
-void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter,
-                      const LightPass& light) const {
+void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) const {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const float aspect = float(mColor.options().width) / float(mColor.options().height);
     const Frame frame{camera.clipFromWorld(aspect, mBounds), camera.eye};
@@ -215,7 +210,7 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
         if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
     commands.barrier(Stage::Transfer, Stage::Draw);
     const auto drawPart = [&](size_t i, uint32_t firstTerm, const vk::GraphicsProgram& program) {
-        draw(commands, frame, mParts[i], firstTerm, program, relighter.sums(i, mParts[i].worn.set), light);
+        draw(commands, frame, mParts[i], firstTerm, program, relighter.tuples(i, mParts[i].worn.set));
     };
     const auto drawTerms = [&](size_t i, const Draw& step) {
         drawPart(i, step.firstTerm, *step.programs[mParts[i].look]);
@@ -253,10 +248,10 @@ Image ViewPass::read() const {
     return image;
 }
 
-Image ViewPass::render(const Camera& camera, const Relighter& relighter, const LightPass& light) const {
+Image ViewPass::render(const Camera& camera, const Relighter& relighter) const {
     vk::Commands commands(mDevice, "view");
     commands.begin();
-    record(commands, camera, relighter, light);
+    record(commands, camera, relighter);
     commands.submitAndWait();
     return read();
 }

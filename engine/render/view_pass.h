@@ -19,7 +19,7 @@ struct ViewOptions {
 
 class ViewPass {
   public:
-    // Uploads meshes, row scales, view maps and textures. `asset` must outlive this. Throws OutOfMemory, or
+    // Uploads meshes, view maps and textures. `asset` must outlive this. Throws OutOfMemory, or
     // Error when a part has more vertices than the device can bind, or the image is larger than it can make.
     ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options = {});
 
@@ -30,9 +30,8 @@ class ViewPass {
     // travels with the commands.
     void setAppearance(const Appearance& appearance);
 
-    // Pass "view": draws the asset under the light and sums recorded before.
-    void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter,
-                const LightPass& light) const;
+    // Pass "view": draws the asset with the tuples recorded before.
+    void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) const;
 
     // RGBA32F, linear, alpha 1 where covered, 0 elsewhere; in TRANSFER_SRC_OPTIMAL after record().
     const vk::Image& image() const { return mColor; }
@@ -41,7 +40,7 @@ class ViewPass {
     Image read() const;
 
     // One submission of record(), read back.
-    Image render(const Camera& camera, const Relighter& relighter, const LightPass& light) const;
+    Image render(const Camera& camera, const Relighter& relighter) const;
 
   private:
     // Terms of a part are drawn a few at a time: the first draw settles depth, further ones add where depth
@@ -51,7 +50,6 @@ class ViewPass {
         std::array<const vk::GraphicsProgram*, 3> programs; // by look; made ahead, so that no swap waits
     };
     struct Set {
-        vk::Buffer rowScales;
         uint32_t terms = 0, materials = 0;
         DiskMapping mapping = DiskMapping::Orthographic;
         vk::Image viewMaps; // an image layer a layer and term
@@ -79,7 +77,7 @@ class ViewPass {
         vec3 eye;
     };
     void draw(vk::Commands& commands, const Frame& frame, const Part& part, uint32_t firstTerm,
-              const vk::GraphicsProgram& program, const vk::Buffer& sums, const LightPass& light) const;
+              const vk::GraphicsProgram& program, const vk::Buffer& tuples) const;
     // `look`: shared::kSingleLook and so on.
     const vk::GraphicsProgram& program(uint32_t terms, bool first, bool clamps, uint32_t look);
 

@@ -8,7 +8,7 @@
 namespace relume {
 
 // Row r = vertex · terms + term. Entry e of a row is coefficient `indices[e]` with value
-// unpackCoefficient(values[e]) · (scale / kRedMaximum, scale / kGreenMaximum, scale / kBlueMaximum).
+// unpackCoefficient(values[e]) · scale · kCoefficientUnit.
 struct SparseTransport {
     uint32_t vertices = 0;
     uint32_t terms = 0;
@@ -23,6 +23,7 @@ struct SparseTransport {
 
 // 11, 11 and 10 signed bits, red lowest. GLSL twin: shaders/lib/packing.glsl.
 constexpr int kRedMaximum = 1023, kGreenMaximum = 1023, kBlueMaximum = 511;
+constexpr vec3 kCoefficientUnit{1.0f / 1023, 1.0f / 1023, 1.0f / 511};
 inline uint32_t packCoefficient(ivec3 q) {
     return (uint32_t(q.x) & 0x7ffu) | (uint32_t(q.y) & 0x7ffu) << 11 | (uint32_t(q.z) & 0x3ffu) << 22;
 }

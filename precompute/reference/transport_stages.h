@@ -37,7 +37,10 @@ struct PackedRow {
 };
 PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected);
 
-// Integer sums Σ c·l of every row, 32-bit: CPU twin of shaders/relight.comp.
-std::vector<ivec3> relight(const SparseTransport& transport, const LightVector& light);
+// Integer sums Σ c·l of every row, 32-bit.
+std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVector& light);
+
+// The tuple of every row: sums times the scales. CPU twin of shaders/relight.comp.
+std::vector<vec3> relight(const SparseTransport& transport, const LightVector& light);
 
 } // namespace relume

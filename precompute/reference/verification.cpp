@@ -175,8 +175,8 @@ std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samp
 
 // Vertices whose tuples differ from the CPU's.
 uint64_t countDifferences(const SparseTransport& transport, const LightVector& light,
-                          const std::vector<ivec3>& found) {
-    const std::vector<ivec3> expected = relight(transport, light);
+                          const std::vector<vec3>& found) {
+    const std::vector<vec3> expected = relight(transport, light);
     uint64_t different = 0;
     for (size_t vertex = 0; vertex < transport.vertices; vertex++) {
         const auto begin = ptrdiff_t(vertex * transport.terms), end = begin + ptrdiff_t(transport.terms);
@@ -217,7 +217,7 @@ uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, c
         for (size_t part = 0; part < asset.parts.size(); part++)
             if (index < asset.parts[part].sets.size())
                 different += countDifferences(asset.parts[part].sets[index].transport, vector,
-                                              relighter.readSums(part, index));
+                                              relighter.readTuples(part, index));
     }
     return different;
 }

@@ -3,6 +3,7 @@
 #define RELUME_LIB_PACKING_GLSL
 
 const ivec3 kCoefficientMaximum = ivec3(1023, 1023, 511);
+const vec3 kCoefficientUnit = vec3(1.0 / 1023, 1.0 / 1023, 1.0 / 511);
 
 uint packCoefficient(ivec3 q) {
     return (uint(q.r) & 0x7ffu) | (uint(q.g) & 0x7ffu) << 11 | (uint(q.b) & 0x3ffu) << 22;

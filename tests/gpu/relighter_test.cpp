@@ -26,7 +26,7 @@ AssetPart makePart(uint32_t vertices, uint32_t terms, uint32_t longest, int face
             transport.values.push_back(random());
         }
         transport.rowStarts.push_back(transport.values.size());
-        transport.scales.push_back(1);
+        transport.scales.push_back(float(1 + random() % 1000) * 0.001f);
     }
     return part;
 }
@@ -46,7 +46,7 @@ void checkBits(const vk::Device& device, const Asset& asset, const RelighterOpti
     LightPass light(device, asset.faceSize);
     light.setCube(makeNoise(asset.faceSize));
     vk::Commands commands(device, "relight test");
-    for (const int threshold : {0, 200}) { // the second over the first's sums
+    for (const int threshold : {0, 200}) { // the second over the first's tuples
         commands.begin();
         light.record(commands, 0, threshold);
         relighter.record(commands, light);
@@ -54,7 +54,7 @@ void checkBits(const vk::Device& device, const Asset& asset, const RelighterOpti
         const LightVector vector = light.readVector();
         REQUIRE_FALSE(vector.indices.empty());
         for (size_t part = 0; part < asset.parts.size(); part++)
-            CHECK(relighter.readSums(part) == relight(asset.parts[part].sets[0].transport, vector));
+            CHECK(relighter.readTuples(part) == relight(asset.parts[part].sets[0].transport, vector));
     }
     for (size_t part = 0; part < shards.size(); part++) CHECK_EQ(relighter.shards(part), shards[part]);
 }
@@ -98,7 +98,7 @@ TEST_CASE("relighter: shards give the reference's bits") {
     checkBits(device, asset, {.largestShard = 48 * groups / 4});
 }
 
-TEST_CASE("relighter: sums reach the limits of 32 bits without overflow") {
+TEST_CASE("relighter: tuples of sums that reach the limits of 32 bits are exact") {
     const TestDevice device;
     // Every coefficient is there with the largest magnitude, of the sign that its light has.
     Asset asset;
@@ -129,8 +129,8 @@ TEST_CASE("relighter: sums reach the limits of 32 bits without overflow") {
     commands.begin();
     relighter.record(commands, light);
     commands.submitAndWait();
-    const ivec3 sum = relighter.readSums(0)[0];
+    const vec3 tuple = relighter.readTuples(0)[0];
     CHECK_LT(int64_t(1) << 30, expected); // close enough to the limit to mean something
-    CHECK_EQ(int64_t(sum.x), expected);
-    CHECK(relight(part.sets[0].transport, vector)[0] == sum);
+    CHECK_EQ(int64_t(relightSums(part.sets[0].transport, vector)[0].x), expected);
+    CHECK(relight(part.sets[0].transport, vector)[0] == tuple);
 }

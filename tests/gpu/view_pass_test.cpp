@@ -110,7 +110,7 @@ class HostView {
     HostView(const Asset& asset, const LightVector& light, const Appearance& appearance)
         : mAsset(asset), mLight(light), mAppearance(appearance),
           mTracer(std::array{&asset.parts[0].mesh, &asset.parts[1].mesh}) {
-        for (size_t i = 0; i < asset.parts.size(); i++) mSums.push_back(relight(setOf(i).transport, light));
+        for (size_t i = 0; i < asset.parts.size(); i++) mTuples.push_back(relight(setOf(i).transport, light));
     }
 
     HostPixel at(vec3 eye, vec3 direction) const {
@@ -169,15 +169,14 @@ class HostView {
     vec3 tupleOf(size_t part, uint32_t vertex, int term) const {
         const SparseTransport& transport = setOf(part).transport;
         const size_t row = size_t(vertex) * transport.terms + size_t(term);
-        return vec3(mSums[part][row]) * transport.scales[row] * mLight.scale /
-               vec3(kRedMaximum, kGreenMaximum, kBlueMaximum);
+        return mTuples[part][row];
     }
 
     const Asset& mAsset;
     const LightVector& mLight;
     const Appearance& mAppearance;
     RayTracer mTracer;
-    std::vector<std::vector<ivec3>> mSums;
+    std::vector<std::vector<vec3>> mTuples;
 };
 
 struct TestScene {
@@ -204,7 +203,7 @@ void checkAgainstHost(const vk::Device& device, const Asset& asset, uint32_t ter
     ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .termsPerDraw = termsPerDraw});
     view.setAppearance(appearance);
     const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, float(kWidth) / kHeight);
-    const Image image = view.render(camera, scene.relighter, scene.light);
+    const Image image = view.render(camera, scene.relighter);
     REQUIRE_EQ(image.width, kWidth);
     REQUIRE_EQ(image.height, kHeight);
 
@@ -280,14 +279,14 @@ TEST_CASE("view pass: a swap takes the next draw, in one submission, and costs n
     wear(matt, asset, std::vector<WeightedMaterial>{{"matt"}});
     wear(gloss, asset, std::vector<WeightedMaterial>{{"gloss"}});
     view.setAppearance(matt);
-    const Image first = view.render(camera, scene.relighter, scene.light);
+    const Image first = view.render(camera, scene.relighter);
     view.setAppearance(gloss);
-    const Image second = view.render(camera, scene.relighter, scene.light);
+    const Image second = view.render(camera, scene.relighter);
     vk::Commands commands(device, "swap test");
     commands.begin();
-    view.record(commands, camera, scene.relighter, scene.light);
+    view.record(commands, camera, scene.relighter);
     view.setAppearance(matt);
-    view.record(commands, camera, scene.relighter, scene.light);
+    view.record(commands, camera, scene.relighter);
     commands.submitAndWait();
     CHECK(view.read().pixels == first.pixels);
     CHECK(first.pixels != second.pixels);
@@ -326,7 +325,7 @@ TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
     commands.begin();
     light.record(commands);
     relighter.record(commands, light);
-    view.record(commands, {{0, 3, 0}, {0, 0, 0}, 1.2f}, relighter, light);
+    view.record(commands, {{0, 3, 0}, {0, 0, 0}, 1.2f}, relighter);
     commands.submitAndWait();
     const Image image = view.read();
     CHECK_EQ(image.at(8, 4).x, doctest::Approx(0.5 * 2 * 3 * 64));
@@ -336,6 +335,6 @@ TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
     CHECK(image.at(0, 0) == vec4(0)); // the plane ends before the border
 
     view.resize(30, 20);
-    CHECK_EQ(view.render({{0, 3, 0}, {0, 0, 0}, 1.2f}, relighter, light).at(15, 10).x,
+    CHECK_EQ(view.render({{0, 3, 0}, {0, 0, 0}, 1.2f}, relighter).at(15, 10).x,
              doctest::Approx(0.5 * 2 * 3 * 64));
 }

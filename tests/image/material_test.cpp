@@ -37,7 +37,7 @@ class MaterialTest {
         mLight.record(commands, 0, 64);
         mRelighter.record(commands, mLight, appearance);
         mView.setAppearance(appearance);
-        mView.record(commands, mCamera, mRelighter, mLight);
+        mView.record(commands, mCamera, mRelighter);
         commands.submitAndWait();
         return mView.read();
     }

@@ -37,7 +37,7 @@ Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
     commands.begin();
     light.record(commands, 0, threshold);
     relighter.record(commands, light);
-    view.record(commands, viewOf(asset), relighter, light);
+    view.record(commands, viewOf(asset), relighter);
     commands.submitAndWait();
     return view.read();
 }
