@@ -42,6 +42,7 @@ void run(const Arguments& arguments) {
                                              {"raster_traced_difference", ways.share()},
                                              {"raster_traced_inside", ways.inside},
                                              {"transport_error", found.transportError},
+                                             {"layout_error", found.layoutError},
                                              {"wavelet_error", found.waveletError},
                                              {"quantization_error", found.quantisationError},
                                              {"brdf_error", found.brdfError},
@@ -56,6 +57,8 @@ void run(const Arguments& arguments) {
                    ways.share(), ways.inside);
         fmt::print("transport error      {:.2e}  before compression, device against CPU\n",
                    found.transportError);
+        fmt::print("layout error         {:.4f}    all that is lost by how transport is kept\n",
+                   found.layoutError);
         fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
                    asset.coefficients);
         fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantisationError);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "engine/render/appearance.h"
-#include "engine/render/light_pass.h"
+#include "engine/render/set_relighter.h"
 #include "engine/transport/asset.h"
 
 #include <limits>
+#include <map>
+#include <memory>
 
 namespace relume {
 
@@ -14,12 +16,11 @@ struct RelighterOptions {
     uint64_t largestShard = std::numeric_limits<uint64_t>::max();
 };
 
-// Holds the transport of every part and set of materials on the device, as shards of whole rows that fit a
-// binding. Entries come in groups of eight, 48 bytes: four words of two 16-bit indices each (lower half
-// first), then eight words of packed 11/11/10 values. Rows are padded to whole groups with zeros.
+// Holds the transport of every part and set of materials on the device, each in its layout.
 class Relighter {
   public:
-    // Throws OutOfMemory, or Error when a part has more rows than the device can bind tuples for.
+    // Throws OutOfMemory, or Error when a part has more rows than the device can bind tuples for, or the
+    // device cannot relight a layout.
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
     // Pass "relight": tuples of every part's worn set (none given: the first) under the light recorded
@@ -27,34 +28,22 @@ class Relighter {
     void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {}) const;
 
     size_t parts() const { return mParts.size(); }
-    size_t shards(size_t part, size_t set = 0) const { return mParts[part][set].shards.size(); }
+    size_t shards(size_t part, size_t set = 0) const { return mParts[part][set]->shards(); }
     // vec3 per row, row = vertex · terms + term: what the light gives of a term, the γ of the method.
-    const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set].tuples; }
+    const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set]->tuples(); }
 
     // Those of the last submission. Waits for the device.
     std::vector<vec3> readTuples(size_t part, size_t set = 0) const;
 
   private:
-    struct Shard {
-        uint32_t firstRow = 0, rows = 0;
-        vk::Buffer starts;  // rows + 1: first group of each row
-        vk::Buffer entries; // groups
-    };
-    struct Set {
-        uint32_t rows = 0;
-        std::vector<Shard> shards;
-        vk::Buffer scales; // of rows
-        vk::Buffer tuples;
-    };
-
-    uint32_t largestRowCount(uint64_t largestShard) const;
-    Set makeSet(const SparseTransport& transport, const std::string& name,
-                const RelighterOptions& options) const;
+    std::unique_ptr<SetRelighter> makeSet(const Transport& transport, const std::string& name,
+                                          uint64_t largestShard);
+    const vk::ComputeProgram& program(TransportLayout layout);
 
     const vk::Device& mDevice;
     int mFaceSize;
-    vk::ComputeProgram mProgram;
-    std::vector<std::vector<Set>> mParts; // sets by part
+    std::map<TransportLayout, vk::ComputeProgram> mPrograms;        // of the layouts that are there
+    std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
 };
 
 } // namespace relume

@@ -96,7 +96,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source) {
         makeSurfaceTexture(mDevice, source.materialMap.value_or(white), source.name + " material map");
     size_t mostLayers = 1;
     for (const MaterialSet& set : source.sets) {
-        RELUME_CHECK_EQ(size_t(set.transport.vertices), source.mesh.vertexCount());
+        RELUME_CHECK_EQ(size_t(verticesOf(set.transport)), source.mesh.vertexCount());
         part.sets.push_back(makeSet(set, source.name));
         mostLayers = std::max(mostLayers, 2 * set.materials.size());
     }
@@ -107,7 +107,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source) {
 
 ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& name) {
     const FactoredBrdf& brdf = source.brdf;
-    RELUME_CHECK_EQ(uint32_t(brdf.terms), source.transport.terms);
+    RELUME_CHECK_EQ(uint32_t(brdf.terms), termsOf(source.transport));
     const auto maps = uint32_t(brdf.layers * brdf.terms);
     if (maps > mDevice.limits().maxImageArrayLayers)
         throw Error(

@@ -4,7 +4,7 @@
 #include "engine/scene/factored_brdf.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/texture.h"
-#include "engine/transport/sparse_transport.h"
+#include "engine/transport/transport.h"
 
 #include <filesystem>
 #include <optional>
@@ -29,7 +29,7 @@ struct AssetMaterial {
 struct MaterialSet {
     std::vector<AssetMaterial> materials;
     FactoredBrdf brdf;
-    SparseTransport transport; // terms == brdf.terms, vertices == the part's
+    Transport transport; // terms == brdf.terms, vertices == the part's
 };
 
 // One surface of the scene. Vertices are in bake order (precompute/bake/vertex_order.h).

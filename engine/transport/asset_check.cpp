@@ -1,6 +1,7 @@
 #include "engine/transport/asset_check.h"
 
 #include "engine/base/error.h"
+#include "engine/transport/transport_check.h"
 
 #include <algorithm>
 #include <bit>
@@ -81,12 +82,6 @@ void checkBrdf(const FactoredBrdf& brdf, const std::string& where) {
         expect(isFinite({value[0], value[1], value[2]}), where, "finite eigenvalues");
 }
 
-bool isWithinMaxima(uint32_t packed) {
-    // Only the most negative number of a field lies beyond the negated maximum.
-    const ivec3 value = unpackCoefficient(packed);
-    return value.x >= -kRedMaximum && value.y >= -kGreenMaximum && value.z >= -kBlueMaximum;
-}
-
 void checkTexture(const Texture& texture, const Mesh& mesh, const std::string& where) {
     expectRange(texture.width, 1, kLongestTextureSide, where, "a texture's width");
     expectRange(texture.height, 1, kLongestTextureSide, where, "a texture's height");
@@ -138,33 +133,6 @@ std::string partName(const Asset& asset, size_t number, const std::string& name)
 
 } // namespace
 
-void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
-                    const std::string& where) {
-    expectCount(transport.rowStarts.size(), transport.rows() + 1, where, "row starts");
-    expectCount(transport.scales.size(), transport.rows(), where, "scales");
-    expectCount(transport.indices.size(), transport.entries(), where, "indices");
-    expect(transport.rowStarts.front() == 0 && transport.rowStarts.back() == transport.entries(), where,
-           "rows that span all entries");
-    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
-           "scales that are finite and not negative");
-    for (size_t row = 0; row < transport.rows(); row++) {
-        const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
-        if (end < start || end - start > longestRow || end > transport.entries())
-            throw Error("{}: row {}: expected at most {} entries, found entries {} to {}", where, row,
-                        longestRow, start, end);
-        uint32_t next = 0;
-        for (uint64_t entry = start; entry < end; entry++) {
-            const uint32_t index = transport.indices[entry];
-            if (index < next || index >= coefficients)
-                throw Error("{}: row {}: expected rising indices below {}, found {}", where, row,
-                            coefficients, index);
-            next = index + 1;
-        }
-    }
-    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
-           "values within ±1023 in red and green and ±511 in blue");
-}
-
 void checkSkeleton(const Asset& asset, const std::string& name) {
     checkSettings(asset, name);
     checkTriangles(asset.occluder, name + ": occluder");
@@ -186,9 +154,12 @@ void checkAsset(const Asset& asset, const std::string& name) {
         const AssetPart& part = asset.parts[i];
         const std::string where = partName(asset, i, name);
         for (const MaterialSet& set : part.sets) {
-            expectCount(set.transport.vertices, part.mesh.vertexCount(), where, "vertices with transport");
-            expectCount(set.transport.terms, size_t(set.brdf.terms), where, "transport terms");
-            checkTransport(set.transport, coefficients, uint64_t(asset.coefficients), where);
+            expectCount(verticesOf(set.transport), part.mesh.vertexCount(), where, "vertices with transport");
+            expectCount(termsOf(set.transport), size_t(set.brdf.terms), where, "transport terms");
+            if (const auto* clusters = std::get_if<ClusteredTransport>(&set.transport))
+                checkTransport(*clusters, coefficients, where);
+            else
+                checkTransport(rowsOf(set.transport), coefficients, uint64_t(asset.coefficients), where);
         }
     }
 }

@@ -14,10 +14,6 @@ constexpr int kSmallestMap = 4, kLargestMap = 256;
 // Everything of an asset but its transport.
 void checkSkeleton(const Asset& asset, const std::string& name);
 
-// Rows that rise, of at most `longestRow` entries with indices below `coefficients`. Throws Error.
-void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
-                    const std::string& name);
-
 // Sizes agree, indices lie within their arrays, numbers are finite and within their range, normals are unit
 // vectors, rows rise. `name` stands for the asset in errors. Throws Error for the first thing that is wrong.
 void checkAsset(const Asset& asset, const std::string& name);

@@ -7,6 +7,7 @@
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
 #include "engine/transport/byte_stream.h"
+#include "engine/transport/cluster_chunk.h"
 #include "engine/transport/transport_chunk.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals, kTriangles, kUvs, kColors, kBaseColor, kMaterialMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
-constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport};
+constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport, kClusters};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
 
@@ -27,6 +28,10 @@ bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::fi
 constexpr size_t kElementsPerChunk = size_t(1) << 19;
 static_assert(kElementsPerChunk * sizeof(vec4) <= kLargestChunk);
 static_assert(kRunHeaderBytes + kRunRows * kRunRowBytes + kRunEntries * kRunEntryBytes <= kLargestChunk);
+static_assert(kClusterRunHeaderBytes +
+                  kLargestTerms * (kClusterGroupBytes + kClusterVertices * kClusterRowBytes) +
+                  kMostClusterColumns * kClusterColumnBytes <=
+              kLargestChunk);
 
 template <typename Element>
 void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector<Element>& elements) {
@@ -46,6 +51,11 @@ void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& tran
         const uint32_t first = run * block, end = std::min(transport.vertices - first, block) + first;
         file.add(kTransport, owner, run, encodeRun(transport, {first, end}));
     }
+}
+
+void addTransport(ChunkWriter& file, uint32_t owner, const ClusteredTransport& transport, uint32_t) {
+    for (uint32_t cluster = 0; cluster < transport.clusters(); cluster++)
+        file.add(kClusters, owner, cluster, encodeCluster(transport, cluster));
 }
 
 std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t owner) {
@@ -99,6 +109,19 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint
     transport.values.reserve(entries);
     for (const ChunkEntry& run : runs)
         decodeRun(file.load(run), coefficients, entries, whereOf(file, run), transport);
+}
+
+void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,
+                   ClusteredTransport& transport) {
+    const uint64_t bytes = transport.groups() * kClusterGroupBytes + transport.rows() * kClusterRowBytes +
+                           columns * kClusterColumnBytes;
+    const auto runs = findSized(file, kClusters, owner, kClusterRunHeaderBytes, bytes);
+    transport.columnStarts.push_back(0);
+    transport.scales.reserve(transport.rows());
+    transport.indices.reserve(columns);
+    transport.values.reserve(columns * kClusterVertices);
+    for (const ChunkEntry& run : runs)
+        decodeCluster(file.load(run), coefficients, columns, whereOf(file, run), transport);
 }
 
 void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& sizes, AssetPart& part) {
@@ -170,16 +193,19 @@ void addChunks(ChunkWriter& file, const Asset& asset, std::span<const uint64_t> 
 
 static ChunkWriter chunksOf(const Asset& asset) {
     checkAsset(asset, "the bake");
-    std::vector<const SparseTransport*> transports;
+    std::vector<const Transport*> transports;
     std::vector<uint64_t> entries;
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets) {
             transports.push_back(&set.transport);
-            entries.push_back(set.transport.entries());
+            entries.push_back(entriesOf(set.transport));
         }
     ChunkWriter file;
     const uint32_t block = blockVertices(asset);
-    addChunks(file, asset, entries, [&](uint32_t set) { addTransport(file, set, *transports[set], block); });
+    addChunks(file, asset, entries, [&](uint32_t set) {
+        std::visit([&](const auto& transport) { addTransport(file, set, transport, block); },
+                   *transports[set]);
+    });
     return file;
 }
 
@@ -210,7 +236,11 @@ Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
     uint32_t setNumber = 0;
     for (AssetPart& part : meta.asset.parts)
         for (MaterialSet& set : part.sets) {
-            readTransport(file, setNumber, meta.setEntries[setNumber], coefficients, set.transport);
+            std::visit(
+                [&](auto& transport) {
+                    readTransport(file, setNumber, meta.setEntries[setNumber], coefficients, transport);
+                },
+                set.transport);
             setNumber++;
         }
     checkAsset(meta.asset, name);

@@ -12,8 +12,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t); // an index and a packed value
-
 // JSON where the text is JSON of no great depth, else the text itself: printing recurses.
 Json jsonOrText(const std::string& text) {
     bool isDeep = false;
@@ -30,7 +28,6 @@ double ratio(uint64_t numerator, uint64_t denominator) {
 }
 
 Json describeSet(const MaterialSet& set) {
-    const SparseTransport& transport = set.transport;
     Json eigenvalues = Json::array(), materials = Json::array();
     for (const auto& channels : set.brdf.eigenvalues) eigenvalues.push_back(channels);
     for (const AssetMaterial& material : set.materials)
@@ -42,9 +39,8 @@ Json describeSet(const MaterialSet& set) {
             {"map_size", set.brdf.size},
             {"mapping", diskMappingName(set.brdf.mapping)},
             {"eigenvalues", eigenvalues},
-            {"entries", transport.entries()},
-            {"mean_entries_per_row", ratio(transport.entries(), transport.rows())},
-            {"bytes_per_vertex", ratio(transport.entries() * kEntryBytes, transport.vertices)}};
+            {"layout", layoutName(layoutOf(set.transport))},
+            {"bytes_per_vertex", ratio(bytesOf(set.transport), verticesOf(set.transport))}};
 }
 
 Json describePart(const AssetPart& part) {
@@ -92,21 +88,16 @@ Json describeApproximations(const Asset& asset) {
 }
 
 Json describeTotal(const Asset& asset) {
-    uint64_t vertices = 0, triangles = 0, rows = 0, entries = 0;
+    uint64_t vertices = 0, triangles = 0, bytes = 0;
     for (const AssetPart& part : asset.parts) {
         vertices += part.mesh.vertexCount();
         triangles += part.mesh.triangleCount();
-        for (const MaterialSet& set : part.sets) {
-            rows += set.transport.rows();
-            entries += set.transport.entries();
-        }
+        for (const MaterialSet& set : part.sets) bytes += bytesOf(set.transport);
     }
     return {{"vertices", vertices},
             {"triangles", triangles},
-            {"entries", entries},
-            {"mean_entries_per_row", ratio(entries, rows)},
-            {"bytes_per_vertex", ratio(entries * kEntryBytes, vertices)},
-            {"transport_bytes", entries * kEntryBytes}};
+            {"bytes_per_vertex", ratio(bytes, vertices)},
+            {"transport_bytes", bytes}};
 }
 
 } // namespace

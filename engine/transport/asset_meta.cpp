@@ -89,6 +89,7 @@ Json setJson(const MaterialSet& set, uint64_t entries) {
             {"layers", set.brdf.layers},
             {"mapSize", set.brdf.size},
             {"mapping", diskMappingName(set.brdf.mapping)},
+            {"layout", layoutName(layoutOf(set.transport))},
             {"entries", entries}};
 }
 
@@ -122,8 +123,9 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     const std::string mapping = in.text("mapping");
     if (!diskMappingFromName(mapping)) throw Error("{}: \"mapping\": \"{}\" is unknown", in.where(), mapping);
     set.brdf.mapping = *diskMappingFromName(mapping);
-    set.transport.vertices = uint32_t(vertices);
-    set.transport.terms = uint32_t(set.brdf.terms);
+    const std::string layout = in.has("layout") ? in.text("layout") : layoutName(TransportLayout::Rows);
+    if (!layoutFromName(layout)) throw Error("{}: \"layout\": \"{}\" is unknown", in.where(), layout);
+    set.transport = emptyTransport(*layoutFromName(layout), uint32_t(vertices), uint32_t(set.brdf.terms));
     const Json& materials = in.array("materials");
     for (size_t i = 0; i < materials.size(); i++) {
         const Reader material(materials[i], fmt::format("{}: material {}", in.where(), i));

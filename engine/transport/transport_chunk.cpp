@@ -64,11 +64,8 @@ std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run
     return out.take();
 }
 
-namespace {
-
-// Appends one row's indices from the gaps between them.
-void decodeRow(std::span<const uint16_t> gaps, uint32_t coefficients, const std::string& where,
-               std::vector<uint16_t>& indices) {
+void decodeIndices(std::span<const uint16_t> gaps, uint32_t coefficients, const std::string& where,
+                   std::vector<uint16_t>& indices) {
     uint32_t next = 0;
     for (uint16_t gap : gaps) {
         const uint32_t index = next + gap;
@@ -78,8 +75,6 @@ void decodeRow(std::span<const uint16_t> gaps, uint32_t coefficients, const std:
         next = index + 1;
     }
 }
-
-} // namespace
 
 void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
                const std::string& where, SparseTransport& transport, uint32_t offset) {
@@ -102,7 +97,7 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
     for (size_t row = 0; row < rows; row++) {
         if (lengths[row] > entries - read)
             throw Error("{}: rows are longer than the {} entries", where, entries);
-        decodeRow(std::span(gaps).subspan(read, lengths[row]), coefficients, where, transport.indices);
+        decodeIndices(std::span(gaps).subspan(read, lengths[row]), coefficients, where, transport.indices);
         read += lengths[row];
         transport.rowStarts.push_back(transport.indices.size());
         transport.scales.push_back(std::bit_cast<float>(scales[row]));

@@ -37,6 +37,11 @@ std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run
 void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
                const std::string& where, SparseTransport& transport, uint32_t offset = 0);
 
+// Appends rising indices below `coefficients` to `indices`, from the gaps between them: how many were
+// skipped. Throws Error.
+void decodeIndices(std::span<const uint16_t> gaps, uint32_t coefficients, const std::string& where,
+                   std::vector<uint16_t>& indices);
+
 // Bijections between a packed 11/11/10 word and the word that is stored: byte 0 holds green's low bits, byte
 // 1 those of red - green, byte 2 those of blue - green / 2, byte 3 the high bits (3, 3, 2), each number
 // zigzagged so that small ones of either sign have few bits. A grey material's bytes 1 and 2 are nearly all

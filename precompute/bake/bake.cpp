@@ -30,7 +30,7 @@ class MemorySink : public BakeSink {
     explicit MemorySink(const BakePlan& plan) : mPlan(plan) {
         for (const AssetPart& part : plan.asset.parts)
             for (const MaterialSet& set : part.sets) {
-                mTransports.push_back(set.transport);
+                mTransports.push_back(rowsOf(set.transport));
                 mTransports.back().vertices = 0;
                 mTransports.back().rowStarts = {0};
             }

@@ -55,8 +55,8 @@ nlohmann::json describeInputs(const Scene& scene) {
 // With transport that has no rows yet.
 void setMaterials(AssetPart& part, std::vector<MaterialSet> sets) {
     for (MaterialSet& set : sets) {
-        set.transport.vertices = uint32_t(part.mesh.vertexCount());
-        set.transport.terms = uint32_t(set.brdf.terms);
+        rowsOf(set.transport).vertices = uint32_t(part.mesh.vertexCount());
+        rowsOf(set.transport).terms = uint32_t(set.brdf.terms);
     }
     part.sets = std::move(sets);
 }

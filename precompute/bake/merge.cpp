@@ -1,7 +1,7 @@
 #include "precompute/bake/merge.h"
 
 #include "engine/transport/asset_arrays.h"
-#include "engine/transport/asset_check.h"
+#include "engine/transport/transport_check.h"
 #include "engine/transport/transport_chunk.h"
 #include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/shard_difference.h"

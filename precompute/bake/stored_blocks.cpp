@@ -4,6 +4,7 @@
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_file.h"
+#include "engine/transport/transport_check.h"
 #include "engine/transport/transport_chunk.h"
 #include "engine/transport/visibility_chunk.h"
 

@@ -121,26 +121,4 @@ PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint1
     return row;
 }
 
-std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVector& light) {
-    std::vector<ivec3> dense(size_t(kCubeFaces) * size_t(light.faceSize) * size_t(light.faceSize), ivec3(0));
-    for (size_t i = 0; i < light.indices.size(); i++)
-        dense[light.indices[i]] = ivec3(light.values[i][0], light.values[i][1], light.values[i][2]);
-
-    std::vector<ivec3> sums(transport.rows(), ivec3(0));
-    for (size_t row = 0; row < sums.size(); row++)
-        for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++) {
-            RELUME_CHECK_LT(transport.indices[entry], dense.size());
-            sums[row] += unpackCoefficient(transport.values[entry]) * dense[transport.indices[entry]];
-        }
-    return sums;
-}
-
-std::vector<vec3> relight(const SparseTransport& transport, const LightVector& light) {
-    const std::vector<ivec3> sums = relightSums(transport, light);
-    std::vector<vec3> tuples(sums.size());
-    for (size_t row = 0; row < tuples.size(); row++)
-        tuples[row] = vec3(sums[row]) * (light.scale * transport.scales[row]) * kCoefficientUnit;
-    return tuples;
-}
-
 } // namespace relume

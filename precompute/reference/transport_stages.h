@@ -37,10 +37,4 @@ struct PackedRow {
 };
 PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected);
 
-// Integer sums Σ c·l of every row, 32-bit.
-std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVector& light);
-
-// The tuple of every row: sums times the scales. CPU twin of shaders/relight.comp.
-std::vector<vec3> relight(const SparseTransport& transport, const LightVector& light);
-
 } // namespace relume

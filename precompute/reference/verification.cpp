@@ -7,6 +7,7 @@
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/brdf/factorization_error.h"
+#include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"
 #include "precompute/visibility/visibility.h"
@@ -32,7 +33,7 @@ struct ErrorSum {
 
 struct Sums {
     uint64_t mismatched = 0, hemisphere = 0;
-    ErrorSum transport, wavelet, quantisation, total;
+    ErrorSum transport, wavelet, quantisation, layout, total;
     double brdf = 0;
 };
 
@@ -110,18 +111,6 @@ class DeviceStages {
     std::vector<std::vector<vec3>> mCoefficients; // row by row
 };
 
-vec3 dequantise(uint32_t packed, float scale) {
-    return vec3(unpackCoefficient(packed)) * (scale / vec3(kRedMaximum, kGreenMaximum, kBlueMaximum));
-}
-
-// A stored row as dense coefficients.
-std::vector<vec3> expand(const PackedRow& row, size_t count) {
-    std::vector<vec3> dense(count, vec3(0));
-    for (size_t i = 0; i < row.indices.size(); i++)
-        dense[row.indices[i]] = dequantise(row.values[i], row.scale);
-    return dense;
-}
-
 void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t vertex,
                  const RayTracer& tracer, const DeviceStages& device, size_t point, Sums& sums) {
     const AssetPart& part = asset.parts[partIndex];
@@ -143,15 +132,19 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
         const std::vector<vec3>& found = device.coefficients(point, size_t(term));
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
 
+        const std::vector<vec3> stored = coefficientsOf(
+            set.transport, size_t(vertex) * size_t(set.brdf.terms) + size_t(term), expected.size());
+        const std::vector<vec3>& exact = reference.terms[size_t(term)].coefficients;
+        for (size_t i = 0; i < expected.size(); i++) {
+            sums.layout.add(stored[i], found[i]);
+            sums.total.add(stored[i], exact[i]);
+        }
+        if (layoutOf(set.transport) != TransportLayout::Rows) continue;
         std::vector<bool> kept(expected.size(), false);
         for (uint16_t index : selectLargest(found, asset.coefficients)) kept[index] = true;
-        const std::vector<vec3> stored =
-            expand(storedRow(set.transport, vertex, size_t(term)), expected.size());
-        const std::vector<vec3>& exact = reference.terms[size_t(term)].coefficients;
         for (size_t i = 0; i < expected.size(); i++) {
             sums.wavelet.add(kept[i] ? found[i] : vec3(0), found[i]);
             if (kept[i]) sums.quantisation.add(stored[i], found[i]);
-            sums.total.add(stored[i], exact[i]);
         }
     }
 }
@@ -174,12 +167,13 @@ std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samp
 }
 
 // Vertices whose tuples differ from the CPU's.
-uint64_t countDifferences(const SparseTransport& transport, const LightVector& light,
+uint64_t countDifferences(const Transport& transport, const LightVector& light,
                           const std::vector<vec3>& found) {
     const std::vector<vec3> expected = relight(transport, light);
     uint64_t different = 0;
-    for (size_t vertex = 0; vertex < transport.vertices; vertex++) {
-        const auto begin = ptrdiff_t(vertex * transport.terms), end = begin + ptrdiff_t(transport.terms);
+    const uint32_t vertices = verticesOf(transport), terms = termsOf(transport);
+    for (size_t vertex = 0; vertex < vertices; vertex++) {
+        const auto begin = ptrdiff_t(vertex * terms), end = begin + ptrdiff_t(terms);
         different += !std::equal(found.begin() + begin, found.begin() + end, expected.begin() + begin);
     }
     return different;
@@ -246,6 +240,7 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
     result.quantisationError = sums.quantisation.relative();
     result.brdfError = sums.brdf / samples;
     result.relightBits = countRelightDifferences(device, asset, prepared, rotation);
+    result.layoutError = sums.layout.relative();
     result.totalError = sums.total.relative();
     return result;
 }

@@ -42,11 +42,18 @@ struct LightScale {
 };
 RELUME_SHARED_SIZE(LightScale, 4)
 
-struct RelightPush {
+struct RelightRowsPush {
     uint firstRow; // of the shard in its part
     uint rows;     // of the shard
 };
-RELUME_SHARED_SIZE(RelightPush, 8)
+RELUME_SHARED_SIZE(RelightRowsPush, 8)
+
+struct RelightClustersPush {
+    uint firstGroup; // of the shard in its part
+    uint terms;
+    uint vertices; // of the part
+};
+RELUME_SHARED_SIZE(RelightClustersPush, 12)
 
 struct ViewVertex {
     vec3 position;

@@ -25,7 +25,7 @@ TEST_CASE("cpu baker: its rows are the device's, up to silhouettes and exchanges
     std::vector<vec3> dense(6 * size_t(asset.faceSize) * size_t(asset.faceSize), vec3(0));
     for (const AssetPart& part : asset.parts) {
         REQUIRE_EQ(part.sets.size(), 1u);
-        const SparseTransport& expected = part.sets[0].transport;
+        const SparseTransport& expected = rowsOf(part.sets[0].transport);
         std::vector<shared::BakePoint> points;
         for (size_t vertex = 0; vertex < part.mesh.vertexCount(); vertex++)
             points.push_back(bakePoint(part.mesh, vertex, asset.visibilityOffset));

@@ -42,7 +42,7 @@ std::vector<vec3> relit(const Asset& asset) {
     haarFaces(light, asset.faceSize);
     std::vector<vec3> sums;
     for (const AssetPart& part : asset.parts) {
-        const SparseTransport& transport = part.sets[0].transport;
+        const SparseTransport& transport = rowsOf(part.sets[0].transport);
         for (size_t row = 0; row < transport.rows(); row++) {
             const vec3 step = transport.scales[row] / vec3(kRedMaximum, kGreenMaximum, kBlueMaximum);
             vec3 sum(0);

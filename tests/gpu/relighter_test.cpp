@@ -1,5 +1,7 @@
 #include "engine/render/relighter.h"
+#include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
+#include "tests/support/asset_sample.h"
 #include "tests/support/test_device.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +17,7 @@ AssetPart makePart(uint32_t vertices, uint32_t terms, uint32_t longest, int face
     AssetPart part;
     part.name = "random";
     part.sets.emplace_back().materials = {{"test", "{}"}};
-    SparseTransport& transport = part.sets[0].transport;
+    SparseTransport& transport = rowsOf(part.sets[0].transport);
     transport.vertices = vertices;
     transport.terms = terms;
     transport.rowStarts.push_back(0);
@@ -89,7 +91,7 @@ TEST_CASE("relighter: shards give the reference's bits") {
     checkBits(device, asset, {.largestShard = 1}, {2000, 10, 0});
 
     size_t groups = 0;
-    const SparseTransport& transport = asset.parts[0].sets[0].transport;
+    const SparseTransport& transport = rowsOf(asset.parts[0].sets[0].transport);
     for (size_t row = 0; row < transport.rows(); row++)
         groups += (transport.rowStarts[row + 1] - transport.rowStarts[row] + 7) / 8;
     const Relighter relighter(device, asset, {.largestShard = 48 * groups / 4});
@@ -115,22 +117,43 @@ TEST_CASE("relighter: tuples of sums that reach the limits of 32 bits are exact"
 
     AssetPart& part = asset.parts.emplace_back();
     part.sets.emplace_back();
-    part.sets[0].transport.vertices = part.sets[0].transport.terms = 1;
-    part.sets[0].transport.scales = {1};
+    rowsOf(part.sets[0].transport).vertices = rowsOf(part.sets[0].transport).terms = 1;
+    rowsOf(part.sets[0].transport).scales = {1};
     int64_t expected = 0;
     for (size_t e = 0; e < vector.indices.size(); e++) {
         const int sign = vector.values[e][0] < 0 ? -1 : 1;
-        part.sets[0].transport.indices.push_back(vector.indices[e]);
-        part.sets[0].transport.values.push_back(packCoefficient(ivec3(1023 * sign, 1023 * sign, 511 * sign)));
+        rowsOf(part.sets[0].transport).indices.push_back(vector.indices[e]);
+        rowsOf(part.sets[0].transport)
+            .values.push_back(packCoefficient(ivec3(1023 * sign, 1023 * sign, 511 * sign)));
         expected += 1023 * int64_t(std::abs(vector.values[e][0]));
     }
-    part.sets[0].transport.rowStarts = {0, part.sets[0].transport.values.size()};
+    rowsOf(part.sets[0].transport).rowStarts = {0, rowsOf(part.sets[0].transport).values.size()};
     const Relighter relighter(device, asset);
     commands.begin();
     relighter.record(commands, light);
     commands.submitAndWait();
     const vec3 tuple = relighter.readTuples(0)[0];
     CHECK_LT(int64_t(1) << 30, expected); // close enough to the limit to mean something
-    CHECK_EQ(int64_t(relightSums(part.sets[0].transport, vector)[0].x), expected);
+    CHECK_EQ(int64_t(relightSums(rowsOf(part.sets[0].transport), vector)[0].x), expected);
     CHECK(relight(part.sets[0].transport, vector)[0] == tuple);
+}
+
+TEST_CASE("relighter: clusters give the reference's bits") {
+    const TestDevice device;
+    std::mt19937 random(11);
+    Asset asset;
+    const auto add = [&](uint32_t vertices, uint32_t terms, int columns) {
+        AssetPart& part = asset.parts.emplace_back();
+        part.sets.emplace_back().transport =
+            test::sampleClusters(vertices, terms, asset.faceSize, columns, random);
+    };
+    for (uint32_t terms = 1; terms <= 32; terms += 5) add(70, terms, 90);
+    add(32, 2, 3000);
+    add(1, 1, 24000);
+    add(500, 4, 300);
+    add(40, 2, 0);
+    checkBits(device, asset, {});
+    checkBits(device, asset, {.largestShard = 1});
+    const auto& columns = std::get<ClusteredTransport>(asset.parts[9].sets[0].transport);
+    checkBits(device, asset, {.largestShard = columns.columns() * kClusterVertices * sizeof(uint32_t) / 3});
 }

@@ -2,6 +2,7 @@
 #include "engine/render/view_pass.h"
 #include "engine/scene/builtin_mesh.h"
 #include "precompute/reference/ray_tracer.h"
+#include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
 #include "tests/support/test_device.h"
 
@@ -26,7 +27,7 @@ MaterialSet makeSet(uint32_t vertices, int terms, DiskMapping mapping, uint32_t 
     set.brdf.mapping = mapping;
     for (size_t i = 0; i < size_t(layers * terms) * set.brdf.mapTexels(); i++)
         set.brdf.viewMaps.emplace_back(value(random), value(random), value(random));
-    SparseTransport& transport = set.transport;
+    SparseTransport& transport = rowsOf(set.transport);
     transport.vertices = vertices;
     transport.terms = uint32_t(terms);
     transport.rowStarts.push_back(0);
@@ -110,7 +111,8 @@ class HostView {
     HostView(const Asset& asset, const LightVector& light, const Appearance& appearance)
         : mAsset(asset), mLight(light), mAppearance(appearance),
           mTracer(std::array{&asset.parts[0].mesh, &asset.parts[1].mesh}) {
-        for (size_t i = 0; i < asset.parts.size(); i++) mTuples.push_back(relight(setOf(i).transport, light));
+        for (size_t i = 0; i < asset.parts.size(); i++)
+            mTuples.push_back(relight(rowsOf(setOf(i).transport), light));
     }
 
     HostPixel at(vec3 eye, vec3 direction) const {
@@ -167,7 +169,7 @@ class HostView {
     }
 
     vec3 tupleOf(size_t part, uint32_t vertex, int term) const {
-        const SparseTransport& transport = setOf(part).transport;
+        const SparseTransport& transport = rowsOf(setOf(part).transport);
         const size_t row = size_t(vertex) * transport.terms + size_t(term);
         return mTuples[part][row];
     }
@@ -311,10 +313,10 @@ TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
     AssetPart& part = asset.parts[0];
     std::fill(part.sets[0].brdf.viewMaps.begin(), part.sets[0].brdf.viewMaps.end(), vec3(0.5f));
     // One entry a row: the average of face 2 (+Y), 64 times its constant radiance of 3.
-    part.sets[0].transport.indices.assign(4, 2 * 4096);
-    part.sets[0].transport.values.assign(4, packCoefficient({1023, 512, 0}));
-    part.sets[0].transport.scales.assign(4, 2.0f);
-    part.sets[0].transport.rowStarts = {0, 1, 2, 3, 4};
+    rowsOf(part.sets[0].transport).indices.assign(4, 2 * 4096);
+    rowsOf(part.sets[0].transport).values.assign(4, packCoefficient({1023, 512, 0}));
+    rowsOf(part.sets[0].transport).scales.assign(4, 2.0f);
+    rowsOf(part.sets[0].transport).rowStarts = {0, 1, 2, 3, 4};
     LightPass light(device, 64);
     LightCube cube{64, std::vector<vec3>(6 * 4096, vec3(0))};
     std::fill_n(cube.radiance.begin() + 2 * 4096, 4096, vec3(3));

@@ -36,6 +36,30 @@ inline SparseTransport sampleTransport(uint32_t vertices, uint32_t terms, int fa
     return transport;
 }
 
+// `perGroup` columns at most, at random places; some groups are empty.
+inline ClusteredTransport sampleClusters(uint32_t vertices, uint32_t terms, int faceSize, int perGroup,
+                                         std::mt19937& random) {
+    ClusteredTransport transport;
+    transport.vertices = vertices;
+    transport.terms = terms;
+    transport.columnStarts.push_back(0);
+    std::geometric_distribution<int> gap(double(perGroup) / double(6 * faceSize * faceSize));
+    for (size_t group = 0; group < transport.groups(); group++) {
+        const int columns = group % 5 == 3 ? 0 : perGroup;
+        int index = gap(random);
+        for (int i = 0; i < columns && index < 6 * faceSize * faceSize; i++, index += 1 + gap(random)) {
+            transport.indices.push_back(uint16_t(index));
+            for (uint32_t vertex = 0; vertex < kClusterVertices; vertex++)
+                transport.values.push_back(packCoefficient(
+                    {int(random() % 2047) - 1023, int(random() % 2047) - 1023, int(random() % 1023) - 511}));
+        }
+        transport.columnStarts.push_back(transport.indices.size());
+    }
+    for (size_t row = 0; row < transport.rows(); row++)
+        transport.scales.push_back(float(random() % 1000) * 0.001f);
+    return transport;
+}
+
 inline AssetPart samplePart(uint32_t vertices, int terms, int faceSize, int perRow, std::mt19937& random) {
     std::normal_distribution<float> gauss;
     const auto point = [&] { return vec3(gauss(random), gauss(random), gauss(random)); };
@@ -57,7 +81,7 @@ inline AssetPart samplePart(uint32_t vertices, int terms, int faceSize, int perR
     }
     for (int i = 0; i < terms; i++)
         set.brdf.eigenvalues.push_back({gauss(random), -1.0f / float(i + 1), 0.0f});
-    set.transport = sampleTransport(vertices, uint32_t(terms), faceSize, perRow, random);
+    rowsOf(set.transport) = sampleTransport(vertices, uint32_t(terms), faceSize, perRow, random);
     part.sets.push_back(std::move(set));
     return part;
 }
@@ -141,6 +165,15 @@ inline void reseal(std::vector<std::byte>& bytes) {
     std::vector<std::byte> head(bytes.begin(), bytes.begin() + 24);
     head.insert(head.end(), bytes.begin() + 32, bytes.begin() + ptrdiff_t(32 + 48 * count));
     poke(bytes, 24, hash64(head), 8);
+}
+
+// The same, and a third part in clusters.
+inline Asset mixedAsset(uint32_t seed = 1) {
+    Asset asset = sampleAsset(seed);
+    std::mt19937 random(seed + 1);
+    asset.parts.push_back(samplePart(70, 2, asset.faceSize, asset.coefficients, random));
+    asset.parts[2].sets[0].transport = sampleClusters(70, 2, asset.faceSize, 40, random);
+    return asset;
 }
 
 } // namespace relume::test

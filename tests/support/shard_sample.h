@@ -26,9 +26,9 @@ class SampleBlocks : public StoredBlocks {
             const BakeBlock& place = plan.blocks[number];
             BakedBlock baked;
             for (const MaterialSet& set : asset.parts[place.part].sets) {
-                BakedRows rows(set.transport.terms);
-                rows.transport = set.transport;
-                for (size_t row = 0; row < set.transport.rows(); row++)
+                BakedRows rows(rowsOf(set.transport).terms);
+                rows.transport = rowsOf(set.transport);
+                for (size_t row = 0; row < rowsOf(set.transport).rows(); row++)
                     rows.losses.push_back(
                         {1.0 / double(row + 3), 0.1 / double(row + 3), 1e-5 / double(row + 7)});
                 baked.sets.push_back(rows.vertices(place.first, place.end));

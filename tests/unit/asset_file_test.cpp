@@ -1,5 +1,6 @@
 // The .relume file: what goes in comes out, and nothing else is believed.
 #include "engine/transport/asset_arrays.h"
+#include "engine/transport/asset_check.h"
 #include "engine/transport/asset_info.h"
 #include "engine/transport/transport_chunk.h"
 #include "tests/support/asset_sample.h"
@@ -45,12 +46,22 @@ void checkSameSet(const MaterialSet& a, const MaterialSet& b) {
     CHECK(a.brdf.lightMaps == b.brdf.lightMaps);
     CHECK(a.brdf.viewMaps == b.brdf.viewMaps);
     CHECK(a.brdf.eigenvalues == b.brdf.eigenvalues);
-    CHECK(a.transport.vertices == b.transport.vertices);
-    CHECK(a.transport.terms == b.transport.terms);
-    CHECK(a.transport.rowStarts == b.transport.rowStarts);
-    CHECK(a.transport.scales == b.transport.scales);
-    CHECK(a.transport.indices == b.transport.indices);
-    CHECK(a.transport.values == b.transport.values);
+    CHECK(verticesOf(a.transport) == verticesOf(b.transport));
+    CHECK(termsOf(a.transport) == termsOf(b.transport));
+    REQUIRE(layoutOf(a.transport) == layoutOf(b.transport));
+    if (layoutOf(a.transport) == TransportLayout::Clusters) {
+        const auto &c = std::get<ClusteredTransport>(a.transport),
+                   &d = std::get<ClusteredTransport>(b.transport);
+        CHECK(c.columnStarts == d.columnStarts);
+        CHECK(c.scales == d.scales);
+        CHECK(c.indices == d.indices);
+        CHECK(c.values == d.values);
+        return;
+    }
+    CHECK(rowsOf(a.transport).rowStarts == rowsOf(b.transport).rowStarts);
+    CHECK(rowsOf(a.transport).scales == rowsOf(b.transport).scales);
+    CHECK(rowsOf(a.transport).indices == rowsOf(b.transport).indices);
+    CHECK(rowsOf(a.transport).values == rowsOf(b.transport).values);
 }
 
 void checkSamePart(const AssetPart& a, const AssetPart& b) {
@@ -121,7 +132,7 @@ std::vector<std::byte> withMeta(const std::string& from, const std::string& to) 
 } // namespace
 
 TEST_CASE("asset file: what is written is read, bit by bit, and written again the same") {
-    const Asset asset = sampleAsset();
+    const Asset asset = mixedAsset();
     const std::vector<std::byte> bytes = encodeAsset(asset);
     const Asset read = decodeAsset(bytes, "sample");
     checkSame(asset, read);
@@ -192,7 +203,7 @@ TEST_CASE("asset file: a vertex of the most terms and coefficients is one run") 
     asset.transportSamples = 1;
     asset.coefficients = 6 * 64 * 64;
     asset.parts[0] = samplePart(2, 32, 64, 1, random);
-    SparseTransport& transport = asset.parts[0].sets[0].transport;
+    SparseTransport& transport = rowsOf(asset.parts[0].sets[0].transport);
     transport.indices.clear();
     for (size_t row = 0; row < transport.rows(); row++)
         for (int i = 0; i < asset.coefficients; i++) transport.indices.push_back(uint16_t(i));
@@ -216,7 +227,7 @@ TEST_CASE("asset file: stored coefficients stand one to one for packed ones, gre
 }
 
 TEST_CASE("asset file: cut at any length, it is refused") {
-    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    const std::vector<std::byte> bytes = encodeAsset(mixedAsset());
     for (size_t length = 0; length < bytes.size(); length++)
         REQUIRE(isRefused(std::span(bytes).first(length)));
     // The same with a header that agrees.
@@ -235,7 +246,7 @@ TEST_CASE("asset file: cut at any length, it is refused") {
 }
 
 TEST_CASE("asset file: with any bit flipped, it is refused") {
-    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    const std::vector<std::byte> bytes = encodeAsset(mixedAsset());
     std::mt19937 random(6);
     for (int i = 0; i < 1000; i++) {
         std::vector<std::byte> flipped = bytes;
@@ -246,7 +257,7 @@ TEST_CASE("asset file: with any bit flipped, it is refused") {
 }
 
 TEST_CASE("asset file: damage under right checksums is refused or harmless") {
-    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    const std::vector<std::byte> bytes = encodeAsset(mixedAsset());
     const std::vector<RawChunk> chunks = chunksOf(bytes);
     std::mt19937 random(7);
     int refused = 0;
@@ -260,7 +271,7 @@ TEST_CASE("asset file: damage under right checksums is refused or harmless") {
         content[random() % content.size()] ^= std::byte(1 << random() % 8);
         refused += isRefused(fileOf(raw));
     }
-    CHECK(refused > 500);
+    CHECK(refused > 400);
     CHECK(refused < 2000);
 }
 
@@ -324,6 +335,25 @@ TEST_CASE("asset file: a table cannot promise what the file does not hold") {
     // A second chunk that lies on the first.
     CHECK(refusal(32 + 48 + 16, ByteReader(std::span(bytes).subspan(32 + 16), "").get<uint64_t>(), 8)
               .find("expected at byte") != std::string::npos);
+}
+
+TEST_CASE("asset file: clusters that make no sense are refused") {
+    const auto refuses = [](const auto& spoil) {
+        Asset asset = mixedAsset();
+        spoil(std::get<ClusteredTransport>(asset.parts.back().sets[0].transport));
+        CHECK_THROWS_AS(checkAsset(asset, "test"), Error);
+    };
+    checkAsset(mixedAsset(), "test");
+    refuses([](ClusteredTransport& t) { t.vertices++; });
+    refuses([](ClusteredTransport& t) { t.terms--; });
+    refuses([](ClusteredTransport& t) { t.columnStarts.pop_back(); });
+    refuses([](ClusteredTransport& t) { t.columnStarts[1] = 1000000; });
+    refuses([](ClusteredTransport& t) { std::swap(t.columnStarts[1], t.columnStarts[2]); });
+    refuses([](ClusteredTransport& t) { t.scales[3] = -1; });
+    refuses([](ClusteredTransport& t) { t.indices[1] = t.indices[0]; });
+    refuses([](ClusteredTransport& t) { t.indices.back() = 384; });
+    refuses([](ClusteredTransport& t) { t.values.pop_back(); });
+    refuses([](ClusteredTransport& t) { t.values[0] = 0x400; });
 }
 
 TEST_CASE("asset file: absurd settings and counts are refused") {
@@ -412,7 +442,7 @@ TEST_CASE("asset file: transport chunks that do not add up are refused") {
     CHECK(pokes(12 + rows - 1, 0, 1).find("rows hold") != std::string::npos);
     const auto last = [](std::vector<std::byte>& raw) { raw.pop_back(); };
     CHECK(refusal(last).find("bytes") != std::string::npos);
-    const size_t entries = sampleAsset().parts[0].sets[0].transport.entries();
+    const size_t entries = rowsOf(sampleAsset().parts[0].sets[0].transport).entries();
     CHECK(pokes(gaps + entries, 2, 1).find("indices below 384") != std::string::npos);
     CHECK(pokes(12 + 2 * rows + 3 * rows, 0xffff, 2).find("scales") != std::string::npos); // negative or NaN
 }
@@ -459,33 +489,35 @@ TEST_CASE("asset file: an asset that could not be read back is not written") {
     refuses([&](Asset& a) { a.parts[0].mesh.uvs[3].x = nan; });
     refuses([](Asset& a) { a.parts[0].mesh.uvs.pop_back(); });
     refuses([](Asset& a) { a.parts[1].mesh.colors[2].y = 1.5f; });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.terms = 2; });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.vertices = 18; });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.rowStarts[1] = 1000000; });
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).terms = 2; });
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).vertices = 18; });
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).rowStarts[1] = 1000000; });
     refuses([](Asset& a) {
-        std::swap(a.parts[0].sets[0].transport.rowStarts[1], a.parts[0].sets[0].transport.rowStarts[2]);
+        std::swap(rowsOf(a.parts[0].sets[0].transport).rowStarts[1],
+                  rowsOf(a.parts[0].sets[0].transport).rowStarts[2]);
     });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.rowStarts.pop_back(); });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.scales[0] = -1; });
-    refuses(
-        [](Asset& a) { a.parts[0].sets[0].transport.indices[1] = a.parts[0].sets[0].transport.indices[0]; });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.indices.back() = 384; });
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.values[0] = 0x400; });       // red -1024
-    refuses([](Asset& a) { a.parts[0].sets[0].transport.values[0] = 0x80000000u; }); // blue -512
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).rowStarts.pop_back(); });
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).scales[0] = -1; });
+    refuses([](Asset& a) {
+        rowsOf(a.parts[0].sets[0].transport).indices[1] = rowsOf(a.parts[0].sets[0].transport).indices[0];
+    });
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).indices.back() = 384; });
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).values[0] = 0x400; });       // red -1024
+    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).values[0] = 0x80000000u; }); // blue -512
 }
 
 TEST_CASE("asset info: JSON with the numbers that matter, whatever text the asset carries") {
     Asset asset = sampleAsset();
     auto info = nlohmann::json::parse(describeAssetJson(asset, 12345));
-    const SparseTransport& transport = asset.parts[0].sets[0].transport;
+    const SparseTransport& transport = rowsOf(asset.parts[0].sets[0].transport);
     CHECK(info["file_bytes"] == 12345);
     CHECK(info["coefficients"] == 24);
     CHECK(info["occluder_triangles"] == 19);
     CHECK(info["parts"][0]["vertices"] == 19);
     CHECK(info["parts"][0]["sets"][0]["terms"] == 3);
-    CHECK(info["parts"][0]["sets"][0]["entries"] == transport.entries());
-    CHECK(info["parts"][0]["sets"][0]["mean_entries_per_row"] == double(transport.entries()) / 57);
-    CHECK(info["parts"][0]["sets"][0]["bytes_per_vertex"] == 6.0 * double(transport.entries()) / 19);
+    CHECK(info["parts"][0]["sets"][0]["layout"] == "rows");
+    CHECK(info["parts"][0]["sets"][0]["bytes_per_vertex"] ==
+          double(6 * transport.entries() + 4 * transport.rows()) / 19);
     CHECK(info["parts"][0]["sets"][0]["materials"][0]["brdf"]["model"] == "lambert");
     CHECK(info["total"]["vertices"] == 30);
     CHECK(info["provenance"]["options"]["terms"] == 3);

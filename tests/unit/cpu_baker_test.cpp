@@ -82,10 +82,10 @@ void checkCase(const Case& c) {
     for (size_t i = 0; i < 5; i++) points.push_back(bakePoint(part.mesh, i * stride, asset.visibilityOffset));
     std::vector<SparseTransport*> transports;
     for (MaterialSet& set : part.sets) {
-        set.transport.vertices = uint32_t(points.size());
-        set.transport.terms = uint32_t(set.brdf.terms);
-        set.transport.rowStarts = {0};
-        transports.push_back(&set.transport);
+        rowsOf(set.transport).vertices = uint32_t(points.size());
+        rowsOf(set.transport).terms = uint32_t(set.brdf.terms);
+        rowsOf(set.transport).rowStarts = {0};
+        transports.push_back(&rowsOf(set.transport));
     }
     CpuBaker baker(asset, part, optionsOf(asset));
     TransportLosses losses;
@@ -100,7 +100,7 @@ void checkCase(const Case& c) {
             const VertexReference twin = recomputeVertex(asset, 0, set, point * stride, tracer);
             for (size_t term = 0; term < twin.terms.size(); term++) {
                 const PackedRow& expected = twin.terms[term].row;
-                const PackedRow found = storedRow(part.sets[set].transport, point, term);
+                const PackedRow found = storedRow(rowsOf(part.sets[set].transport), point, term);
                 CHECK(found.scale == doctest::Approx(expected.scale).epsilon(1e-4));
                 CHECK(std::ranges::is_sorted(found.indices));
                 const std::vector<vec3> a = denseRow(found, count), b = denseRow(expected, count);

@@ -1,4 +1,5 @@
 // Closed forms of each stage of the bake's CPU twin.
+#include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
 
 #include "engine/math/cubemap.h"

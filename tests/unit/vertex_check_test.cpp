@@ -21,7 +21,7 @@ Asset bakeTorus(const RayTracer& tracer, const Mesh& torus) {
     Asset asset = makeTestAsset({part});
     asset.visibilitySize = 32, asset.faceSize = 16, asset.coefficients = 20, asset.transportSamples = 4;
 
-    SparseTransport& transport = asset.parts[0].sets[0].transport;
+    SparseTransport& transport = rowsOf(asset.parts[0].sets[0].transport);
     transport.vertices = uint32_t(torus.vertexCount());
     transport.terms = 2;
     transport.rowStarts = {0};
@@ -60,9 +60,10 @@ TEST_CASE("vertex check: recomputes exactly what the stages stored") {
         for (size_t term = 0; term < 2; term++) {
             const TermReference& recomputed = reference.terms[term];
             CHECK(recomputed.selected.size() == 20);
-            CHECK(isSameRow(recomputed.row, storedRow(asset.parts[0].sets[0].transport, vertex, term)));
-            CHECK_FALSE(
-                isSameRow(recomputed.row, storedRow(asset.parts[0].sets[0].transport, vertex, 1 - term)));
+            CHECK(
+                isSameRow(recomputed.row, storedRow(rowsOf(asset.parts[0].sets[0].transport), vertex, term)));
+            CHECK_FALSE(isSameRow(recomputed.row,
+                                  storedRow(rowsOf(asset.parts[0].sets[0].transport), vertex, 1 - term)));
             std::vector<vec3> transformed = recomputed.transport;
             haarFaces(transformed, 16);
             CHECK(transformed == recomputed.coefficients);

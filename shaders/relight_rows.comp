@@ -1,7 +1,7 @@
 #version 460
 // Tuples of transport times light: a row, that is a vertex and a term, per invocation. Sums are exact, so that
 // their order does not show.
-// C++ twin: relight() in precompute/reference/transport_stages.h. Layout: engine/render/relighter.h.
+// C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/render/rows_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/light_packing.glsl"
@@ -9,7 +9,7 @@
 #include "shaders/shared/render.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { RelightPush push; };
+layout(push_constant, scalar) uniform Push { RelightRowsPush push; };
 layout(binding = 0, std430) readonly buffer Starts { uint starts[]; };
 layout(binding = 1, std430) readonly buffer Entries { uvec4 entries[]; };
 layout(binding = 2, scalar) readonly buffer Table { PackedLight table[]; };

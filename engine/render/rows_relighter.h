@@ -1,0 +1,35 @@
+// Relighting of rows: every entry with its index.
+#pragma once
+
+#include "engine/render/set_relighter.h"
+#include "engine/transport/sparse_transport.h"
+
+namespace relume {
+
+// The transport is divided into shards of whole rows. Entries come in groups of eight, 48 bytes: four words
+// of two 16-bit indices each (lower half first), then eight words of packed 11/11/10 values. Rows are padded
+// to whole groups with zeros.
+class RowsRelighter : public SetRelighter {
+  public:
+    // `coefficients`: of the light; all indices are below. `largestShard`: bytes of a shard, a row at least.
+    RowsRelighter(const vk::Device& device, const vk::ComputeProgram& program,
+                  const SparseTransport& transport, uint32_t coefficients, uint64_t largestShard,
+                  const std::string& name);
+    static vk::ComputeProgram makeProgram(const vk::Device& device);
+
+    void record(vk::Commands& commands, const LightPass& light) const override;
+    size_t shards() const override { return mShards.size(); }
+
+  private:
+    struct Shard {
+        uint32_t firstRow = 0, rows = 0;
+        vk::Buffer starts;  // rows + 1: first group of each row
+        vk::Buffer entries; // groups
+    };
+
+    const vk::ComputeProgram& mProgram;
+    std::vector<Shard> mShards;
+    vk::Buffer mScales; // of rows
+};
+
+} // namespace relume

@@ -1,0 +1,19 @@
+#include "engine/render/set_relighter.h"
+
+#include "engine/base/error.h"
+
+#include <algorithm>
+
+namespace relume {
+
+SetRelighter::SetRelighter(const vk::Device& device, uint32_t rows, const std::string& name) : mRows(rows) {
+    const uint64_t bytes = std::max<uint64_t>(rows, 1) * sizeof(vec3);
+    if (bytes > device.largestStorageBuffer())
+        throw Error(
+            "{}: {} vertices times terms need {} bytes of tuples; {} binds at most {}; split the mesh "
+            "into several parts",
+            name, rows, bytes, device.name(), device.largestStorageBuffer());
+    mTuples = vk::Buffer(device, bytes, vk::BufferUse::Device, name + " tuples");
+}
+
+} // namespace relume

@@ -1,0 +1,92 @@
+#include "engine/transport/transport.h"
+
+#include <span>
+
+namespace relume {
+
+namespace {
+
+template <typename Element>
+uint64_t bytes(const std::vector<Element>& elements) {
+    return std::span(elements).size_bytes();
+}
+
+uint64_t bytesOf(const SparseTransport& transport) {
+    return bytes(transport.scales) + bytes(transport.indices) + bytes(transport.values);
+}
+
+uint64_t bytesOf(const ClusteredTransport& transport) {
+    return bytes(transport.scales) + bytes(transport.indices) + bytes(transport.values);
+}
+
+void addCoefficients(const SparseTransport& transport, size_t row, std::span<vec3> coefficients) {
+    const vec3 unit = transport.scales[row] * kCoefficientUnit;
+    for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++)
+        coefficients[transport.indices[entry]] = vec3(unpackCoefficient(transport.values[entry])) * unit;
+}
+
+void addCoefficients(const ClusteredTransport& transport, size_t row, std::span<vec3> coefficients) {
+    const size_t vertex = row / transport.terms;
+    const size_t group = vertex / kClusterVertices * transport.terms + row % transport.terms;
+    const vec3 unit = transport.scales[row] * kCoefficientUnit;
+    for (uint64_t column = transport.columnStarts[group]; column < transport.columnStarts[group + 1];
+         column++)
+        coefficients[transport.indices[column]] =
+            vec3(unpackCoefficient(transport.values[column * kClusterVertices + vertex % kClusterVertices])) *
+            unit;
+}
+
+} // namespace
+
+Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms) {
+    if (layout == TransportLayout::Clusters)
+        return ClusteredTransport{.vertices = vertices,
+                                  .terms = terms,
+                                  .columnStarts = {},
+                                  .scales = {},
+                                  .indices = {},
+                                  .values = {}};
+    return SparseTransport{
+        .vertices = vertices, .terms = terms, .rowStarts = {}, .scales = {}, .indices = {}, .values = {}};
+}
+
+const char* layoutName(TransportLayout layout) {
+    switch (layout) {
+    case TransportLayout::Rows:
+        return "rows";
+    case TransportLayout::Clusters:
+        return "clusters";
+    }
+    return "";
+}
+
+std::optional<TransportLayout> layoutFromName(std::string_view name) {
+    for (size_t i = 0; i < std::variant_size_v<Transport>; i++)
+        if (name == layoutName(TransportLayout(i))) return TransportLayout(i);
+    return std::nullopt;
+}
+
+uint32_t verticesOf(const Transport& transport) {
+    return std::visit([](const auto& kept) { return kept.vertices; }, transport);
+}
+
+uint32_t termsOf(const Transport& transport) {
+    return std::visit([](const auto& kept) { return kept.terms; }, transport);
+}
+
+std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count) {
+    std::vector<vec3> coefficients(count, vec3(0));
+    std::visit([&](const auto& kept) { addCoefficients(kept, row, coefficients); }, transport);
+    return coefficients;
+}
+
+uint64_t entriesOf(const Transport& transport) {
+    if (const auto* clusters = std::get_if<ClusteredTransport>(&transport)) return clusters->columns();
+    return rowsOf(transport).entries();
+}
+
+uint64_t bytesOf(const Transport& transport) {
+    return std::visit([](const auto& kept) { return bytesOf(kept); }, transport);
+}
+
+} // namespace relume

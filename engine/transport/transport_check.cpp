@@ -1,0 +1,90 @@
+#include "engine/transport/transport_check.h"
+
+#include "engine/base/error.h"
+#include "engine/transport/cluster_chunk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+void expect(bool holds, const std::string& where, const char* what) {
+    if (!holds) throw Error("{}: expected {}", where, what);
+}
+
+void expectCount(size_t count, size_t expected, const std::string& where, const char* what) {
+    if (count != expected) throw Error("{}: expected {} {}, found {}", where, expected, what, count);
+}
+
+bool isMagnitude(float value) { return std::isfinite(value) && value >= 0; }
+
+bool isWithinMaxima(uint32_t packed) {
+    // Only the most negative number of a field lies beyond the negated maximum.
+    const ivec3 value = unpackCoefficient(packed);
+    return value.x >= -kRedMaximum && value.y >= -kGreenMaximum && value.z >= -kBlueMaximum;
+}
+
+} // namespace
+
+void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
+                    const std::string& where) {
+    expectCount(transport.rowStarts.size(), transport.rows() + 1, where, "row starts");
+    expectCount(transport.scales.size(), transport.rows(), where, "scales");
+    expectCount(transport.indices.size(), transport.entries(), where, "indices");
+    expect(transport.rowStarts.front() == 0 && transport.rowStarts.back() == transport.entries(), where,
+           "rows that span all entries");
+    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
+           "scales that are finite and not negative");
+    for (size_t row = 0; row < transport.rows(); row++) {
+        const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
+        if (end < start || end - start > longestRow || end > transport.entries())
+            throw Error("{}: row {}: expected at most {} entries, found entries {} to {}", where, row,
+                        longestRow, start, end);
+        uint32_t next = 0;
+        for (uint64_t entry = start; entry < end; entry++) {
+            const uint32_t index = transport.indices[entry];
+            if (index < next || index >= coefficients)
+                throw Error("{}: row {}: expected rising indices below {}, found {}", where, row,
+                            coefficients, index);
+            next = index + 1;
+        }
+    }
+    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
+           "values within ±1023 in red and green and ±511 in blue");
+}
+
+void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, const std::string& where) {
+    expectCount(transport.columnStarts.size(), transport.groups() + 1, where, "column starts");
+    expectCount(transport.scales.size(), transport.rows(), where, "row scales");
+    expectCount(transport.values.size(), transport.columns() * kClusterVertices, where, "values");
+    expect(transport.columnStarts.front() == 0 && transport.columnStarts.back() == transport.columns(), where,
+           "groups that begin at column 0 and end at the last");
+    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
+           "row scales that are finite and not negative");
+    for (size_t group = 0; group < transport.groups(); group++) {
+        const uint64_t start = transport.columnStarts[group], end = transport.columnStarts[group + 1];
+        if (end < start || end > transport.columns())
+            throw Error("{}: group {}: columns {} to {} are out of order", where, group, start, end);
+        uint32_t next = 0;
+        for (uint64_t column = start; column < end; column++) {
+            const uint32_t index = transport.indices[column];
+            if (index < next || index >= coefficients)
+                throw Error("{}: group {}: expected rising indices below {}, found {}", where, group,
+                            coefficients, index);
+            next = index + 1;
+        }
+    }
+    for (size_t cluster = 0; cluster < transport.clusters(); cluster++) {
+        const uint64_t columns = transport.columnStarts[(cluster + 1) * transport.terms] -
+                                 transport.columnStarts[cluster * transport.terms];
+        if (columns > kMostClusterColumns)
+            throw Error("{}: cluster {}: expected at most {} columns, found {}", where, cluster,
+                        kMostClusterColumns, columns);
+    }
+    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
+           "values within ±1023 in red and green and ±511 in blue");
+}
+
+} // namespace relume

@@ -1,0 +1,18 @@
+// What must hold of transport, whether it is about to be written or has just been read.
+#pragma once
+
+#include "engine/transport/transport.h"
+
+#include <string>
+
+namespace relume {
+
+// Rows that rise, of at most `longestRow` entries with indices below `coefficients`. `where` stands for the
+// transport in errors. Throws Error.
+void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
+                    const std::string& where);
+
+// Groups that rise, of indices below `coefficients`, and no more columns than a file holds. Throws Error.
+void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, const std::string& where);
+
+} // namespace relume

@@ -1,0 +1,58 @@
+#include "precompute/reference/relight_twin.h"
+
+#include "engine/base/check.h"
+#include "engine/math/cubemap.h"
+
+namespace relume {
+
+namespace {
+
+// The light as a value per coefficient.
+std::vector<ivec3> expand(const LightVector& light) {
+    std::vector<ivec3> dense(size_t(kCubeFaces) * size_t(light.faceSize) * size_t(light.faceSize), ivec3(0));
+    for (size_t i = 0; i < light.indices.size(); i++)
+        dense[light.indices[i]] = ivec3(light.values[i][0], light.values[i][1], light.values[i][2]);
+    return dense;
+}
+
+template <typename Kept>
+std::vector<vec3> scaledSums(const Kept& transport, const LightVector& light) {
+    const std::vector<ivec3> sums = relightSums(transport, light);
+    std::vector<vec3> tuples(sums.size());
+    for (size_t row = 0; row < tuples.size(); row++)
+        tuples[row] = vec3(sums[row]) * (light.scale * transport.scales[row]) * kCoefficientUnit;
+    return tuples;
+}
+
+} // namespace
+
+std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVector& light) {
+    const std::vector<ivec3> dense = expand(light);
+    std::vector<ivec3> sums(transport.rows(), ivec3(0));
+    for (size_t row = 0; row < sums.size(); row++)
+        for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++) {
+            RELUME_CHECK_LT(transport.indices[entry], dense.size());
+            sums[row] += unpackCoefficient(transport.values[entry]) * dense[transport.indices[entry]];
+        }
+    return sums;
+}
+
+std::vector<ivec3> relightSums(const ClusteredTransport& transport, const LightVector& light) {
+    const std::vector<ivec3> dense = expand(light);
+    std::vector<ivec3> sums(transport.rows(), ivec3(0));
+    for (size_t row = 0; row < sums.size(); row++) {
+        const size_t vertex = row / transport.terms;
+        const size_t group = vertex / kClusterVertices * transport.terms + row % transport.terms;
+        for (uint64_t c = transport.columnStarts[group]; c < transport.columnStarts[group + 1]; c++)
+            sums[row] +=
+                unpackCoefficient(transport.values[c * kClusterVertices + vertex % kClusterVertices]) *
+                dense[transport.indices[c]];
+    }
+    return sums;
+}
+
+std::vector<vec3> relight(const Transport& transport, const LightVector& light) {
+    return std::visit([&](const auto& kept) { return scaledSums(kept, light); }, transport);
+}
+
+} // namespace relume
