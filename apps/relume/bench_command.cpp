@@ -97,8 +97,8 @@ void run(Arguments& arguments) {
         relighter.record(commands, light);
     });
     const nlohmann::ordered_json lightPasses = perRepeat(commands.times(), arguments.repeats);
-    const double viewChange = medianMilliseconds(
-        commands, arguments.repeats, [&](int) { view.record(commands, camera, relighter); });
+    const double viewChange = medianMilliseconds(commands, arguments.repeats,
+                                                 [&](int) { view.record(commands, camera, relighter); });
 
     const nlohmann::ordered_json result = {{"device", device->info().name},
                                            {"driver", device->info().driver},
