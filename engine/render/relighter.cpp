@@ -21,27 +21,21 @@ Relighter::Relighter(const vk::Device& device, const Asset& asset, const Relight
     }
 }
 
-const vk::ComputeProgram& Relighter::program(TransportLayout layout) {
-    vk::ComputeProgram& program = mPrograms[layout];
-    if (program.pipeline() == VK_NULL_HANDLE) switch (layout) {
-        case TransportLayout::Rows:
-            program = RowsRelighter::makeProgram(mDevice);
-            break;
-        case TransportLayout::Clusters:
-            program = ClustersRelighter::makeProgram(mDevice);
-            break;
-        }
-    return program;
-}
-
 std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, const std::string& name,
                                                  uint64_t largestShard) {
     const uint32_t coefficients = 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize);
-    const vk::ComputeProgram& kernel = program(layoutOf(transport));
-    if (const auto* rows = std::get_if<SparseTransport>(&transport))
-        return std::make_unique<RowsRelighter>(mDevice, kernel, *rows, coefficients, largestShard, name);
-    return std::make_unique<ClustersRelighter>(mDevice, kernel, std::get<ClusteredTransport>(transport),
-                                               coefficients, largestShard, name);
+    if (const auto* rows = std::get_if<SparseTransport>(&transport)) {
+        if (!mRows) mRows = RowsRelighter::makeProgram(mDevice);
+        return std::make_unique<RowsRelighter>(mDevice, *mRows, *rows, coefficients, largestShard, name);
+    }
+    if (const auto* clusters = std::get_if<ClusteredTransport>(&transport)) {
+        if (!mClusters) mClusters = ClustersRelighter::makeProgram(mDevice);
+        return std::make_unique<ClustersRelighter>(mDevice, *mClusters, *clusters, coefficients, largestShard,
+                                                   name);
+    }
+    if (!mBases) mBases.emplace(mDevice);
+    return std::make_unique<BasesRelighter>(mDevice, *mBases, std::get<BasisTransport>(transport),
+                                            coefficients, largestShard, name);
 }
 
 void Relighter::record(vk::Commands& commands, const LightPass& light, const Appearance& appearance) const {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "engine/render/appearance.h"
-#include "engine/render/set_relighter.h"
+#include "engine/render/bases_relighter.h"
 #include "engine/transport/asset.h"
 
 #include <limits>
-#include <map>
 #include <memory>
+#include <optional>
 
 namespace relume {
 
@@ -38,11 +38,12 @@ class Relighter {
   private:
     std::unique_ptr<SetRelighter> makeSet(const Transport& transport, const std::string& name,
                                           uint64_t largestShard);
-    const vk::ComputeProgram& program(TransportLayout layout);
 
     const vk::Device& mDevice;
     int mFaceSize;
-    std::map<TransportLayout, vk::ComputeProgram> mPrograms;        // of the layouts that are there
+    // Of the layouts that are there.
+    std::optional<vk::ComputeProgram> mRows, mClusters;
+    std::optional<BasesRelighter::Programs> mBases;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
 };
 

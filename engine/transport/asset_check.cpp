@@ -158,6 +158,8 @@ void checkAsset(const Asset& asset, const std::string& name) {
             expectCount(termsOf(set.transport), size_t(set.brdf.terms), where, "transport terms");
             if (const auto* clusters = std::get_if<ClusteredTransport>(&set.transport))
                 checkTransport(*clusters, coefficients, where);
+            else if (const auto* bases = std::get_if<BasisTransport>(&set.transport))
+                checkTransport(*bases, coefficients, where);
             else
                 checkTransport(rowsOf(set.transport), coefficients, uint64_t(asset.coefficients), where);
         }

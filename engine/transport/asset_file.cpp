@@ -6,6 +6,7 @@
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
+#include "engine/transport/basis_chunk.h"
 #include "engine/transport/byte_stream.h"
 #include "engine/transport/cluster_chunk.h"
 #include "engine/transport/transport_chunk.h"
@@ -20,7 +21,7 @@ namespace {
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals, kTriangles, kUvs, kColors, kBaseColor, kMaterialMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
-constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport, kClusters};
+constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport, kClusters, kBases};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
 
@@ -32,6 +33,7 @@ static_assert(kClusterRunHeaderBytes +
                   kLargestTerms * (kClusterGroupBytes + kClusterVertices * kClusterRowBytes) +
                   kMostClusterColumns * kClusterColumnBytes <=
               kLargestChunk);
+static_assert(largestBasisChunk(kLargestTerms) <= kLargestChunk);
 
 template <typename Element>
 void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector<Element>& elements) {
@@ -122,6 +124,23 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint
     transport.values.reserve(columns * kClusterVertices);
     for (const ChunkEntry& run : runs)
         decodeCluster(file.load(run), coefficients, columns, whereOf(file, run), transport);
+}
+
+void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t) {
+    for (size_t cluster = 0; cluster < transport.clusters.size(); cluster++)
+        file.add(kBases, owner, uint32_t(cluster), encodeBasisCluster(transport, cluster));
+}
+
+void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,
+                   BasisTransport& transport) {
+    for (const ChunkEntry& run : file.find(kBases, owner))
+        decodeBasisCluster(file.load(run), coefficients, whereOf(file, run), transport);
+    uint64_t found = 0;
+    for (const BasisCluster& cluster : transport.clusters) found += cluster.columns();
+    if (transport.clusters.size() != transport.clusterCount() || found != columns)
+        throw Error("{}: expected {} clusters with {} columns, found {} with {}",
+                    whereOf(file, kBases, owner), transport.clusterCount(), columns,
+                    transport.clusters.size(), found);
 }
 
 void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& sizes, AssetPart& part) {

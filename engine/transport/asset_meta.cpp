@@ -84,13 +84,20 @@ Json setJson(const MaterialSet& set, uint64_t entries) {
                              {"description", material.description},
                              {"layer", material.layer},
                              {"base", material.hasBase}});
-    return {{"materials", materials},
-            {"terms", set.brdf.terms},
-            {"layers", set.brdf.layers},
-            {"mapSize", set.brdf.size},
-            {"mapping", diskMappingName(set.brdf.mapping)},
-            {"layout", layoutName(layoutOf(set.transport))},
-            {"entries", entries}};
+    Json json = {{"materials", materials},
+                 {"terms", set.brdf.terms},
+                 {"layers", set.brdf.layers},
+                 {"mapSize", set.brdf.size},
+                 {"mapping", diskMappingName(set.brdf.mapping)},
+                 {"layout", layoutName(layoutOf(set.transport))},
+                 {"entries", entries}};
+    if (const auto* bases = std::get_if<BasisTransport>(&set.transport)) {
+        json["kinds"] = Json::array();
+        for (const auto& [term, color] : bases->kinds)
+            json["kinds"].push_back(
+                {{"term", term}, {"red", color.x}, {"green", color.y}, {"blue", color.z}});
+    }
+    return json;
 }
 
 Json textureJson(const Texture& texture) {
@@ -126,6 +133,14 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     const std::string layout = in.has("layout") ? in.text("layout") : layoutName(TransportLayout::Rows);
     if (!layoutFromName(layout)) throw Error("{}: \"layout\": \"{}\" is unknown", in.where(), layout);
     set.transport = emptyTransport(*layoutFromName(layout), uint32_t(vertices), uint32_t(set.brdf.terms));
+    if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
+        const Json& kinds = in.array("kinds");
+        for (size_t i = 0; i < kinds.size() && i <= 3 * kLargestTerms; i++) {
+            const Reader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
+            bases->kinds.push_back({uint32_t(kind.integer("term", 0, kLargestTerms - 1)),
+                                    {kind.real("red"), kind.real("green"), kind.real("blue")}});
+        }
+    }
     const Json& materials = in.array("materials");
     for (size_t i = 0; i < materials.size(); i++) {
         const Reader material(materials[i], fmt::format("{}: material {}", in.where(), i));

@@ -15,6 +15,14 @@ uint64_t bytesOf(const SparseTransport& transport) {
     return bytes(transport.scales) + bytes(transport.indices) + bytes(transport.values);
 }
 
+uint64_t bytesOf(const BasisTransport& transport) {
+    uint64_t sum = 0;
+    for (const BasisCluster& cluster : transport.clusters)
+        sum += bytes(cluster.indices) + bytes(cluster.basis) + bytes(cluster.counts) + bytes(cluster.scales) +
+               bytes(cluster.weights);
+    return sum;
+}
+
 uint64_t bytesOf(const ClusteredTransport& transport) {
     return bytes(transport.scales) + bytes(transport.indices) + bytes(transport.values);
 }
@@ -36,9 +44,31 @@ void addCoefficients(const ClusteredTransport& transport, size_t row, std::span<
             unit;
 }
 
+void addCoefficients(const BasisTransport& transport, size_t row, std::span<vec3> coefficients) {
+    const size_t vertex = row / transport.terms, term = row % transport.terms;
+    const size_t number = vertex / kBasisVertices, own = vertex % kBasisVertices;
+    const BasisCluster& cluster = transport.clusters[number];
+    size_t scale = 0, weight = 0; // where the kind's begin
+    for (size_t kind = 0; kind < transport.kinds.size(); kind++) {
+        const size_t count = cluster.counts[kind];
+        if (transport.kinds[kind].term == term)
+            for (size_t column = 0; column < cluster.columns(); column++) {
+                float sum = 0;
+                for (size_t i = 0; i < count; i++)
+                    sum += cluster.scales[scale + i] * float(cluster.weights[weight + own * count + i]) *
+                           float(cluster.basis[column * cluster.components + i]);
+                coefficients[cluster.indices[column]] += transport.kinds[kind].color * sum;
+            }
+        scale += count;
+        weight += count * transport.verticesOf(number);
+    }
+}
+
 } // namespace
 
 Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms) {
+    if (layout == TransportLayout::Bases)
+        return BasisTransport{.vertices = vertices, .terms = terms, .kinds = {}, .clusters = {}};
     if (layout == TransportLayout::Clusters)
         return ClusteredTransport{.vertices = vertices,
                                   .terms = terms,
@@ -56,6 +86,8 @@ const char* layoutName(TransportLayout layout) {
         return "rows";
     case TransportLayout::Clusters:
         return "clusters";
+    case TransportLayout::Bases:
+        return "bases";
     }
     return "";
 }
@@ -82,6 +114,11 @@ std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t 
 
 uint64_t entriesOf(const Transport& transport) {
     if (const auto* clusters = std::get_if<ClusteredTransport>(&transport)) return clusters->columns();
+    if (const auto* bases = std::get_if<BasisTransport>(&transport)) {
+        uint64_t columns = 0;
+        for (const BasisCluster& cluster : bases->clusters) columns += cluster.columns();
+        return columns;
+    }
     return rowsOf(transport).entries();
 }
 

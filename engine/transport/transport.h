@@ -1,6 +1,7 @@
 // A set's transport, in whichever layout it is kept.
 #pragma once
 
+#include "engine/transport/basis_transport.h"
 #include "engine/transport/clustered_transport.h"
 #include "engine/transport/sparse_transport.h"
 
@@ -10,14 +11,14 @@
 
 namespace relume {
 
-using Transport = std::variant<SparseTransport, ClusteredTransport>;
+using Transport = std::variant<SparseTransport, ClusteredTransport, BasisTransport>;
 
 // In the order of Transport's alternatives.
-enum class TransportLayout { Rows, Clusters };
+enum class TransportLayout { Rows, Clusters, Bases };
 
 inline TransportLayout layoutOf(const Transport& transport) { return TransportLayout(transport.index()); }
 Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms);
-const char* layoutName(TransportLayout layout); // "rows", "clusters"
+const char* layoutName(TransportLayout layout); // "rows", "clusters", "bases"
 std::optional<TransportLayout> layoutFromName(std::string_view name);
 
 // Of a set that is known to be in rows.
@@ -32,7 +33,7 @@ uint32_t termsOf(const Transport& transport);
 // The coefficients, `count` of them, that a row stands for: of term row % terms of vertex row / terms.
 std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count);
 
-// Of rows: their entries; of clusters: their columns.
+// Of rows: their entries; of clusters and bases: their columns.
 uint64_t entriesOf(const Transport& transport);
 
 // What relighting may read of it, in memory: coefficients, indices, weights and scales.

@@ -87,4 +87,55 @@ void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, 
            "values within ±1023 in red and green and ±511 in blue");
 }
 
+namespace {
+
+void checkKinds(const BasisTransport& transport, const std::string& where) {
+    expect(transport.kinds.size() <= 3 * size_t(transport.terms), where, "at most three kinds a term");
+    uint32_t term = 0, ofTerm = 0;
+    for (const BasisKind& kind : transport.kinds) {
+        expect(kind.term >= term && kind.term < transport.terms, where, "kinds by rising term");
+        ofTerm = kind.term == term ? ofTerm + 1 : 1;
+        term = kind.term;
+        expect(ofTerm <= 3, where, "at most three kinds a term");
+        for (int channel = 0; channel < 3; channel++)
+            expect(std::isfinite(kind.color[channel]), where, "finite colours of kinds");
+    }
+}
+
+} // namespace
+
+void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, uint32_t coefficients,
+                  const std::string& where) {
+    expect(cluster.components <= kMostBasisComponents && cluster.columns() <= kMostBasisColumns, where,
+           "no more columns and components than a cluster may have");
+    expectCount(cluster.basis.size(), cluster.columns() * cluster.components, where, "basis values");
+    expectCount(cluster.counts.size(), kinds, where, "counts of weights");
+    size_t scales = 0;
+    for (const uint16_t count : cluster.counts) {
+        expect(count <= cluster.components, where, "no more weights than components");
+        scales += count;
+    }
+    expectCount(cluster.scales.size(), scales, where, "weight scales");
+    expectCount(cluster.weights.size(), scales * vertices, where, "weights");
+    expect(std::ranges::all_of(cluster.scales, isMagnitude), where,
+           "weight scales that are finite and not negative");
+    const auto isSmall = [](int8_t value) { return value >= -kBasisMaximum; };
+    expect(std::ranges::all_of(cluster.basis, isSmall) && std::ranges::all_of(cluster.weights, isSmall),
+           where, "basis values and weights within ±127");
+    uint32_t next = 0;
+    for (const uint32_t index : cluster.indices) {
+        if (index < next || index >= coefficients)
+            throw Error("{}: expected rising indices below {}, found {}", where, coefficients, index);
+        next = index + 1;
+    }
+}
+
+void checkTransport(const BasisTransport& transport, uint32_t coefficients, const std::string& where) {
+    checkKinds(transport, where);
+    expectCount(transport.clusters.size(), transport.clusterCount(), where, "clusters");
+    for (size_t number = 0; number < transport.clusters.size(); number++)
+        checkCluster(transport.clusters[number], transport.verticesOf(number), transport.kinds.size(),
+                     coefficients, fmt::format("{}: cluster {}", where, number));
+}
+
 } // namespace relume

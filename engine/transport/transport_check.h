@@ -15,4 +15,11 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
 // Groups that rise, of indices below `coefficients`, and no more columns than a file holds. Throws Error.
 void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, const std::string& where);
 
+// One cluster of so many vertices. Throws Error.
+void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, uint32_t coefficients,
+                  const std::string& where);
+
+// All of them, and the kinds. Throws Error.
+void checkTransport(const BasisTransport& transport, uint32_t coefficients, const std::string& where);
+
 } // namespace relume

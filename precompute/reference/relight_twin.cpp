@@ -24,6 +24,41 @@ std::vector<vec3> scaledSums(const Kept& transport, const LightVector& light) {
     return tuples;
 }
 
+std::vector<vec3> tuplesOf(const SparseTransport& transport, const LightVector& light) {
+    return scaledSums(transport, light);
+}
+
+std::vector<vec3> tuplesOf(const ClusteredTransport& transport, const LightVector& light) {
+    return scaledSums(transport, light);
+}
+
+std::vector<vec3> tuplesOf(const BasisTransport& transport, const LightVector& light) {
+    const std::vector<ivec3> dense = expand(light);
+    std::vector<vec3> tuples(transport.rows(), vec3(0));
+    for (size_t number = 0; number < transport.clusters.size(); number++) {
+        const BasisCluster& cluster = transport.clusters[number];
+        std::vector<vec3> projections;
+        for (size_t i = 0; i < cluster.components; i++) {
+            ivec3 sum(0);
+            for (size_t column = 0; column < cluster.columns(); column++)
+                sum += int(cluster.basis[column * cluster.components + i]) * dense[cluster.indices[column]];
+            projections.push_back(vec3(sum) * light.scale);
+        }
+        size_t scale = 0, weight = 0; // the next
+        for (size_t kind = 0; kind < transport.kinds.size(); kind++) {
+            const auto& [term, color] = transport.kinds[kind];
+            for (size_t v = 0; v < transport.verticesOf(number); v++) {
+                vec3 sum(0);
+                for (size_t i = 0; i < cluster.counts[kind]; i++)
+                    sum += float(cluster.weights[weight++]) * (projections[i] * cluster.scales[scale + i]);
+                tuples[(number * kBasisVertices + v) * transport.terms + term] += sum * color;
+            }
+            scale += cluster.counts[kind];
+        }
+    }
+    return tuples;
+}
+
 } // namespace
 
 std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVector& light) {
@@ -52,7 +87,7 @@ std::vector<ivec3> relightSums(const ClusteredTransport& transport, const LightV
 }
 
 std::vector<vec3> relight(const Transport& transport, const LightVector& light) {
-    return std::visit([&](const auto& kept) { return scaledSums(kept, light); }, transport);
+    return std::visit([&](const auto& kept) { return tuplesOf(kept, light); }, transport);
 }
 
 } // namespace relume

@@ -55,6 +55,41 @@ struct RelightClustersPush {
 };
 RELUME_SHARED_SIZE(RelightClustersPush, 12)
 
+// What a group of relight_project works on: eight words, of four components each, of a cluster's columns.
+struct BasisGroup {
+    uint firstColumn, columns;           // of the cluster
+    uint firstBasisWord, wordsPerColumn; // of the cluster
+    uint firstWord;                      // of the group, in each column
+    uint firstComponent;                 // of the cluster
+};
+RELUME_SHARED_SIZE(BasisGroup, 24)
+
+// A cluster as relight_combine sees it.
+struct BasisVertices {
+    uint firstVertex, vertices; // of the part
+    uint firstComponent;
+};
+RELUME_SHARED_SIZE(BasisVertices, 12)
+
+// The kinds of a term.
+struct BasisTermKinds {
+    uint first, count;
+};
+RELUME_SHARED_SIZE(BasisTermKinds, 8)
+
+// A kind's weights in a cluster: of each eight vertices a uvec2 per component.
+struct BasisWeighting {
+    uint firstWeights; // in uvec2
+    uint firstScale, components;
+};
+RELUME_SHARED_SIZE(BasisWeighting, 12)
+
+struct RelightCombinePush {
+    uint terms, kinds;
+    uint groupsPerTerm; // of invocations, in a cluster
+};
+RELUME_SHARED_SIZE(RelightCombinePush, 12)
+
 struct ViewVertex {
     vec3 position;
     vec3 normal; // Unit length

@@ -157,3 +157,22 @@ TEST_CASE("relighter: clusters give the reference's bits") {
     const auto& columns = std::get<ClusteredTransport>(asset.parts[9].sets[0].transport);
     checkBits(device, asset, {.largestShard = columns.columns() * kClusterVertices * sizeof(uint32_t) / 3});
 }
+
+TEST_CASE("relighter: bases give the reference's bits") {
+    const TestDevice device;
+    std::mt19937 random(12);
+    Asset asset;
+    const auto add = [&](uint32_t vertices, uint32_t terms, uint32_t columns) {
+        AssetPart& part = asset.parts.emplace_back();
+        part.sets.emplace_back().transport =
+            test::sampleBases(vertices, terms, asset.faceSize, columns, random);
+    };
+    for (uint32_t terms = 1; terms <= 32; terms += 5) add(300, terms, 90);
+    add(256, 2, 4000);
+    add(1, 1, 100);
+    add(2000, 4, 300);
+    add(40, 2, 0);
+    checkBits(device, asset, {});
+    checkBits(device, asset, {.largestShard = 1});
+    checkBits(device, asset, {.largestShard = 64 * 1024});
+}

@@ -60,6 +60,40 @@ inline ClusteredTransport sampleClusters(uint32_t vertices, uint32_t terms, int 
     return transport;
 }
 
+// One to three kinds a term; clusters of `columns` columns and 2 · `terms` components at most.
+inline BasisTransport sampleBases(uint32_t vertices, uint32_t terms, int faceSize, uint32_t columns,
+                                  std::mt19937& random) {
+    BasisTransport transport;
+    transport.vertices = vertices;
+    transport.terms = terms;
+    for (uint32_t term = 0; term < terms; term++)
+        for (uint32_t kind = 0; kind <= term % 3; kind++)
+            transport.kinds.push_back(
+                {term, {1, 0.001f * float(int(random() % 2001) - 1000), -0.001f * float(random() % 1000)}});
+    const auto coefficients = uint32_t(6 * faceSize * faceSize);
+    const auto value = [&] { return int8_t(int(random() % 255) - 127); };
+    for (size_t number = 0; number < transport.clusterCount(); number++) {
+        BasisCluster& cluster = transport.clusters.emplace_back();
+        cluster.components =
+            number % 4 == 3 ? 0 : std::min(2 * terms + uint32_t(random() % 40), kMostBasisComponents);
+        for (uint32_t i = 0; i < columns; i++) cluster.indices.push_back(uint16_t(random() % coefficients));
+        std::ranges::sort(cluster.indices);
+        const auto repeated = std::ranges::unique(cluster.indices);
+        cluster.indices.erase(repeated.begin(), repeated.end());
+        for (size_t i = 0; i < cluster.columns() * cluster.components; i++) cluster.basis.push_back(value());
+        for (size_t kind = 0; kind < transport.kinds.size(); kind++) {
+            const uint32_t count = kind % 5 == 4 ? 0 : random() % (cluster.components + 1);
+            cluster.counts.push_back(uint16_t(count));
+            for (uint32_t i = 0; i < count; i++) {
+                cluster.scales.push_back(float(random() % 1000) * 1e-5f);
+                for (uint32_t v = 0; v < transport.verticesOf(number); v++)
+                    cluster.weights.push_back(value());
+            }
+        }
+    }
+    return transport;
+}
+
 inline AssetPart samplePart(uint32_t vertices, int terms, int faceSize, int perRow, std::mt19937& random) {
     std::normal_distribution<float> gauss;
     const auto point = [&] { return vec3(gauss(random), gauss(random), gauss(random)); };
@@ -167,12 +201,14 @@ inline void reseal(std::vector<std::byte>& bytes) {
     poke(bytes, 24, hash64(head), 8);
 }
 
-// The same, and a third part in clusters.
+// The same, a third part in clusters, and a fourth in bases.
 inline Asset mixedAsset(uint32_t seed = 1) {
     Asset asset = sampleAsset(seed);
     std::mt19937 random(seed + 1);
     asset.parts.push_back(samplePart(70, 2, asset.faceSize, asset.coefficients, random));
     asset.parts[2].sets[0].transport = sampleClusters(70, 2, asset.faceSize, 40, random);
+    asset.parts.push_back(samplePart(300, 2, asset.faceSize, asset.coefficients, random));
+    asset.parts[3].sets[0].transport = sampleBases(300, 2, asset.faceSize, 60, random);
     return asset;
 }
 

@@ -58,6 +58,25 @@ void checkSameSet(const MaterialSet& a, const MaterialSet& b) {
         CHECK(c.values == d.values);
         return;
     }
+    if (layoutOf(a.transport) == TransportLayout::Bases) {
+        const auto &c = std::get<BasisTransport>(a.transport), &d = std::get<BasisTransport>(b.transport);
+        REQUIRE(c.kinds.size() == d.kinds.size());
+        for (size_t kind = 0; kind < c.kinds.size(); kind++) {
+            CHECK(c.kinds[kind].term == d.kinds[kind].term);
+            CHECK(c.kinds[kind].color == d.kinds[kind].color);
+        }
+        REQUIRE(c.clusters.size() == d.clusters.size());
+        for (size_t number = 0; number < c.clusters.size(); number++) {
+            const BasisCluster &e = c.clusters[number], &f = d.clusters[number];
+            CHECK(e.components == f.components);
+            CHECK(e.indices == f.indices);
+            CHECK(e.basis == f.basis);
+            CHECK(e.counts == f.counts);
+            CHECK(e.scales == f.scales);
+            CHECK(e.weights == f.weights);
+        }
+        return;
+    }
     CHECK(rowsOf(a.transport).rowStarts == rowsOf(b.transport).rowStarts);
     CHECK(rowsOf(a.transport).scales == rowsOf(b.transport).scales);
     CHECK(rowsOf(a.transport).indices == rowsOf(b.transport).indices);
@@ -340,7 +359,7 @@ TEST_CASE("asset file: a table cannot promise what the file does not hold") {
 TEST_CASE("asset file: clusters that make no sense are refused") {
     const auto refuses = [](const auto& spoil) {
         Asset asset = mixedAsset();
-        spoil(std::get<ClusteredTransport>(asset.parts.back().sets[0].transport));
+        spoil(std::get<ClusteredTransport>(asset.parts[2].sets[0].transport));
         CHECK_THROWS_AS(checkAsset(asset, "test"), Error);
     };
     checkAsset(mixedAsset(), "test");
@@ -354,6 +373,31 @@ TEST_CASE("asset file: clusters that make no sense are refused") {
     refuses([](ClusteredTransport& t) { t.indices.back() = 384; });
     refuses([](ClusteredTransport& t) { t.values.pop_back(); });
     refuses([](ClusteredTransport& t) { t.values[0] = 0x400; });
+}
+
+TEST_CASE("asset file: bases that make no sense are refused") {
+    const auto refuses = [](const auto& spoil) {
+        Asset asset = mixedAsset();
+        spoil(std::get<BasisTransport>(asset.parts[3].sets[0].transport));
+        CHECK_THROWS_AS(checkAsset(asset, "test"), Error);
+    };
+    refuses([](BasisTransport& t) { t.vertices++; });
+    refuses([](BasisTransport& t) { t.terms--; });
+    refuses([](BasisTransport& t) { t.kinds[2].term = 0; });
+    refuses([](BasisTransport& t) { t.kinds[1].term = 2; });
+    refuses([](BasisTransport& t) { t.kinds[0].color.y = std::numeric_limits<float>::infinity(); });
+    refuses([](BasisTransport& t) { t.kinds.pop_back(); });
+    refuses([](BasisTransport& t) { t.clusters.pop_back(); });
+    refuses([](BasisTransport& t) { t.clusters[0].components++; });
+    refuses([](BasisTransport& t) { t.clusters[0].indices[1] = t.clusters[0].indices[0]; });
+    refuses([](BasisTransport& t) { t.clusters[0].indices.back() = 384; });
+    refuses([](BasisTransport& t) { t.clusters[0].basis.pop_back(); });
+    refuses([](BasisTransport& t) { t.clusters[0].basis[3] = -128; });
+    refuses([](BasisTransport& t) { t.clusters[0].counts[0]++; });
+    refuses([](BasisTransport& t) { t.clusters[0].counts[0] = 1000; });
+    refuses([](BasisTransport& t) { t.clusters[0].scales[0] = -1; });
+    refuses([](BasisTransport& t) { t.clusters[0].weights[5] = -128; });
+    refuses([](BasisTransport& t) { t.clusters[0].weights.pop_back(); });
 }
 
 TEST_CASE("asset file: absurd settings and counts are refused") {

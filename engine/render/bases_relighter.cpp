@@ -1,0 +1,168 @@
+#include "engine/render/bases_relighter.h"
+
+#include "engine/base/error.h"
+#include "engine/vk/upload.h"
+#include "shaders/relight_combine_comp.h"
+#include "shaders/relight_project_comp.h"
+#include "shaders/shared/render.h"
+
+#include <algorithm>
+
+namespace relume {
+
+using vk::Stage;
+
+namespace {
+
+constexpr uint32_t kLeastLanes = 8, kMostLanes = 64; // of the shaders
+constexpr uint32_t kWordsPerGroup = 8;               // of a column
+constexpr uint32_t kVerticesPerLane = 8;
+
+uint32_t lanesOf(const vk::Device& device) {
+    const uint32_t lanes = device.info().subgroupSize;
+    if (!device.info().subgroupBallot || lanes % kLeastLanes != 0 || lanes > kMostLanes)
+        throw Error("{}: relighting bases needs subgroups of {} to {} invocations that can vote; convert the "
+                    "bake to rows: `relume convert --layout rows`",
+                    device.name(), kLeastLanes, kMostLanes);
+    return lanes;
+}
+
+uint32_t roundUp(uint64_t value, uint32_t step) { return uint32_t((value + step - 1) / step); }
+
+// Puts a byte into a word, the lowest first.
+void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint8_t(value)) << 8 * place; }
+
+} // namespace
+
+BasesRelighter::Programs::Programs(const vk::Device& device) {
+    const uint32_t lanes = lanesOf(device);
+    project = {
+        device, relight_project_comp_spirv, {lanes}, "relight project", vk::ComputeProgram::Subgroups::Full};
+    combine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
+}
+
+// Clusters on their way to the device.
+class BasesRelighter::ShardData {
+  public:
+    std::vector<shared::BasisGroup> groups;
+    std::vector<shared::BasisVertices> clusters;
+    std::vector<shared::BasisWeighting> weightings;
+    std::vector<uint16_t> indices;
+    std::vector<uint32_t> basis, weights;
+    std::vector<float> scales;
+    uint32_t components = 0; // of all clusters, each padded to whole words
+
+    // Of the largest buffer, with that cluster too.
+    uint64_t bytesWith(const BasisTransport& transport, size_t cluster) const {
+        const BasisCluster& more = transport.clusters[cluster];
+        const uint64_t words = roundUp(more.components, 4);
+        const uint64_t octets = roundUp(transport.verticesOf(cluster), kVerticesPerLane);
+        return 4 * std::max({basis.size() + words * more.columns(),
+                             weights.size() + octets * more.scales.size() * 2, (components + 4 * words) * 3});
+    }
+
+    void add(const BasisTransport& transport, size_t number, uint32_t coefficients) {
+        const BasisCluster& from = transport.clusters[number];
+        const uint32_t words = roundUp(from.components, 4);
+        clusters.push_back({uint32_t(number * kBasisVertices), transport.verticesOf(number), components});
+        for (uint32_t word = 0; word < words; word += kWordsPerGroup)
+            groups.push_back({uint32_t(indices.size()), uint32_t(from.columns()), uint32_t(basis.size()),
+                              words, word, components});
+        components += 4 * words;
+        addBasis(from, words, coefficients);
+        addWeights(from, transport.verticesOf(number));
+    }
+
+  private:
+    void addBasis(const BasisCluster& from, uint32_t words, uint32_t coefficients) {
+        for (size_t column = 0; column < from.columns(); column++) {
+            RELUME_CHECK_LT(uint32_t(from.indices[column]), coefficients);
+            indices.push_back(from.indices[column]);
+            const size_t first = basis.size();
+            basis.resize(first + words, 0);
+            for (size_t i = 0; i < from.components; i++)
+                putByte(basis[first + i / 4], i % 4, from.basis[column * from.components + i]);
+        }
+    }
+
+    void addWeights(const BasisCluster& from, uint32_t vertices) {
+        size_t kindWeights = 0;
+        for (const size_t count : from.counts) {
+            weightings.push_back({uint32_t(weights.size() / 2), uint32_t(scales.size()), uint32_t(count)});
+            scales.insert(scales.end(), count, 0);
+            for (size_t first = 0; first < vertices; first += kVerticesPerLane)
+                for (size_t i = 0; i < count; i++) {
+                    uint32_t halves[2] = {0, 0};
+                    for (size_t v = 0; v < std::min<size_t>(kVerticesPerLane, vertices - first); v++)
+                        putByte(halves[v / 4], v % 4, from.weights[kindWeights + (first + v) * count + i]);
+                    weights.insert(weights.end(), halves, halves + 2);
+                }
+            kindWeights += count * vertices;
+        }
+        std::ranges::copy(from.scales, scales.end() - ptrdiff_t(from.scales.size()));
+    }
+};
+
+BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& programs,
+                               const BasisTransport& transport, uint32_t coefficients, uint64_t largestShard,
+                               const std::string& name)
+    : SetRelighter(device, uint32_t(transport.rows()), name), mPrograms(programs), mTerms(transport.terms),
+      mKinds(uint32_t(transport.kinds.size())),
+      mGroupsPerTerm(roundUp(kBasisVertices / kVerticesPerLane, programs.combine.groupSize()[0])) {
+    std::vector<shared::BasisTermKinds> termKinds(mTerms, {0, 0});
+    std::vector<vec3> colors;
+    for (uint32_t kind = 0; kind < mKinds; kind++) {
+        auto& [first, count] = termKinds[transport.kinds[kind].term];
+        if (count++ == 0) first = kind;
+        colors.push_back(transport.kinds[kind].color);
+    }
+    mTermKinds = vk::upload<shared::BasisTermKinds>(device, termKinds, name + " kinds of terms");
+    mColors = vk::upload<vec3>(device, colors, name + " colours of kinds");
+
+    constexpr uint32_t kMostGroups = kMostBasisComponents / (4 * kWordsPerGroup); // of a cluster
+    const size_t mostClusters =
+        device.limits().maxComputeWorkGroupCount[0] / std::max(mTerms * mGroupsPerTerm, kMostGroups);
+    for (size_t cluster = 0; cluster < transport.clusters.size();) {
+        ShardData data;
+        do data.add(transport, cluster++, coefficients);
+        while (cluster < transport.clusters.size() && data.clusters.size() < mostClusters &&
+               data.bytesWith(transport, cluster) <= largestShard);
+        mShards.push_back(upload(device, data, name));
+    }
+}
+
+BasesRelighter::Shard BasesRelighter::upload(const vk::Device& device, const ShardData& data,
+                                             const std::string& name) const {
+    std::vector<uint32_t> pairs(roundUp(data.indices.size(), 2), 0);
+    for (size_t i = 0; i < data.indices.size(); i++) pairs[i / 2] |= uint32_t(data.indices[i]) << i % 2 * 16;
+    const uint64_t projectionBytes = std::max<uint64_t>(data.components, 1) * sizeof(vec3);
+    return {uint32_t(data.clusters.size()),
+            uint32_t(data.groups.size()),
+            vk::upload<shared::BasisGroup>(device, data.groups, name + " basis groups"),
+            vk::upload<uint32_t>(device, pairs, name + " column indices"),
+            vk::upload<uint32_t>(device, data.basis, name + " basis"),
+            vk::Buffer(device, projectionBytes, vk::BufferUse::Device, name + " projections"),
+            vk::upload<shared::BasisVertices>(device, data.clusters, name + " clusters"),
+            vk::upload<shared::BasisWeighting>(device, data.weightings, name + " weightings"),
+            vk::upload<uint32_t>(device, data.weights, name + " weights"),
+            vk::upload<float>(device, data.scales, name + " weight scales")};
+}
+
+void BasesRelighter::record(vk::Commands& commands, const LightPass& light) const {
+    for (const Shard& shard : mShards)
+        if (shard.groups > 0)
+            commands.dispatch(mPrograms.project,
+                              {shard.groupList, shard.indices, shard.basis, light.table(), light.scale(),
+                               shard.projections},
+                              0, {shard.groups * mPrograms.project.groupSize()[0], 1, 1});
+    commands.barrier(Stage::Compute, Stage::Compute);
+    for (const Shard& shard : mShards)
+        commands.dispatch(
+            mPrograms.combine,
+            {shard.clusterList, mTermKinds, mColors, shard.weightings, shard.weights, shard.scales,
+             shard.projections, tuples()},
+            shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm},
+            {shard.clusters * mTerms * mGroupsPerTerm * mPrograms.combine.groupSize()[0], 1, 1});
+}
+
+} // namespace relume

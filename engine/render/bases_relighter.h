@@ -1,0 +1,42 @@
+// Relighting of bases: the light on a cluster's basis vectors, then these times its rows' weights.
+#pragma once
+
+#include "engine/render/set_relighter.h"
+#include "engine/transport/basis_transport.h"
+
+namespace relume {
+
+// The transport is divided into shards of whole clusters. Basis values are four components a word, columns
+// padded to whole words. Weights are those of eight vertices for one component after the other, 8 bytes each,
+// octet after octet of a cluster's kind, padded to whole octets.
+class BasesRelighter : public SetRelighter {
+  public:
+    struct Programs {
+        vk::ComputeProgram project, combine;
+        // Throws Error when the device has no subgroups that suit.
+        explicit Programs(const vk::Device& device);
+    };
+
+    // As RowsRelighter.
+    BasesRelighter(const vk::Device& device, const Programs& programs, const BasisTransport& transport,
+                   uint32_t coefficients, uint64_t largestShard, const std::string& name);
+
+    void record(vk::Commands& commands, const LightPass& light) const override;
+    size_t shards() const override { return mShards.size(); }
+
+  private:
+    struct Shard {
+        uint32_t clusters = 0, groups = 0;
+        vk::Buffer groupList, indices, basis, projections;   // relight_project.comp
+        vk::Buffer clusterList, weightings, weights, scales; // relight_combine.comp
+    };
+    class ShardData;
+    Shard upload(const vk::Device& device, const ShardData& data, const std::string& name) const;
+
+    const Programs& mPrograms;
+    uint32_t mTerms, mKinds, mGroupsPerTerm;
+    vk::Buffer mTermKinds, mColors;
+    std::vector<Shard> mShards;
+};
+
+} // namespace relume

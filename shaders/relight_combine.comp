@@ -1,0 +1,71 @@
+#version 460
+// Tuples of a cluster's vertices in one term: the projections of its basis vectors times the vertices' weights, summed
+// in the order of the components, kind after kind. Eight vertices an invocation, so that a projection serves several.
+// C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/render/bases_relighter.h.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/shared/render.h"
+
+layout(local_size_x_id = 0) in;
+layout(push_constant, scalar) uniform Push { RelightCombinePush push; };
+layout(binding = 0, scalar) readonly buffer Clusters { BasisVertices clusters[]; };
+layout(binding = 1, scalar) readonly buffer Terms { BasisTermKinds termKinds[]; };
+layout(binding = 2, scalar) readonly buffer Colors { vec3 colors[]; };          // of kinds
+layout(binding = 3, scalar) readonly buffer Weightings { BasisWeighting weightings[]; }; // by cluster and kind
+layout(binding = 4, std430) readonly buffer Weights { uvec2 weights[]; };       // of eight vertices
+layout(binding = 5, scalar) readonly buffer Scales { float scales[]; };
+layout(binding = 6, scalar) readonly buffer Projections { vec3 projections[]; };
+layout(binding = 7, scalar) writeonly buffer Tuples { vec3 tuples[]; };
+
+const uint kVertices = 8;
+
+vec4 unpackWeights(uint word) {
+    const int four = int(word);
+    return vec4(bitfieldExtract(four, 0, 8), bitfieldExtract(four, 8, 8), bitfieldExtract(four, 16, 8), four >> 24);
+}
+
+#define STORE(i, half, c)                                                                                              \
+    if (vertex + i < end) tuples[(vertex + i) * push.terms + term] = vec3(red[half].c, green[half].c, blue[half].c);
+
+void main() {
+    const uint perCluster = push.terms * push.groupsPerTerm;
+    const uint number = gl_WorkGroupID.x / perCluster, term = gl_WorkGroupID.x % perCluster / push.groupsPerTerm;
+    const BasisVertices cluster = clusters[number];
+    const uint octet = gl_WorkGroupID.x % push.groupsPerTerm * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (octet * kVertices >= cluster.vertices) return;
+    // A channel of eight vertices in two registers.
+    precise vec4 red[2] = vec4[](vec4(0), vec4(0)), green[2] = red, blue[2] = red;
+    const BasisTermKinds kinds = termKinds[term];
+    for (uint kind = kinds.first; kind < kinds.first + kinds.count; kind++) {
+        const BasisWeighting weighting = weightings[number * push.kinds + kind];
+        precise vec4 kindRed[2] = vec4[](vec4(0), vec4(0)), kindGreen[2] = kindRed, kindBlue[2] = kindRed;
+        uint place = weighting.firstWeights + octet * weighting.components;
+        for (uint i = 0; i < weighting.components; i++) {
+            precise const vec3 projection = projections[cluster.firstComponent + i] * scales[weighting.firstScale + i];
+            const uvec2 words = weights[place + i];
+            const vec4 low = unpackWeights(words.x), high = unpackWeights(words.y);
+            kindRed[0] += low * projection.r;
+            kindRed[1] += high * projection.r;
+            kindGreen[0] += low * projection.g;
+            kindGreen[1] += high * projection.g;
+            kindBlue[0] += low * projection.b;
+            kindBlue[1] += high * projection.b;
+        }
+        const vec3 color = colors[kind];
+        red[0] += kindRed[0] * color.r;
+        red[1] += kindRed[1] * color.r;
+        green[0] += kindGreen[0] * color.g;
+        green[1] += kindGreen[1] * color.g;
+        blue[0] += kindBlue[0] * color.b;
+        blue[1] += kindBlue[1] * color.b;
+    }
+    const uint vertex = cluster.firstVertex + octet * kVertices, end = cluster.firstVertex + cluster.vertices;
+    STORE(0, 0, x)
+    STORE(1, 0, y)
+    STORE(2, 0, z)
+    STORE(3, 0, w)
+    STORE(4, 1, x)
+    STORE(5, 1, y)
+    STORE(6, 1, z)
+    STORE(7, 1, w)
+}
