@@ -1,6 +1,7 @@
 #include "engine/vk/commands.h"
 
 #include "engine/vk/result.h"
+#include "engine/vk/tick_clock.h"
 
 #include <algorithm>
 
@@ -90,7 +91,7 @@ void Commands::begin() {
 
 void Commands::pass(const char* name, const std::function<void()>& work) {
     const uint32_t query = 2 * uint32_t(mTimedPasses.size());
-    const bool timed = mTimedPasses.size() < kMaxTimedPasses && mDevice.limits().timestampComputeAndGraphics;
+    const bool timed = mTimedPasses.size() < kMaxTimedPasses && mDevice.timestampBits() > 0;
     mDevice.beginLabel(mCommands, name);
     if (timed) {
         mTimedPasses.emplace_back(name);
@@ -325,8 +326,8 @@ void Commands::collectTimes() {
     RELUME_VK(vkGetQueryPoolResults(mDevice.handle(), mQueries, 0, uint32_t(ticks.size()), ticks.size() * 8,
                                     ticks.data(), 8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     for (size_t i = 0; i < mTimedPasses.size(); i++) {
-        const double seconds =
-            double(ticks[2 * i + 1] - ticks[2 * i]) * double(mDevice.limits().timestampPeriod) * 1e-9;
+        const double seconds = double(ticksBetween(ticks[2 * i], ticks[2 * i + 1], mDevice.timestampBits())) *
+                               double(mDevice.limits().timestampPeriod) * 1e-9;
         addTime(mTimes, mTimedPasses[i], seconds);
     }
 }
