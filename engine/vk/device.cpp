@@ -45,6 +45,7 @@ bool canReadClocks(VkInstance instance, VkPhysicalDevice physical) {
     RELUME_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr));
     std::vector<VkExtensionProperties> extensions(count);
     RELUME_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()));
+    extensions.resize(count);
     if (!hasExtension(extensions, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
     const auto domainsOf = reinterpret_cast<PFN_vkGetPhysicalDeviceCalibrateableTimeDomainsEXT>(
         vkGetInstanceProcAddr(instance, "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"));

@@ -5,7 +5,6 @@
 #include "engine/vk/device.h"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 
 namespace relume::vk {
@@ -61,22 +60,29 @@ TimingTrace TimingCapture::trace() const {
     for (const CpuStretch& stretch : mStretches)
         trace.spans.push_back(
             {Track::Cpu, stretch.frame, stretch.name, stretch.start - mStart, stretch.end - stretch.start});
-    std::map<uint32_t, std::pair<int64_t, int64_t>> frames; // first and last time
-    for (const Pass& pass : mPasses) {
-        const int64_t start = mClock->nanoseconds(pass.start) - mStart;
-        const int64_t end = mClock->nanoseconds(pass.end) - mStart;
-        trace.spans.push_back({Track::Gpu, pass.frame, pass.name, start, end - start});
-        if (!pass.frame) continue;
-        auto& [first, last] = frames.try_emplace(*pass.frame, start, end).first->second;
-        first = std::min(first, start);
-        last = std::max(last, end);
-    }
-    for (const auto& [frame, times] : frames)
-        trace.spans.push_back({Track::Gpu, frame, "frame", times.first, times.second - times.first});
+    const auto addGpu = [&](const Pass& pass) {
+        const int64_t start = mClock->nanoseconds(pass.start), end = mClock->nanoseconds(pass.end);
+        trace.spans.push_back({Track::Gpu, pass.frame, pass.name, start - mStart, end - start});
+    };
+    // Frames go first, so that they stay before a pass that is as long.
+    for (const Pass& frame : gpuFrames()) addGpu(frame);
+    for (const Pass& pass : mPasses) addGpu(pass);
     std::stable_sort(trace.spans.begin(), trace.spans.end(), [](const TimingSpan& a, const TimingSpan& b) {
         return std::tuple(a.track, a.start, -a.duration) < std::tuple(b.track, b.start, -b.duration);
     });
     return trace;
+}
+
+std::vector<TimingCapture::Pass> TimingCapture::gpuFrames() const {
+    std::vector<Pass> frames;
+    for (const Pass& pass : mPasses) {
+        if (!pass.frame) continue;
+        if (frames.empty() || frames.back().frame != pass.frame)
+            frames.push_back({"frame", pass.frame, pass.start, pass.end});
+        frames.back().start = std::min(frames.back().start, pass.start);
+        frames.back().end = std::max(frames.back().end, pass.end);
+    }
+    return frames;
 }
 
 size_t TimingCapture::begin(const char* name) {

@@ -42,6 +42,7 @@ class TimingCapture {
         int64_t start, end; // ticks since the clock's first calibration
     };
 
+    std::vector<Pass> gpuFrames() const;
     size_t begin(const char* name);
     void calibrate();
 

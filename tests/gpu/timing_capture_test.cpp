@@ -35,7 +35,8 @@ Asset makeAsset() {
     return test::makeTestAsset({part});
 }
 
-// Renders frames of a turning sky and a turning camera, the way the program does.
+// Renders frames of a turning camera, and of a sky that turns in every other of them, the way the program
+// does.
 TimingTrace captureFrames(const vk::Device& device, int frames, ClockMatch clock) {
     TimingCapture capture;
     CpuSpan loading(&capture, "load");
@@ -52,8 +53,10 @@ TimingTrace captureFrames(const vk::Device& device, int frames, ClockMatch clock
         const FrameSpan frameSpan(&capture);
         CpuSpan recording(&capture, "record");
         commands.begin();
-        light.record(commands, 0.1f * float(frame));
-        relighter.record(commands, light);
+        if (frame % 2 == 0) {
+            light.record(commands, 0.1f * float(frame));
+            relighter.record(commands, light);
+        }
         view.record(commands,
                     orbitCamera(boundsOf(asset.parts[0].mesh), 0.1f * float(frame), 0.3f, 1, 0.6f, 1.33f),
                     relighter);
@@ -76,20 +79,17 @@ TEST_CASE("timing capture: 100 frames nest, fill their GPU time, and stand on th
         const auto json = nlohmann::json::parse(chromeTrace(trace));
         CHECK_EQ(json["otherData"]["clock"], nameOf(trace.clock));
         const std::vector<test::ReadSpan> spans = test::readTraceEvents(json);
-        // Outside frames: "load" and one "calibrate" or more. In a frame: 5 of the CPU, 6 of the GPU.
-        CHECK_GE(spans.size(), 2u + 100 * (5 + 6));
+        // Outside frames: "load" and one "calibrate" or more. In a frame: 5 of the CPU, 6 or 2 of the GPU.
+        CHECK_GE(spans.size(), 2u + 50 * (5 + 6) + 50 * (5 + 2));
         test::checkNesting(spans);
         test::checkPassesFillFrames(spans, 100);
-        const double uncertainty = json["otherData"]["clock_uncertainty_us"];
+        test::checkClocksAgree(spans, 100, json["otherData"]["clock_uncertainty_us"]);
         for (int frame = 0; frame < 100; frame++) {
             for (const char* name : {"frame", "record", "submit", "wait", "read back"})
                 test::onlySpan(spans, "CPU", frame, name);
-            for (const char* name : {"light sample", "light haar", "light quantise", "relight", "view"})
-                test::onlySpan(spans, "GPU", frame, name);
-            // The GPU works after the CPU has begun to submit, and is done before the CPU has waited.
-            const test::ReadSpan gpu = test::onlySpan(spans, "GPU", frame, "frame");
-            CHECK_GE(gpu.start, test::onlySpan(spans, "CPU", frame, "submit").start - uncertainty - 1);
-            CHECK_LE(gpu.end(), test::onlySpan(spans, "CPU", frame, "wait").end() + uncertainty + 1);
+            test::onlySpan(spans, "GPU", frame, "view");
+            for (const char* name : {"light sample", "light haar", "light quantise", "relight"})
+                if (frame % 2 == 0) test::onlySpan(spans, "GPU", frame, name);
         }
         const std::vector<test::ReadSpan> table = test::readTimingTable(csvTable(trace));
         REQUIRE_EQ(table.size(), spans.size());

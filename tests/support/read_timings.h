@@ -98,6 +98,16 @@ inline ReadSpan onlySpan(const std::vector<ReadSpan>& spans, const std::string& 
     return found[0];
 }
 
+// The GPU works on a frame after the CPU has begun to submit it, and is done before the CPU has waited for
+// it, as far as the clocks are known to agree. A microsecond goes to a driver's idea of its own clock.
+inline void checkClocksAgree(const std::vector<ReadSpan>& spans, int frames, double uncertainty) {
+    for (int frame = 0; frame < frames; frame++) {
+        const ReadSpan gpu = onlySpan(spans, "GPU", frame, "frame");
+        CHECK_GE(gpu.start, onlySpan(spans, "CPU", frame, "submit").start - uncertainty - 1);
+        CHECK_LE(gpu.end(), onlySpan(spans, "CPU", frame, "wait").end() + uncertainty + 1);
+    }
+}
+
 // GPU spans of a frame's passes fill at least 9/10 of the time from its first timestamp to its last: over all
 // frames, and in most of them (any one may have been interrupted between two passes).
 inline void checkPassesFillFrames(const std::vector<ReadSpan>& spans, int frames) {
