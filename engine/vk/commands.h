@@ -59,7 +59,8 @@ class Commands {
     // Starts recording afresh.
     void begin();
 
-    // Records `work` under a debug label and, with timing on, between two timestamps.
+    // Records `work` under a debug label and, where the device has them, between two timestamps; those of a
+    // submission's first 512 passes.
     void pass(const char* name, const std::function<void()>& work);
 
     // Runs a compute program over at least `items` invocations; the program knows its group size.

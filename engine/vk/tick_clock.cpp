@@ -35,7 +35,7 @@ int64_t TickClock::sinceFirst(uint64_t ticks, int64_t near) const {
     // What the reading differs from what is expected, as a signed number of validBits bits.
     const uint64_t difference = ticks - mFirst - uint64_t(expected);
     const uint32_t unused = 64 - mValidBits;
-    return expected + (int64_t(difference << unused) >> unused);
+    return int64_t(uint64_t(expected) + uint64_t(int64_t(difference << unused) >> unused));
 }
 
 int64_t TickClock::nanoseconds(int64_t ticks) const {

@@ -103,13 +103,16 @@ inline ReadSpan onlySpan(const std::vector<ReadSpan>& spans, const std::string& 
 inline void checkClocksAgree(const std::vector<ReadSpan>& spans, int frames, double uncertainty) {
     for (int frame = 0; frame < frames; frame++) {
         const ReadSpan gpu = onlySpan(spans, "GPU", frame, "frame");
-        CHECK_GE(gpu.start, onlySpan(spans, "CPU", frame, "submit").start - uncertainty - 1);
-        CHECK_LE(gpu.end(), onlySpan(spans, "CPU", frame, "wait").end() + uncertainty + 1);
+        const ReadSpan submit = onlySpan(spans, "CPU", frame, "submit");
+        const ReadSpan wait = onlySpan(spans, "CPU", frame, "wait");
+        CHECK_LE(submit.end(), wait.start + kTimingRounding);
+        CHECK_GE(gpu.start, submit.start - uncertainty - 1);
+        CHECK_LE(gpu.end(), wait.end() + uncertainty + 1);
     }
 }
 
 // GPU spans of a frame's passes fill at least 9/10 of the time from its first timestamp to its last: over all
-// frames, and in most of them (any one may have been interrupted between two passes).
+// frames, and in the median one (any may have been interrupted between two passes on a busy machine).
 inline void checkPassesFillFrames(const std::vector<ReadSpan>& spans, int frames) {
     double passes = 0, whole = 0;
     int filled = 0;
@@ -125,7 +128,7 @@ inline void checkPassesFillFrames(const std::vector<ReadSpan>& spans, int frames
         whole += time;
     }
     CHECK_GE(passes, 0.9 * whole);
-    CHECK_GE(filled, 9 * frames / 10);
+    CHECK_GE(2 * filled, frames);
 }
 
 } // namespace relume::test
