@@ -2,12 +2,11 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/progress.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
+#include "engine/vk/timing_capture.h"
 
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -36,21 +35,33 @@ std::filesystem::path framePath(const Arguments& arguments, int frame) {
     return path.replace_filename(name);
 }
 
-nlohmann::ordered_json milliseconds(const vk::PassTimes& times) {
-    nlohmann::ordered_json passes;
-    for (const auto& [name, seconds] : times) passes[name] = 1e3 * seconds;
-    return passes;
+void writeTimings(const std::filesystem::path& path, const vk::TimingCapture& capture) {
+    const TimingTrace trace = capture.trace();
+    if (trace.clock == ClockMatch::None)
+        spdlog::warn("{}: {} writes no timestamps: spans of the CPU alone", path.string(), trace.device);
+    if (trace.clock == ClockMatch::Anchored)
+        spdlog::warn("{}: {} cannot read its clock together with the CPU's: GPU spans may be {:.1f} µs off "
+                     "against CPU spans",
+                     path.string(), trace.device, double(trace.clockUncertainty) / 1000);
+    writeTimings(path, trace);
 }
 
 void run(const Arguments& arguments) {
     arguments.image.check();
-    if (!arguments.timings.empty()) expectWritable(arguments.timings);
+    std::optional<vk::TimingCapture> timings;
+    if (!arguments.timings.empty()) {
+        expectTimingFile(arguments.timings);
+        timings.emplace();
+    }
+    vk::TimingCapture* const capture = timings ? &*timings : nullptr;
+    vk::CpuSpan loading(capture, "load");
     const Asset asset = readAsset(arguments.file);
     if (const std::optional<float> share = asset.provenance.bakedShare)
         spdlog::warn("{}: is a preview: {:.0f} % of its vertices are baked, the others interpolated",
                      arguments.file, 100 * *share);
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
+    if (capture) capture->attach(*device);
     LightPass light(*device, asset.faceSize);
     if (arguments.light.isEnvironment())
         light.setEnvironment(prepareForSampling(arguments.light.environment()));
@@ -59,14 +70,19 @@ void run(const Arguments& arguments) {
     view.setAppearance(appearance);
 
     const bool turnsLight = arguments.turn == "light";
-    auto frames = nlohmann::ordered_json::array();
     Progress progress("rendering", uint64_t(arguments.frames), "frames");
     vk::Commands commands(*device, "render");
+    commands.setCapture(capture);
+    loading.end();
     for (int frame = 0; frame < arguments.frames; frame++) {
+        const vk::FrameSpan frameSpan(capture);
         const float angle = 2 * kPi * float(frame) / float(arguments.frames);
         const bool lightChanges = frame == 0 || turnsLight;
-        if (lightChanges && !arguments.light.isEnvironment())
+        if (lightChanges && !arguments.light.isEnvironment()) {
+            const vk::CpuSpan lighting(capture, "light");
             light.setCube(arguments.light.lamp(asset.faceSize, turnsLight ? angle : 0));
+        }
+        vk::CpuSpan recording(capture, "record");
         commands.begin();
         if (lightChanges) {
             light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
@@ -74,18 +90,16 @@ void run(const Arguments& arguments) {
             relighter.record(commands, light, appearance);
         }
         view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter);
+        recording.end();
         commands.submitAndWait();
-        frames.push_back(milliseconds(commands.times()));
-        commands.clearTimes();
-        arguments.image.write(framePath(arguments, frame), view.read());
+        vk::CpuSpan reading(capture, "read back");
+        const Image image = view.read();
+        reading.end();
+        const vk::CpuSpan writing(capture, "write image");
+        arguments.image.write(framePath(arguments, frame), image);
         progress.update(uint64_t(frame) + 1);
     }
-    if (!arguments.timings.empty()) {
-        const nlohmann::ordered_json json = {{"device", device->name()},
-                                             {"light_coefficients", light.readVector().indices.size()},
-                                             {"frames_ms", frames}};
-        writeFileAtomically(arguments.timings, json.dump(2) + "\n");
-    }
+    if (capture) writeTimings(arguments.timings, *capture);
     DeviceArguments::expectNoMessages(*device);
 }
 
@@ -109,7 +123,9 @@ void addRenderCommand(CLI::App& program) {
         ->check(CLI::IsMember({"camera", "light"}))
         ->capture_default_str();
     arguments->device.add(*command);
-    command->add_option("--timings", arguments->timings, "Write device time per pass and frame as JSON")
+    command
+        ->add_option("--timings", arguments->timings,
+                     "Write what each frame spends its time on: .json for trace viewers, .csv a table")
         ->type_name("FILE");
     command->callback([arguments] { run(*arguments); });
 }

@@ -1,6 +1,8 @@
 #include "engine/vk/commands.h"
 
 #include "engine/vk/result.h"
+#include "engine/vk/tick_clock.h"
+#include "engine/vk/timing_capture.h"
 
 #include <algorithm>
 
@@ -90,7 +92,7 @@ void Commands::begin() {
 
 void Commands::pass(const char* name, const std::function<void()>& work) {
     const uint32_t query = 2 * uint32_t(mTimedPasses.size());
-    const bool timed = mTimedPasses.size() < kMaxTimedPasses && mDevice.limits().timestampComputeAndGraphics;
+    const bool timed = mTimedPasses.size() < kMaxTimedPasses && mDevice.timestampBits() > 0;
     mDevice.beginLabel(mCommands, name);
     if (timed) {
         mTimedPasses.emplace_back(name);
@@ -307,6 +309,7 @@ void Commands::copy(const Image& from, const Buffer& to, uint32_t layers) {
 }
 
 void Commands::submitAndWait() {
+    CpuSpan submission(mCapture, "submit");
     RELUME_VK(vkEndCommandBuffer(mCommands));
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     buffer.commandBuffer = mCommands;
@@ -314,19 +317,25 @@ void Commands::submitAndWait() {
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &buffer;
     RELUME_VK(vkQueueSubmit2(mDevice.queue(), 1, &submit, mFence));
+    submission.end();
+    CpuSpan waiting(mCapture, "wait");
     RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mFence, VK_TRUE, UINT64_MAX));
     RELUME_VK(vkResetFences(mDevice.handle(), 1, &mFence));
+    waiting.end();
     collectTimes();
 }
 
 void Commands::collectTimes() {
-    if (mTimedPasses.empty()) return;
-    std::vector<uint64_t> ticks(2 * mTimedPasses.size());
-    RELUME_VK(vkGetQueryPoolResults(mDevice.handle(), mQueries, 0, uint32_t(ticks.size()), ticks.size() * 8,
-                                    ticks.data(), 8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    mReadings.resize(2 * mTimedPasses.size());
+    if (mReadings.empty()) return;
+    RELUME_VK(vkGetQueryPoolResults(mDevice.handle(), mQueries, 0, uint32_t(mReadings.size()),
+                                    mReadings.size() * 8, mReadings.data(), 8,
+                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    if (mCapture) mCapture->addPasses(mTimedPasses, mReadings);
     for (size_t i = 0; i < mTimedPasses.size(); i++) {
         const double seconds =
-            double(ticks[2 * i + 1] - ticks[2 * i]) * double(mDevice.limits().timestampPeriod) * 1e-9;
+            double(ticksBetween(mReadings[2 * i], mReadings[2 * i + 1], mDevice.timestampBits())) *
+            double(mDevice.limits().timestampPeriod) * 1e-9;
         addTime(mTimes, mTimedPasses[i], seconds);
     }
 }

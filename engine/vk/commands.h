@@ -14,6 +14,8 @@
 
 namespace relume::vk {
 
+class TimingCapture;
+
 // One resource of a dispatch or draw, in the order of the shader's binding numbers.
 struct Binding {
     Binding(const Buffer& whole) : buffer(&whole), bytes(whole.bytes()) {}
@@ -50,10 +52,15 @@ class Commands {
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
+    // Where the passes of submissions to come are reported, with CPU spans "submit" and "wait"; null:
+    // nowhere.
+    void setCapture(TimingCapture* capture) { mCapture = capture; }
+
     // Starts recording afresh.
     void begin();
 
-    // Records `work` under a debug label and, with timing on, between two timestamps.
+    // Records `work` under a debug label and, where the device has them, between two timestamps; those of a
+    // submission's first 512 passes.
     void pass(const char* name, const std::function<void()>& work);
 
     // Runs a compute program over at least `items` invocations; the program knows its group size.
@@ -89,6 +96,8 @@ class Commands {
     // Submits and waits; adds this submission's pass times to `times()`.
     void submitAndWait();
 
+    // Timestamps of the last submission as the device wrote them, two a pass.
+    std::span<const uint64_t> readings() const { return mReadings; }
     const PassTimes& times() const { return mTimes; }
     void clearTimes() { mTimes.clear(); }
 
@@ -109,7 +118,9 @@ class Commands {
     std::vector<VkDescriptorPool> mDescriptorPools;
     size_t mActivePool = 0;
     std::vector<std::string> mTimedPasses; // pass i wrote queries 2i and 2i + 1
+    std::vector<uint64_t> mReadings;
     PassTimes mTimes;
+    TimingCapture* mCapture = nullptr;
 };
 
 // Adds seconds to the entry of that name, which is made if it is new.

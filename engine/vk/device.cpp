@@ -25,14 +25,37 @@ bool hasLayer(const char* name) {
     });
 }
 
+bool hasExtension(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
 bool hasInstanceExtension(const char* name) {
     uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, name) == 0;
-    });
+    return hasExtension(extensions, name);
+}
+
+// Whether the device's clock can be read together with CLOCK_MONOTONIC.
+bool canReadClocks(VkInstance instance, VkPhysicalDevice physical) {
+    uint32_t count = 0;
+    RELUME_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr));
+    std::vector<VkExtensionProperties> extensions(count);
+    RELUME_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()));
+    extensions.resize(count);
+    if (!hasExtension(extensions, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
+    const auto domainsOf = reinterpret_cast<PFN_vkGetPhysicalDeviceCalibrateableTimeDomainsEXT>(
+        vkGetInstanceProcAddr(instance, "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"));
+    RELUME_VK(domainsOf(physical, &count, nullptr));
+    std::vector<VkTimeDomainEXT> domains(count);
+    RELUME_VK(domainsOf(physical, &count, domains.data()));
+    const auto has = [&](VkTimeDomainEXT domain) {
+        return std::find(domains.begin(), domains.end(), domain) != domains.end();
+    };
+    return has(VK_TIME_DOMAIN_DEVICE_EXT) && has(VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT);
 }
 
 // The layer's optional checks that "core,sync,gpu,best" asks for.
@@ -181,6 +204,11 @@ void Device::pickPhysicalDevice(const std::string& select) {
     vkGetPhysicalDeviceProperties(mPhysical, &mProperties);
     vkGetPhysicalDeviceMemoryProperties(mPhysical, &mMemory);
     mQueueFamily = *findQueueFamily(mPhysical);
+    uint32_t families = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(mPhysical, &families, nullptr);
+    std::vector<VkQueueFamilyProperties> properties(families);
+    vkGetPhysicalDeviceQueueFamilyProperties(mPhysical, &families, properties.data());
+    mTimestampBits = properties[mQueueFamily].timestampValidBits;
 }
 
 void Device::createDevice() {
@@ -207,8 +235,18 @@ void Device::createDevice() {
     create.pEnabledFeatures = &features;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
+    const char* calibratedTimestamps = VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME;
+    const bool hasClocks = canReadClocks(mInstance, mPhysical);
+    if (hasClocks) {
+        create.enabledExtensionCount = 1;
+        create.ppEnabledExtensionNames = &calibratedTimestamps;
+    }
     RELUME_VK(vkCreateDevice(mPhysical, &create, nullptr, &mDevice));
     vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
+    setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(mQueue), "queue");
+    if (hasClocks)
+        mReadClocks = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
+            vkGetDeviceProcAddr(mDevice, "vkGetCalibratedTimestampsEXT"));
 }
 
 uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,

@@ -57,6 +57,11 @@ class Device {
     // Bytes of the largest buffer that one binding may see, and that one allocation may hold.
     uint64_t largestStorageBuffer() const { return mInfo.largestStorageBuffer; }
 
+    // Bits of a timestamp that count, 36 to 64; 0: the queue writes none.
+    uint32_t timestampBits() const { return mTimestampBits; }
+    // Reads the clocks of the device and of the CPU (CLOCK_MONOTONIC) together; null where it is not offered.
+    PFN_vkGetCalibratedTimestampsEXT readClocks() const { return mReadClocks; }
+
     // Index of a memory type with these properties among `typeBits`, with `preferred` ones too if it can be;
     // throws Error if there is none.
     uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
@@ -85,6 +90,7 @@ class Device {
     VkDevice mDevice = VK_NULL_HANDLE;
     VkQueue mQueue = VK_NULL_HANDLE;
     uint32_t mQueueFamily = 0;
+    uint32_t mTimestampBits = 0;
     VkPhysicalDeviceProperties mProperties{};
     VkPhysicalDeviceMemoryProperties mMemory{};
     DeviceInfo mInfo{};
@@ -92,6 +98,7 @@ class Device {
     PFN_vkSetDebugUtilsObjectNameEXT mSetName = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT mBeginLabel = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT mEndLabel = nullptr;
+    PFN_vkGetCalibratedTimestampsEXT mReadClocks = nullptr;
 };
 
 } // namespace relume::vk

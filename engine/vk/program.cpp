@@ -13,11 +13,12 @@ namespace {
 // A shader module for the time of a pipeline's creation.
 class Module {
   public:
-    Module(const Device& device, std::span<const uint32_t> spirv) : mDevice(device) {
+    Module(const Device& device, std::span<const uint32_t> spirv, std::string_view name) : mDevice(device) {
         VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         create.codeSize = spirv.size_bytes();
         create.pCode = spirv.data();
         RELUME_VK(vkCreateShaderModule(device.handle(), &create, nullptr, &mModule));
+        device.setName(VK_OBJECT_TYPE_SHADER_MODULE, reinterpret_cast<uint64_t>(mModule), name);
     }
     ~Module() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
     Module(const Module&) = delete;
@@ -114,7 +115,7 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
     RELUME_CHECK_LE(mGroupSize[0] * mGroupSize[1] * mGroupSize[2],
                     device.limits().maxComputeWorkGroupInvocations);
 
-    const Module module(device, spirv);
+    const Module module(device, spirv, name);
     const Specialisation specialisation(constants);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialisation.info);
@@ -137,7 +138,7 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     const ShaderInterface interfaces[] = {reflect(vertexSpirv, constants), reflect(fragmentSpirv, constants)};
     createLayout(device, interfaces, name);
 
-    const Module vertex(device, vertexSpirv), fragment(device, fragmentSpirv);
+    const Module vertex(device, vertexSpirv, name), fragment(device, fragmentSpirv, name);
     const Specialisation specialisation(constants);
     const VkPipelineShaderStageCreateInfo stages[] = {
         vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialisation.info),

@@ -5,6 +5,8 @@
 // RELUME_FAULT_CALL   which call fails, from 1: of write, pwrite, fsync, fdatasync and rename to such files.
 //                     Every later write fails too where it is `full`, as on a full disk
 // RELUME_FAULT_SUBMIT which vkQueueSubmit2 fails with VK_ERROR_OUT_OF_DEVICE_MEMORY, from 1
+// RELUME_FAULT_EXTENSION       a device extension that is not there
+// RELUME_FAULT_TIMESTAMP_BITS  valid bits of every queue's timestamps
 #include <atomic>
 #include <cerrno>
 #include <climits>
@@ -97,6 +99,26 @@ VkResult vkQueueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2* subm
         next<VkResult(VkQueue, uint32_t, const VkSubmitInfo2*, VkFence)>("vkQueueSubmit2");
     if (++gSubmissions == number("RELUME_FAULT_SUBMIT")) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     return real(queue, count, submits, fence);
+}
+
+VkResult vkEnumerateDeviceExtensionProperties(VkPhysicalDevice device, const char* layer, uint32_t* count,
+                                              VkExtensionProperties* extensions) {
+    static const auto real = next<VkResult(VkPhysicalDevice, const char*, uint32_t*, VkExtensionProperties*)>(
+        "vkEnumerateDeviceExtensionProperties");
+    const VkResult result = real(device, layer, count, extensions);
+    const char* missing = std::getenv("RELUME_FAULT_EXTENSION");
+    for (uint32_t i = 0; missing && extensions && i < *count; i++)
+        if (!std::strcmp(extensions[i].extensionName, missing)) extensions[i] = extensions[--*count];
+    return result;
+}
+
+void vkGetPhysicalDeviceQueueFamilyProperties(VkPhysicalDevice device, uint32_t* count,
+                                              VkQueueFamilyProperties* families) {
+    static const auto real = next<void(VkPhysicalDevice, uint32_t*, VkQueueFamilyProperties*)>(
+        "vkGetPhysicalDeviceQueueFamilyProperties");
+    real(device, count, families);
+    for (uint32_t i = 0; std::getenv("RELUME_FAULT_TIMESTAMP_BITS") && families && i < *count; i++)
+        families[i].timestampValidBits = uint32_t(number("RELUME_FAULT_TIMESTAMP_BITS"));
 }
 
 } // extern "C"
