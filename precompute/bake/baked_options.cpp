@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kVertexOrder = "morton";
+constexpr const char* kVertexOrder = "bisected";
 
 constexpr const char* kRemedy = "bake it again from its inputs";
 

@@ -3,7 +3,10 @@
 #include "engine/base/check.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 namespace relume {
@@ -58,21 +61,94 @@ uvec3 rotated(uvec3 t) {
     return t;
 }
 
-} // namespace
-
-void orderVertices(Mesh& mesh) {
-    RELUME_CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.vertexCount());
-    const std::vector<Key> keys = sortedKeys(mesh);
-    std::vector<uint32_t> order(keys.size()), renumbered(keys.size());
-    for (size_t i = 0; i < keys.size(); i++) {
-        order[i] = keys[i].index;
-        renumbered[keys[i].index] = uint32_t(i);
-    }
+// Makes vertex order[i] vertex i; triangles are renumbered and sorted.
+void reorder(Mesh& mesh, std::span<const uint32_t> order) {
+    std::vector<uint32_t> renumbered(order.size());
+    for (size_t i = 0; i < order.size(); i++) renumbered[order[i]] = uint32_t(i);
     reorderVertices(mesh, order);
     for (uvec3& t : mesh.triangles) t = rotated({renumbered[t.x], renumbered[t.y], renumbered[t.z]});
     std::sort(mesh.triangles.begin(), mesh.triangles.end(), [](const uvec3& a, const uvec3& b) {
         return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
     });
+}
+
+// The side of a square of a cluster's share of the surface; of a mesh without area, of its box.
+double clusterSide(const Mesh& mesh) {
+    double area = 0;
+    for (const uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    const glm::dvec3 extent = glm::dvec3(boundsOf(mesh).high) - glm::dvec3(boundsOf(mesh).low);
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    const double clusters = std::ceil(double(mesh.vertexCount()) / kOrderedVertices);
+    const double side = std::sqrt((area > 0 ? area : largest * largest) / clusters);
+    return side > 0 ? side : 1;
+}
+
+// Cuts a mesh's vertices, which come along the Morton curve, into clusters.
+class Bisection {
+  public:
+    explicit Bisection(const Mesh& mesh) : mFeatures(mesh.vertexCount()), mOrder(mesh.vertexCount()) {
+        const double side = clusterSide(mesh);
+        for (size_t i = 0; i < mFeatures.size(); i++) {
+            const glm::dvec3 p = glm::dvec3(mesh.positions[i]) / side;
+            const glm::dvec3 n =
+                mesh.normals.empty() ? glm::dvec3(0) : kNormalWeight * glm::dvec3(mesh.normals[i]);
+            mFeatures[i] = {p.x, p.y, p.z, n.x, n.y, n.z};
+        }
+        std::iota(mOrder.begin(), mOrder.end(), 0u);
+        split(mOrder);
+    }
+
+    const std::vector<uint32_t>& order() const { return mOrder; }
+
+  private:
+    // A cluster on a sharp edge costs as much as one twice as long.
+    static constexpr double kNormalWeight = 2;
+
+    size_t widestAxis(std::span<const uint32_t> vertices) const {
+        std::array<double, 6> mean{}, spread{};
+        for (const uint32_t vertex : vertices)
+            for (size_t axis = 0; axis < 6; axis++) mean[axis] += mFeatures[vertex][axis];
+        for (double& sum : mean) sum /= double(vertices.size());
+        for (const uint32_t vertex : vertices)
+            for (size_t axis = 0; axis < 6; axis++) {
+                const double away = mFeatures[vertex][axis] - mean[axis];
+                spread[axis] += away * away;
+            }
+        return size_t(std::max_element(spread.begin(), spread.end()) - spread.begin());
+    }
+
+    // `vertices` rise, before and in each cluster after.
+    void split(std::span<uint32_t> vertices) {
+        const size_t clusters = (vertices.size() + kOrderedVertices - 1) / kOrderedVertices;
+        if (clusters < 2) return;
+        const size_t axis = widestAxis(vertices), cut = clusters / 2 * kOrderedVertices;
+        const auto before = [&](uint32_t a, uint32_t b) {
+            return std::tie(mFeatures[a][axis], a) < std::tie(mFeatures[b][axis], b);
+        };
+        std::vector<uint32_t> sorted(vertices.begin(), vertices.end());
+        std::nth_element(sorted.begin(), sorted.begin() + ptrdiff_t(cut), sorted.end(), before);
+        const uint32_t first = sorted[cut]; // of the upper half
+        std::stable_partition(vertices.begin(), vertices.end(),
+                              [&](uint32_t vertex) { return before(vertex, first); });
+        split(vertices.first(cut));
+        split(vertices.subspan(cut));
+    }
+
+    std::vector<std::array<double, 6>> mFeatures;
+    std::vector<uint32_t> mOrder;
+};
+
+} // namespace
+
+void orderVertices(Mesh& mesh) {
+    RELUME_CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.vertexCount());
+    std::vector<uint32_t> order;
+    for (const Key& key : sortedKeys(mesh)) order.push_back(key.index);
+    reorder(mesh, order);
+    reorder(mesh, Bisection(mesh).order());
 }
 
 } // namespace relume

@@ -61,11 +61,53 @@ TEST_CASE("vertex order: the surface stays, winding included") {
     }
 }
 
-TEST_CASE("vertex order: neighbours along the curve are neighbours in space") {
+TEST_CASE("vertex order: consecutive vertices are neighbours in space") {
     Mesh mesh = shuffled(makeKnot(12000), 3);
     const double before = meanStep(mesh);
     orderVertices(mesh);
     CHECK(meanStep(mesh) < 0.1 * before);
+}
+
+TEST_CASE("vertex order: clusters are compact, whatever the scale, and along a curve within") {
+    // A strip of 8 × 512 cells: halved along its length down to 2 × 256 vertices' worth each.
+    for (const float scale : {1e-6f, 1.0f, 1e9f}) {
+        Mesh strip;
+        for (uint32_t x = 0; x < 512; x++)
+            for (uint32_t z = 0; z < 8; z++) strip.positions.push_back(scale * vec3(x, 0, z));
+        strip.normals.assign(strip.positions.size(), vec3(0, 1, 0));
+        for (uint32_t i = 0; i + 9 < strip.positions.size(); i++)
+            strip.triangles.push_back({i, i + 1, i + 9});
+        strip = shuffled(strip, 4);
+        orderVertices(strip);
+        for (size_t first = 0; first < strip.vertexCount(); first += kOrderedVertices)
+            for (size_t i = first; i < first + kOrderedVertices; i++)
+                CHECK(size_t(strip.positions[i].x / scale + 0.5f) / 32 == first / kOrderedVertices);
+    }
+}
+
+TEST_CASE("vertex order: clusters do not reach around an edge") {
+    // Two sheets back to back, closer than their vertices are.
+    Mesh sheets;
+    for (int side = 0; side < 2; side++)
+        for (uint32_t i = 0; i < 1024; i++) {
+            sheets.positions.push_back(vec3(i % 32, 0.01f * float(side), i / 32));
+            sheets.normals.push_back(vec3(0, side ? 1 : -1, 0));
+        }
+    for (uint32_t i = 0; i + 33 < 1024; i++) sheets.triangles.push_back({i, i + 1, i + 33});
+    sheets = shuffled(sheets, 5);
+    orderVertices(sheets);
+    for (size_t first = 0; first < 2048; first += kOrderedVertices)
+        for (size_t i = first; i < first + kOrderedVertices; i++)
+            CHECK(sheets.normals[i] == sheets.normals[first]);
+}
+
+TEST_CASE("vertex order: only the last cluster is short; points without extent keep their order") {
+    Mesh mesh;
+    for (int i = 0; i < 600; i++) mesh.positions.push_back(vec3(i < 100 ? 0 : 1, 0, 0));
+    mesh.colors.resize(600);
+    for (int i = 0; i < 600; i++) mesh.colors[size_t(i)] = vec4(float(i));
+    orderVertices(mesh); // cut at 256: ties go by the order they came in
+    for (int i = 0; i < 600; i++) CHECK(mesh.colors[size_t(i)] == vec4(float(i)));
 }
 
 TEST_CASE("vertex order: the curve's first corners, and the normal where positions agree") {
