@@ -7,6 +7,7 @@ namespace relume {
 
 void addBakeCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
+void addConvertCommand(CLI::App& program);
 void addRebakeCommand(CLI::App& program);
 void addRenderCommand(CLI::App& program);
 void addReferenceCommand(CLI::App& program);

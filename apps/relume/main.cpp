@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     addBakeCommand(program);
     addMergeCommand(program);
     addRebakeCommand(program);
+    addConvertCommand(program);
     addRenderCommand(program);
     addReferenceCommand(program);
     addCompareCommand(program);

@@ -1,0 +1,33 @@
+// The transport of a cluster of vertices as one matrix, for compression.
+#pragma once
+
+#include "engine/transport/basis_transport.h"
+#include "engine/transport/sparse_transport.h"
+
+#include <Eigen/Core>
+#include <span>
+
+namespace relume {
+
+// Errors of it are errors of relighting: amounts of kinds times the length of their colour, and times the
+// light's spectrum (light_spectrum.h), in units of `unit`. Row j · vertices + v is kind j of vertex v.
+struct ClusterMatrix {
+    uint32_t vertices = 0;
+    float unit = 1;
+    std::vector<uint16_t> columns; // coefficients, rising: those of most energy
+    Eigen::MatrixXf values;
+    Eigen::VectorXd energy; // per kind, over all coefficients: sums of squares
+
+    size_t kinds() const { return size_t(energy.size()); }
+};
+
+// Root mean square over a set's vertices of what they hold in all terms, times the spectrum; 1 for none. As
+// the unit it makes errors relative, so that a dark or smooth part is not starved beside a bright one.
+float transportUnit(const SparseTransport& rows, std::span<const float> spectrum);
+
+// Of vertices [first, first + count) of a set's rows; `most` columns at most.
+ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_t count,
+                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit,
+                            size_t most);
+
+} // namespace relume

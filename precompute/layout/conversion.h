@@ -1,0 +1,24 @@
+// An asset's transport from one layout to another.
+#pragma once
+
+#include "engine/transport/asset.h"
+#include "precompute/layout/layout_options.h"
+
+#include <functional>
+
+namespace relume {
+
+struct Conversion {
+    uint64_t bytesBefore = 0, bytesAfter = 0; // of transport in memory
+    // As in LayoutOptions, of what was lost against the transport before; none where rows were made.
+    std::optional<double> error;
+};
+
+uint64_t verticesOf(const Asset& asset);
+
+// By way of rows of at most asset.coefficients entries. Calls progress(vertices done, of how many) from the
+// calling thread, and does nothing more once that throws. The same asset and options give the same bytes.
+Conversion convertLayout(Asset& asset, const LayoutOptions& options,
+                         const std::function<void(uint64_t done, uint64_t total)>& progress = {});
+
+} // namespace relume

@@ -1,0 +1,21 @@
+// How transport is kept, and what it may cost.
+#pragma once
+
+#include "engine/transport/transport.h"
+
+#include <optional>
+
+namespace relume {
+
+// The error at which bases relight about as well as rows of 96 coefficients do.
+constexpr double kDefaultLayoutError = 0.045;
+
+struct LayoutOptions {
+    TransportLayout layout = TransportLayout::Bases;
+    // Of clusters and bases, one of both. Bytes of transport in memory per vertex of the asset, or the error
+    // of transport, weighted as light weighs it: root mean square, relative to the whole of each set.
+    std::optional<double> bytesPerVertex;
+    double error = kDefaultLayoutError;
+};
+
+} // namespace relume

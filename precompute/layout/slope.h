@@ -1,0 +1,22 @@
+// One price of a byte for all clusters: the whole has then the least error for its bytes.
+#pragma once
+
+#include "precompute/layout/basis_analysis.h"
+
+namespace relume {
+
+struct CutTotals {
+    double bytes = 0;
+    double error = 0; // squared, in units of the matrices, but for quantisation
+};
+
+// Of all clusters' cuts at a price: an error that a byte must save.
+CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price);
+
+// The price at which all cuts together have `bytes`, or the most below.
+double priceForBytes(std::span<const BasisAnalysis> clusters, double bytes);
+
+// The highest price at which the squared error is at most `error`; else what leaves the least.
+double priceForError(std::span<const BasisAnalysis> clusters, double error);
+
+} // namespace relume

@@ -1,0 +1,308 @@
+#include "precompute/layout/conversion.h"
+
+#include "engine/transport/asset_check.h"
+#include "precompute/layout/basis_encoder.h"
+#include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/light_spectrum.h"
+#include "precompute/layout/slope.h"
+#include "tests/support/asset_sample.h"
+
+#include <Eigen/SVD>
+#include <doctest/doctest.h>
+#include <set>
+
+using namespace relume;
+
+namespace {
+
+constexpr int kFace = 8;
+constexpr size_t kCoefficients = 6 * kFace * kFace;
+
+FactoredBrdf factors(int terms, bool isGrey) {
+    std::mt19937 random(7);
+    FactoredBrdf brdf;
+    brdf.size = 4;
+    brdf.terms = terms;
+    const auto number = [&] { return float(random() % 2001) * 1e-3f - 1; };
+    for (int term = 0; term < terms; term++)
+        for (size_t i = 0; i < brdf.mapTexels(); i++) {
+            const float grey = number();
+            brdf.lightMaps.push_back(isGrey ? vec3(grey)
+                                            : vec3(grey, 0.8f * grey, 0.5f * grey + 0.02f * number()));
+        }
+    return brdf;
+}
+
+// Rows of a smooth field: a few patterns of light, in amounts that change slowly from vertex to vertex.
+SparseTransport smoothRows(uint32_t vertices, uint32_t terms, uint32_t seed, bool isGrey = true,
+                           int kept = 60) {
+    std::mt19937 random(seed);
+    const auto number = [&] { return float(random() % 2001) * 1e-3f - 1; };
+    constexpr size_t kPatterns = 12;
+    std::vector<std::vector<float>> patterns(kPatterns, std::vector<float>(kCoefficients, 0.0f));
+    for (auto& pattern : patterns)
+        for (int i = 0; i < 20; i++) pattern[random() % kCoefficients] = number();
+    SparseTransport rows;
+    rows.vertices = vertices, rows.terms = terms;
+    rows.rowStarts.push_back(0);
+    for (size_t row = 0; row < rows.rows(); row++) {
+        std::vector<std::pair<float, uint16_t>> entries;
+        for (size_t c = 0; c < kCoefficients; c++) {
+            float sum = 0;
+            for (size_t p = 0; p < kPatterns; p++)
+                sum += patterns[p][c] * std::cos(float(p + 1) * (0.01f * float(row) + 1)) / float(p + 1);
+            if (sum != 0) entries.push_back({sum, uint16_t(c)});
+        }
+        std::ranges::stable_sort(entries,
+                                 [](auto& a, auto& b) { return std::abs(a.first) > std::abs(b.first); });
+        entries.resize(std::min<size_t>(entries.size(), size_t(kept)));
+        std::ranges::sort(entries, {}, [](auto& entry) { return entry.second; });
+        rows.scales.push_back(0.1f);
+        for (const auto& [value, index] : entries) {
+            const vec3 color = isGrey ? vec3(1) : vec3(1, 0.8f, 0.5f + 0.02f * number());
+            const uint32_t packed = packCoefficient(quantiseCoefficient(0.2f * value * color, 1));
+            if (packed == 0) continue;
+            rows.indices.push_back(index);
+            rows.values.push_back(packed);
+        }
+        rows.rowStarts.push_back(rows.values.size());
+    }
+    return rows;
+}
+
+Asset assetOf(SparseTransport rows, bool isGrey = true) {
+    Asset asset = test::sampleAsset();
+    asset.parts.resize(1);
+    std::mt19937 random(1);
+    asset.coefficients = 60;
+    asset.parts[0] = test::samplePart(rows.vertices, int(rows.terms), kFace, asset.coefficients, random);
+    asset.parts[0].sets[0].brdf.lightMaps = factors(int(rows.terms), isGrey).lightMaps;
+    asset.parts[0].sets[0].transport = std::move(rows);
+    return asset;
+}
+
+const BasisTransport& basesOf(const Asset& asset) {
+    return std::get<BasisTransport>(asset.parts[0].sets[0].transport);
+}
+
+// Relative, weighted by light: what Conversion::error says.
+double errorOf(const Transport& kept, const Transport& rows) {
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    double lost = 0, all = 0;
+    for (size_t row = 0; row < rowsOf(rows).rows(); row++) {
+        const std::vector<vec3> a = coefficientsOf(kept, row, kCoefficients),
+                                b = coefficientsOf(rows, row, kCoefficients);
+        for (size_t i = 0; i < a.size(); i++) {
+            const vec3 away = (a[i] - b[i]) * spectrum[i], whole = b[i] * spectrum[i];
+            lost += double(glm::dot(away, away)), all += double(glm::dot(whole, whole));
+        }
+    }
+    return std::sqrt(lost / all);
+}
+
+double bytesPerVertex(const Asset& asset) {
+    return double(bytesOf(asset.parts[0].sets[0].transport)) / double(verticesOf(asset));
+}
+
+LayoutOptions bases(std::optional<double> budget, double error = 0.05) {
+    return {TransportLayout::Bases, budget, error};
+}
+
+} // namespace
+
+TEST_CASE("layout: light's spectrum has a weight per wavelet level, the same on all faces") {
+    const std::vector<float> spectrum = lightSpectrum(64);
+    REQUIRE(spectrum.size() == 6 * 4096);
+    CHECK(spectrum[0] == 1);
+    CHECK(spectrum[1] == spectrum[64]);
+    CHECK(spectrum[65] == doctest::Approx(std::pow(0.53, 0.7)));
+    CHECK(spectrum[63] == doctest::Approx(std::pow(0.043, 0.7)));
+    CHECK(spectrum[31] == doctest::Approx(std::pow(0.085, 0.7)));
+    CHECK(std::set(spectrum.begin(), spectrum.end()).size() == 7);
+    CHECK(spectrum[5 * 4096 + 65] == spectrum[65]);
+    CHECK(lightSpectrum(kFace)[kFace - 1] == spectrum[kFace - 1]);
+}
+
+TEST_CASE("layout: a grey material has one kind a term; a coloured one its principal directions") {
+    const std::vector<BasisKind> grey = basisKinds(factors(3, true));
+    REQUIRE(grey.size() == 3);
+    for (uint32_t term = 0; term < 3; term++) {
+        CHECK(grey[term].term == term);
+        CHECK(grey[term].color == vec3(1));
+        CHECK(glm::dot(kindDual(grey[term]), vec3(0.5f)) == doctest::Approx(0.5f));
+    }
+    FactoredBrdf brdf = factors(1, false);
+    std::vector<BasisKind> kinds = basisKinds(brdf);
+    REQUIRE(kinds.size() == 2); // grey, and the noise in blue: nothing tells red from green
+    CHECK(glm::dot(kinds[0].color, glm::normalize(vec3(1, 0.8f, 0.5f))) > 0.999f);
+    CHECK(glm::dot(kinds[0].color, kinds[1].color) == doctest::Approx(0).epsilon(1e-5));
+    for (vec3& texel : brdf.lightMaps) texel = {0, texel.x, 0};
+    kinds = basisKinds(brdf);
+    REQUIRE(kinds.size() == 1);
+    CHECK(glm::distance(kinds[0].color, vec3(0, 1, 0)) < 1e-6f);
+    CHECK(basisKinds({.size = 4, .terms = 1, .lightMaps = std::vector<vec3>(16, vec3(0))}).size() == 1);
+}
+
+TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
+    const SparseTransport rows = smoothRows(256, 2, 3);
+    const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    const ClusterMatrix matrix =
+        clusterMatrix(rows, 0, 256, kinds, spectrum, transportUnit(rows, spectrum), kAnalysedColumns);
+    CHECK(matrix.energy.sum() == doctest::Approx(256).epsilon(1e-3));
+    CHECK(matrix.values.squaredNorm() == doctest::Approx(matrix.energy.sum()));
+    const BasisAnalysis analysis = analyse(matrix);
+    const Eigen::VectorXf sigma = Eigen::BDCSVD<Eigen::MatrixXf>(matrix.values).singularValues();
+    for (const double price : {1e-3, 1e-4, 1e-5}) {
+        const BasisCut cut = cutFor(analysis, price);
+        const EncodedCluster encoded = encodeBases(matrix, analysis, cut, kinds, spectrum);
+        const Eigen::Index rank = Eigen::Index(cut.components) - 2;
+        REQUIRE(rank > 1);
+        const double best = double(sigma.tail(sigma.size() - rank).squaredNorm());
+        // Columns and weights that do not pay are left out besides; bytes are not exact.
+        CHECK(encoded.error < 2 * (best + price * cut.bytes));
+        CHECK(encoded.error < 1.5 * cut.error + 1e-4 * 256);
+        CHECK(cut.error < 2 * (best + price * cut.bytes));
+    }
+}
+
+TEST_CASE("layout: what a conversion says of bytes and error is so") {
+    for (const bool isGrey : {true, false}) {
+        CAPTURE(isGrey);
+        const Asset rows = assetOf(smoothRows(700, 3, 5, isGrey), isGrey);
+        Asset asset = rows;
+        uint64_t last = 0;
+        const Conversion conversion =
+            convertLayout(asset, bases({}, 0.04), [&](uint64_t done, uint64_t total) {
+                CHECK(done >= last);
+                CHECK(total == 700);
+                last = done;
+            });
+        CHECK(last == 700);
+        checkAsset(asset, "converted");
+        const double error = errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport);
+        CHECK(*conversion.error == doctest::Approx(error).epsilon(0.02));
+        CHECK(error < 0.05);
+        CHECK(error > 0.02);
+        CHECK(conversion.bytesAfter == bytesOf(asset.parts[0].sets[0].transport));
+        CHECK(conversion.bytesAfter * 3 < conversion.bytesBefore);
+        CHECK(basesOf(asset).kinds.size() == (isGrey ? 3 : 6));
+        Asset again = rows;
+        convertLayout(again, bases({}, 0.04));
+        CHECK(encodeAsset(again) == encodeAsset(asset));
+    }
+}
+
+TEST_CASE("layout: a budget is met, and more bytes leave less error") {
+    const Asset rows = assetOf(smoothRows(5140, 4, 6)); // the last cluster has 20 vertices
+    double before = 1;
+    for (const double budget : {30.0, 40.0, 60.0}) {
+        Asset asset = rows;
+        const Conversion conversion = convertLayout(asset, bases(budget));
+        CHECK(bytesPerVertex(asset) <= budget);
+        CHECK(bytesPerVertex(asset) > 0.97 * budget);
+        CHECK(*conversion.error < before);
+        before = *conversion.error;
+        CHECK(basesOf(asset).clusters.size() == 21);
+    }
+}
+
+TEST_CASE("layout: bytes fall and error rises with the price") {
+    const SparseTransport rows = smoothRows(512, 2, 8);
+    const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    std::vector<BasisAnalysis> analyses;
+    for (uint32_t first : {0u, 256u})
+        analyses.push_back(analyse(clusterMatrix(rows, first, 256, kinds, spectrum, 1, kAnalysedColumns)));
+    CutTotals before = totalsAt(analyses, 1e-9);
+    for (double price = 1e-8; price < 1; price *= 2) {
+        const CutTotals now = totalsAt(analyses, price);
+        CHECK(now.bytes <= before.bytes);
+        CHECK(now.error >= before.error);
+        before = now;
+    }
+    const double price = priceForBytes(analyses, 8000);
+    CHECK(totalsAt(analyses, price).bytes <= 8000);
+    CHECK(totalsAt(analyses, price * 0.99).bytes > 7400);
+    const double wanted = 0.5 * (analyses[0].energy.sum() + analyses[1].energy.sum());
+    CHECK(totalsAt(analyses, priceForError(analyses, wanted)).error <= wanted);
+}
+
+TEST_CASE("layout: nothing to keep, little to keep, one term, many") {
+    SparseTransport empty = smoothRows(300, 2, 9);
+    empty.indices.clear(), empty.values.clear();
+    std::ranges::fill(empty.rowStarts, 0);
+    Asset asset = assetOf(empty);
+    CHECK(*convertLayout(asset, bases({})).error == 0);
+    checkAsset(asset, "empty");
+    CHECK(basesOf(asset).clusters[1].components == 0);
+    CHECK(basesOf(asset).clusters[1].columns() == 0);
+
+    SparseTransport half = smoothRows(300, 2, 9); // the second cluster has nothing
+    const uint64_t end = half.rowStarts[256 * 2];
+    std::fill(half.rowStarts.begin() + 256 * 2, half.rowStarts.end(), end);
+    half.indices.resize(end), half.values.resize(end);
+    asset = assetOf(half);
+    CHECK(*convertLayout(asset, bases({}, 0.02)).error < 0.03);
+    CHECK(basesOf(asset).clusters[0].components > 0);
+    CHECK(basesOf(asset).clusters[1].components == 0);
+
+    for (const uint32_t terms : {1u, 32u})
+        for (const uint32_t vertices : {1u, 2u, 257u}) {
+            CAPTURE(terms);
+            CAPTURE(vertices);
+            const Asset rows = assetOf(smoothRows(vertices, terms, 10));
+            asset = rows;
+            const Conversion conversion = convertLayout(asset, bases({}, 0.01));
+            checkAsset(asset, "few");
+            CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) < 0.015);
+            CHECK(*conversion.error < 0.015);
+        }
+}
+
+TEST_CASE("layout: rows of any finite scale") {
+    for (const float scale : {1e-36f, 1e36f}) {
+        SparseTransport rows = smoothRows(300, 1, 11);
+        for (float& own : rows.scales) own = scale;
+        Asset asset = assetOf(rows);
+        CHECK(*convertLayout(asset, bases({}, 0.02)).error < 0.03);
+        checkAsset(asset, "scaled");
+        CHECK(basesOf(asset).clusters[0].components > 0);
+    }
+}
+
+TEST_CASE("layout: clusters keep what a budget or an error allows, exactly") {
+    const Asset rows = assetOf(smoothRows(200, 2, 12));
+    for (const std::optional<double> budget : {std::optional<double>(), std::optional<double>(160.0)}) {
+        Asset asset = rows;
+        const Conversion conversion = convertLayout(asset, {TransportLayout::Clusters, budget, 0.1});
+        checkAsset(asset, "clusters");
+        const double error = errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport);
+        CHECK(*conversion.error == doctest::Approx(error).epsilon(1e-3));
+        if (budget) {
+            CHECK(bytesPerVertex(asset) <= *budget);
+            CHECK(bytesPerVertex(asset) > 0.97 * *budget);
+        } else {
+            CHECK(error <= 0.1);
+            CHECK(error > 0.09);
+        }
+    }
+}
+
+TEST_CASE("layout: there and back") {
+    const Asset rows = assetOf(smoothRows(300, 2, 13));
+    for (const TransportLayout layout : {TransportLayout::Clusters, TransportLayout::Bases}) {
+        Asset asset = rows;
+        convertLayout(asset, {layout, {}, 1e-3});
+        const Conversion back = convertLayout(asset, {TransportLayout::Rows, {}, 0});
+        CHECK(!back.error);
+        checkAsset(asset, "back");
+        REQUIRE(layoutOf(asset.parts[0].sets[0].transport) == TransportLayout::Rows);
+        // Bytes leave an error of their own.
+        CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) <
+              (layout == TransportLayout::Bases ? 0.012 : 2e-3));
+    }
+    Asset same = rows;
+    convertLayout(same, {TransportLayout::Rows, {}, 0});
+    CHECK(encodeAsset(same) == encodeAsset(rows));
+}
