@@ -130,8 +130,10 @@ void addBenchCommand(CLI::App& program) {
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
-        "`relume bench bake --help`: baking on the CPU beside the device's ways, stage by stage.");
+        "`relume bench bake --help`: baking on the CPU beside the device's ways, stage by stage.\n"
+        "`relume bench relight --help`: relighting from every layout, beside the CPU and a library.");
     addBenchBakeCommand(*command);
+    addBenchRelightCommand(*command);
     // CLI11 runs this after a subcommand's own callback too.
     command->callback([arguments, command] {
         if (command->get_subcommands().empty()) run(*arguments);

@@ -19,5 +19,6 @@ void addBrdfCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 void addBenchBakeCommand(CLI::App& bench);
+void addBenchRelightCommand(CLI::App& bench);
 
 } // namespace relume

@@ -21,6 +21,7 @@ struct Arguments {
     std::filesystem::path input, output;
     std::string layout = layoutName(TransportLayout::Bases);
     std::optional<double> budget, error;
+    std::optional<int> coefficients;
     bool quiet = false;
 };
 
@@ -29,7 +30,11 @@ LayoutOptions optionsOf(const Arguments& arguments) {
     options.layout = layoutFromName(arguments.layout).value();
     if (options.layout == TransportLayout::Rows && (arguments.budget || arguments.error))
         throw UsageError(
-            "--layout rows: keeps what it finds; --budget and --error are for clusters and bases");
+            "--layout rows: --budget and --error are for clusters and bases; rows are shortened by "
+            "--coefficients");
+    if (options.layout != TransportLayout::Rows && arguments.coefficients)
+        throw UsageError("--coefficients: shortens rows; clusters and bases have --budget and --error");
+    options.coefficients = arguments.coefficients;
     options.bytesPerVertex = arguments.budget;
     options.error = arguments.error.value_or(options.error);
     return options;
@@ -114,6 +119,11 @@ void addConvertCommand(CLI::App& program) {
         ->type_name("ERROR")
         ->default_str(fmt::format("{}", kDefaultLayoutError))
         ->excludes(budget);
+    command
+        ->add_option("-N,--coefficients", arguments->coefficients,
+                     "Most coefficients of a row, in rows; as FILE if it has fewer")
+        ->check(CLI::Range(1, 24576))
+        ->type_name("COUNT");
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
     command->footer("The error is against FILE's own transport. The more coefficients a bake kept (-N), the\n"
                     "better a layout that is made of it.\n"

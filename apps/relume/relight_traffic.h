@@ -6,8 +6,8 @@
 
 namespace relume {
 
-// Bytes of transport that a light makes relighting read at least, and of tuples that are written: columns that
-// the light does not meet are not counted but for their index.
+// Bytes of transport that a light makes relighting read at least, and of tuples that are written: columns
+// that the light does not meet are not counted but for their index.
 double relightBytes(const Transport& transport, const LightVector& light);
 
 } // namespace relume

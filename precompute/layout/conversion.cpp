@@ -178,8 +178,10 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Repor
     const std::vector<MaterialSet*> sets = setsOf(asset);
     Conversion conversion;
     conversion.bytesBefore = bytesOf(sets);
+    const bool areShorter = options.coefficients && *options.coefficients < asset.coefficients;
+    if (areShorter) asset.coefficients = *options.coefficients;
     for (MaterialSet* set : sets)
-        if (layoutOf(set->transport) != TransportLayout::Rows)
+        if (areShorter || layoutOf(set->transport) != TransportLayout::Rows)
             set->transport = makeRows(set->transport, asset);
     if (options.layout != TransportLayout::Rows) {
         const Source source(sets, asset.faceSize);

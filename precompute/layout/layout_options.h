@@ -16,6 +16,7 @@ struct LayoutOptions {
     // of transport, weighted as light weighs it: root mean square, relative to the whole of each set.
     std::optional<double> bytesPerVertex;
     double error = kDefaultLayoutError;
+    std::optional<int> coefficients; // of rows alone: most of a row; none: as many as the asset's have
 };
 
 } // namespace relume

@@ -1,0 +1,167 @@
+#include "apps/relume/commands.h"
+#include "apps/relume/copy_bandwidth.h"
+#include "apps/relume/median.h"
+#include "apps/relume/options.h"
+#include "apps/relume/relight_bench.h"
+#include "engine/base/error.h"
+#include "engine/base/progress.h"
+#include "precompute/layout/conversion.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/info.h>
+
+namespace relume {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+    std::string file;
+    LightArguments light;
+    DeviceArguments device;
+    LightSelection selection;
+    int coefficients = 96;
+    std::optional<double> budget;
+    double error = kDefaultLayoutError;
+    int repeats = 9;
+    bool json = false;
+};
+
+double median(std::vector<double> values, const std::vector<double>& divisors) {
+    for (size_t i = 0; i < values.size(); i++) values[i] /= divisors[i];
+    return median(values);
+}
+
+RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
+    RelightBenchInput input{&source, {}};
+    for (const TransportLayout layout :
+         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+        LayoutOptions options;
+        options.layout = layout;
+        options.bytesPerVertex = arguments.budget;
+        options.error = arguments.error;
+        if (layout == TransportLayout::Rows) options.coefficients = arguments.coefficients;
+        Asset asset = source;
+        Progress progress(fmt::format("converting to {}", layoutName(layout)), verticesOf(source), "vertices",
+                          arguments.json);
+        convertLayout(asset, options, [&](uint64_t done, uint64_t) { progress.update(done); });
+        input.variants.emplace_back(layoutName(layout), std::move(asset));
+    }
+    return input;
+}
+
+Json describe(const Asset& asset, const LayoutSeries& own, const RelightSeries& series, double bandwidth) {
+    uint64_t bytes = 0;
+    for (const AssetPart& part : asset.parts) bytes += bytesOf(part.sets[0].transport);
+    const double ms = median(own.deviceMs), touched = median(own.bytesTouched);
+    const double floorMs = 1e3 * touched / bandwidth;
+    return {{"ms", ms},
+            {"fps", 1e3 / ms},
+            {"cpu_ms", median(own.cpuMs)},
+            {"bytes_per_vertex", double(bytes) / double(verticesOf(asset))},
+            {"bytes_touched", touched},
+            {"floor_ms", floorMs},
+            {"share_of_floor", floorMs / ms},
+            {"ratio_to_rows", median(own.deviceMs, series.layouts.at("rows").deviceMs)},
+            {"ratio_to_eigen_csr", median(own.deviceMs, series.csrMs)},
+            {"relit_error", median(own.errors)}};
+}
+
+void print(const Json& result) {
+    const auto number = [](const Json& value) { return value.get<double>(); };
+    fmt::print("{}, {} vertices, {} light coefficients, {:.1f} GB/s copied\n\n",
+               result["device"].get<std::string>(), result["vertices"].dump(),
+               result["light_coefficients"].dump(), number(result["device_gb_per_s"]));
+    fmt::print("{:10}{:>9}{:>9}{:>10}{:>12}{:>10}{:>10}{:>10}{:>12}\n", "", "ms", "CPU, ms", "floor, ms",
+               "bytes/vertex", "of rows", "of CSR", "MB read", "relit error");
+    for (const auto& [name, layout] : result["layouts"].items())
+        fmt::print("{:10}{:9.2f}{:9.2f}{:10.2f}{:12.0f}{:10.2f}{:10.2f}{:10.1f}{:12.4f}\n", name,
+                   number(layout["ms"]), number(layout["cpu_ms"]), number(layout["floor_ms"]),
+                   number(layout["bytes_per_vertex"]), number(layout["ratio_to_rows"]),
+                   number(layout["ratio_to_eigen_csr"]), 1e-6 * number(layout["bytes_touched"]),
+                   number(layout["relit_error"]));
+    fmt::print("{:10}{:9.2f}\n", "Eigen CSR", number(result["eigen_csr_ms"]));
+    fmt::print("{:10}{:9.2f}\n", "light", number(result["light_ms"]));
+}
+
+void run(const Arguments& arguments) {
+    const Asset source = readAsset(arguments.file);
+    const std::unique_ptr<vk::Device> device = arguments.device.open();
+    const RelightBenchInput input = makeInput(source, arguments);
+    LightPass light(*device, source.faceSize);
+    light.setLight(arguments.light.light());
+    const RelightSeries series = benchRelight(
+        *device, input, light, {arguments.repeats, arguments.light.rotationDegrees, arguments.selection},
+        arguments.json);
+    const double bandwidth = deviceCopyBandwidth(*device);
+    Json layouts;
+    for (const auto& [name, asset] : input.variants)
+        layouts[name] = describe(asset, series.layouts.at(name), series, bandwidth);
+    const Json result = {{"device", device->info().name},
+                         {"driver", device->info().driver},
+                         {"threads", tbb::info::default_concurrency()},
+                         {"vertices", verticesOf(source)},
+                         {"repeats", arguments.repeats},
+                         {"source_coefficients", source.coefficients},
+                         {"light_coefficients", median(series.lightCoefficients)},
+                         {"device_gb_per_s", 1e-9 * bandwidth},
+                         {"layouts", layouts},
+                         {"eigen_csr_ms", median(series.csrMs)},
+                         {"light_ms", median(series.lightMs)}};
+    if (arguments.json)
+        fmt::print("{}\n", result.dump(2));
+    else
+        print(result);
+    DeviceArguments::expectNoMessages(*device);
+}
+
+} // namespace
+
+void addBenchRelightCommand(CLI::App& bench) {
+    CLI::App* command =
+        bench.add_subcommand("relight", "Relight a bake from every layout, on the device and the CPU, in "
+                                        "alternation");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->file, "Bake (.relume); best of many coefficients a row")
+        ->required();
+    command->add_option("-N,--coefficients", arguments->coefficients, "Most coefficients of a row, in rows")
+        ->check(CLI::Range(1, 24576))
+        ->capture_default_str();
+    CLI::Option* error = command
+                             ->add_option("--error", arguments->error,
+                                          "Error of transport in clusters and bases, weighted as light is")
+                             ->check(between(0, 1))
+                             ->capture_default_str();
+    command->add_option("--budget", arguments->budget, "Bytes of transport a vertex in clusters and bases")
+        ->type_name("BYTES")
+        ->check(between(1, 1e6))
+        ->excludes(error);
+    arguments->light.add(*command);
+    command
+        ->add_option("--threshold", arguments->selection.threshold,
+                     "Drop light coefficients below this, where the largest is 32767")
+        ->check(CLI::Range(0, kLightMaximum))
+        ->capture_default_str();
+    arguments->device.add(*command);
+    command->add_option("--repeats", arguments->repeats, "Rounds to take the medians of")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->footer(
+        "Every round turns the light by a degree. The floor is the time to copy the bytes that the light "
+        "makes\n"
+        "a layout read and write. Relit errors are of tuples under all of the light, against those of "
+        "FILE's\n"
+        "rows as they are. Eigen CSR multiplies the same rows as sparse matrices of floats, on all cores.");
+    command->callback([arguments, &bench] {
+        for (const CLI::Option* option : bench.get_options())
+            if (option->count() > 0)
+                throw UsageError("bench: {} comes before relight, where it means nothing; put it after",
+                                 option->get_name());
+        run(*arguments);
+    });
+}
+
+} // namespace relume

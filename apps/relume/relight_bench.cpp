@@ -1,0 +1,122 @@
+#include "apps/relume/relight_bench.h"
+
+#include "apps/relume/csr_relighter.h"
+#include "apps/relume/options.h"
+#include "apps/relume/relight_traffic.h"
+#include "engine/base/progress.h"
+#include "engine/render/relighter.h"
+#include "precompute/cpu/cpu_relighter.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+template <typename Work>
+double milliseconds(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What relights a part on the CPU, and where to.
+struct CpuPart {
+    const Transport& transport;
+    std::unique_ptr<CpuRelighter> relighter;
+    std::vector<vec3> tuples;
+};
+
+std::vector<CpuPart> cpuParts(const Asset& asset) {
+    std::vector<CpuPart> parts;
+    for (const AssetPart& part : asset.parts) {
+        const Transport& transport = part.sets[0].transport;
+        parts.push_back({transport, makeCpuRelighter(transport),
+                         std::vector<vec3>(size_t(verticesOf(transport)) * termsOf(transport))});
+    }
+    return parts;
+}
+
+void relight(std::vector<CpuPart>& parts, const LightVector& light) {
+    for (CpuPart& part : parts) part.relighter->relight(light, part.tuples);
+}
+
+double relativeError(const std::vector<CpuPart>& parts, const std::vector<CpuPart>& exact) {
+    double difference = 0, all = 0;
+    for (size_t part = 0; part < parts.size(); part++)
+        for (size_t row = 0; row < parts[part].tuples.size(); row++) {
+            const glm::dvec3 a(parts[part].tuples[row]), b(exact[part].tuples[row]);
+            difference += glm::dot(a - b, a - b);
+            all += glm::dot(b, b);
+        }
+    return all > 0 ? std::sqrt(difference / all) : 0;
+}
+
+} // namespace
+
+RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& input, LightPass& light,
+                           const RelightRounds& rounds, bool quiet) {
+    struct Variant {
+        std::string name;
+        Relighter relighter;
+        std::vector<CpuPart> cpu;
+    };
+    std::vector<Variant> variants;
+    std::vector<CsrRelighter> csr;
+    for (const auto& [name, asset] : input.variants) {
+        variants.push_back({name, Relighter(device, asset), cpuParts(asset)});
+        if (name != layoutName(TransportLayout::Rows)) continue;
+        for (const AssetPart& part : asset.parts)
+            csr.emplace_back(rowsOf(part.sets[0].transport), asset.faceSize);
+    }
+    std::vector<CpuPart> exact = cpuParts(*input.source);
+    std::array<Eigen::VectorXf, 3> csrTuples;
+    vk::Commands commands(device, "bench relight");
+    RelightSeries series;
+    Progress progress("relighting", uint64_t(rounds.count) + 1, "rounds", quiet);
+    for (int round = 0; round <= rounds.count; round++) {
+        const float rotation = radians(rounds.rotationDegrees + float(round));
+        const auto setLight = [&](const LightSelection& selection) {
+            commands.begin();
+            light.record(commands, rotation, selection);
+            commands.submitAndWait();
+        };
+        LightSelection all;
+        all.threshold = 0;
+        setLight(all);
+        relight(exact, light.readVector());
+        for (Variant& variant : variants) relight(variant.cpu, light.readVector());
+        for (Variant& variant : variants)
+            series.layouts[variant.name].errors.push_back(relativeError(variant.cpu, exact));
+
+        const double lightMs = milliseconds([&] { setLight(rounds.selection); });
+        const LightVector vector = light.readVector();
+        for (Variant& variant : variants) {
+            LayoutSeries& own = series.layouts[variant.name];
+            double bytes = 0;
+            for (const CpuPart& part : variant.cpu) bytes += relightBytes(part.transport, vector);
+            own.bytesTouched.push_back(bytes);
+            own.deviceMs.push_back(milliseconds([&] {
+                commands.begin();
+                variant.relighter.record(commands, light);
+                commands.submitAndWait();
+            }));
+            own.cpuMs.push_back(milliseconds([&] { relight(variant.cpu, vector); }));
+        }
+        series.lightMs.push_back(lightMs);
+        series.lightCoefficients.push_back(double(vector.indices.size()));
+        series.csrMs.push_back(milliseconds([&] {
+            for (const CsrRelighter& part : csr) part.relight(vector, csrTuples);
+        }));
+        progress.update(uint64_t(round) + 1);
+    }
+    // The first round warmed up.
+    const auto dropFirst = [](std::vector<double>& values) { values.erase(values.begin()); };
+    for (auto& [name, own] : series.layouts)
+        for (auto* values : {&own.deviceMs, &own.cpuMs, &own.bytesTouched, &own.errors}) dropFirst(*values);
+    for (auto* values : {&series.csrMs, &series.lightMs, &series.lightCoefficients}) dropFirst(*values);
+    return series;
+}
+
+} // namespace relume
