@@ -1,6 +1,7 @@
 #version 460
 // Quantises the light's coefficients into a dense table and drops those below the threshold. One
-// work-group: the maximum, then the sums that guard the range, then the values.
+// work-group: the maximum, then the sums that guard the range, then the values. All that decides a value is
+// integer, or a float product that is exact or rounded once.
 // C++ twin: makeLightVector() in engine/light/light_vector.h, where the steps are numbered.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -14,25 +15,26 @@ layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; 
 layout(binding = 1, scalar) writeonly buffer Table { PackedLight table[]; };
 layout(binding = 2, scalar) writeonly buffer Scale { LightScale lightScale; };
 
-shared float maxima[kGroup];
+shared uint maxima[kGroup];
 shared uvec3 sums[kGroup];
 
-float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
+// Magnitudes are compared as the bits of their floats, which are in the same order.
+const uint kLeastNormal = 0x00800000u;
+
 uint largest(uvec3 v) { return max(v.r, max(v.g, v.b)); }
 
-// Rounds to nearest, halves away from zero.
-ivec3 quantise(vec3 coefficient, float maximum, uint steps) {
-    precise const vec3 place = abs(coefficient) / maximum * float(steps) + 0.5;
-    return ivec3(sign(coefficient) * floor(place));
+uvec3 magnitudesOf(uint index) {
+    const uvec3 magnitudes = floatBitsToUint(coefficients[index]) & 0x7fffffffu;
+    return magnitudes * uvec3(greaterThanEqual(magnitudes, uvec3(kLeastNormal)));
 }
 
-bool isKept(ivec3 quantised) { return largest(uvec3(abs(quantised))) >= push.threshold; }
+uint magnitudeOf(uint index) { return largest(magnitudesOf(index)); }
 
 // The largest |component| of all coefficients.
-float groupMaximum(uint lane) {
-    maxima[lane] = 0;
-    for (uint i = lane; i < push.coefficients; i += kGroup)
-        maxima[lane] = max(maxima[lane], largest(abs(coefficients[i])));
+uint groupMaximum(uint lane) {
+    uint found = 0;
+    for (uint i = lane; i < push.coefficients; i += kGroup) found = max(found, magnitudeOf(i));
+    maxima[lane] = found;
     barrier();
     for (uint step = kGroup / 2; step > 0; step /= 2) {
         if (lane < step) maxima[lane] = max(maxima[lane], maxima[lane + step]);
@@ -41,13 +43,25 @@ float groupMaximum(uint lane) {
     return maxima[0];
 }
 
+// The exponent field of the smallest power of two of which `magnitude` is at most 32767: 14 below its own, or 13
+// if its mantissa is above that of 32767, 0x7ffe00.
+uint stepExponent(uint magnitude) { return max((magnitude + 0x1ffu) >> 23, 15u) - 14u; }
+
+// |c| / step is a product with a power of two; its floor and the rest are exact. Halves away from zero.
+uvec3 quantise(uint index, float inverse) {
+    const vec3 places = uintBitsToFloat(magnitudesOf(index)) * inverse;
+    const vec3 whole = floor(places);
+    return uvec3(whole) + uvec3(greaterThanEqual(places - whole, vec3(0.5)));
+}
+
+float inverseOf(uint exponent) { return uintBitsToFloat((254u - exponent) << 23); }
+
 // The largest channel's sum of magnitudes over the kept coefficients.
-uint groupMagnitude(uint lane, float maximum) {
+uint groupMagnitude(uint lane, uint least, float inverse) {
     uvec3 sum = uvec3(0);
-    for (uint i = lane; i < push.coefficients; i += kGroup) {
-        const ivec3 quantised = quantise(coefficients[i], maximum, push.maximum);
-        if (isKept(quantised)) sum += uvec3(abs(quantised));
-    }
+    for (uint i = lane; i < push.coefficients; i += kGroup)
+        if (magnitudeOf(i) >= least) sum += quantise(i, inverse);
+    barrier(); // the sums of the step before have been read
     sums[lane] = sum;
     barrier();
     for (uint step = kGroup / 2; step > 0; step /= 2) {
@@ -57,22 +71,18 @@ uint groupMagnitude(uint lane, float maximum) {
     return largest(sums[0]);
 }
 
-// lightMaximumFor() of the twin.
-uint stepsFor(uint magnitude) {
-    if (magnitude <= push.sumLimit) return push.maximum;
-    const uint coarsening = (magnitude + push.entryLimit + push.maximum - 1) / push.maximum;
-    return (push.sumLimit - push.entryLimit) / coarsening;
-}
-
 void main() {
     const uint lane = gl_LocalInvocationID.x;
-    const float maximum = groupMaximum(lane);
-    const uint steps = maximum > 0 ? stepsFor(groupMagnitude(lane, maximum)) : push.maximum;
+    const uint maximum = groupMaximum(lane);
+    precise const float cut = uintBitsToFloat(maximum) * push.share;
+    const uint least = max(floatBitsToUint(cut), kLeastNormal);
+    uint exponent = stepExponent(maximum);
+    while (groupMagnitude(lane, least, inverseOf(exponent)) > push.sumLimit) exponent++;
     for (uint i = lane; i < push.coefficients; i += kGroup) {
         ivec3 quantised = ivec3(0);
-        if (maximum > 0 && isKept(quantise(coefficients[i], maximum, push.maximum)))
-            quantised = quantise(coefficients[i], maximum, steps);
+        if (magnitudeOf(i) >= least)
+            quantised = ivec3(sign(coefficients[i])) * ivec3(quantise(i, inverseOf(exponent)));
         table[i] = packLight(quantised);
     }
-    if (lane == 0) lightScale.scale = maximum / float(steps);
+    if (lane == 0) lightScale.scale = maximum > 0 ? uintBitsToFloat(exponent << 23) : 0;
 }

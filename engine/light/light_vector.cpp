@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 
 namespace relume {
 
@@ -21,54 +21,51 @@ std::vector<vec3> transformFaces(const LightCube& cube, void (*haar)(std::span<v
     return values;
 }
 
-float largestComponent(const std::vector<vec3>& coefficients) {
-    float largest = 0;
-    for (const vec3& c : coefficients)
-        for (int channel = 0; channel < 3; channel++) {
-            RELUME_CHECK(std::isfinite(c[channel]));
-            largest = std::max(largest, std::abs(c[channel]));
-        }
-    return largest;
+// Coefficients that a device may flush to zero are zero.
+float componentOf(float coefficient) {
+    RELUME_CHECK(std::isfinite(coefficient));
+    return std::abs(coefficient) < std::numeric_limits<float>::min() ? 0 : coefficient;
 }
 
-// Rounds to nearest, halves away from zero.
-ivec3 quantise(vec3 coefficient, float largest, int maximum) {
-    return ivec3(glm::sign(coefficient) *
-                 glm::floor(glm::abs(coefficient) / largest * float(maximum) + 0.5f));
-}
+float largestComponent(vec3 c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
-int largestMagnitude(ivec3 q) { return std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}); }
+// Rounds to nearest, halves away from zero. In double, where none of this rounds.
+ivec3 quantise(vec3 coefficient, double step) {
+    const glm::dvec3 c(coefficient);
+    return ivec3(glm::sign(c) * glm::floor(glm::abs(c) / step + 0.5));
+}
 
 } // namespace
 
-int lightMaximumFor(uint32_t magnitudeSum) {
-    if (magnitudeSum <= kLightSumLimit) return kLightMaximum;
-    // Rounding moves each entry by a half, a little more in floats: n covers it before and after.
-    constexpr uint32_t kMaximum = kLightMaximum, n = kMaximumLightEntries;
-    const uint32_t coarsening = (magnitudeSum + n + kMaximum - 1) / kMaximum;
-    return int((kLightSumLimit - n) / coarsening);
-}
+float keptShare(int threshold) { return std::max(float(threshold) - 0.5f, 0.0f) / float(kLightMaximum); }
 
 LightVector makeLightVector(const LightCube& cube, int threshold) {
     RELUME_CHECK_LE(cube.radiance.size(), size_t(kMaximumLightEntries));
-    const std::vector<vec3> coefficients = transformFaces(cube, haarForward);
-    const float largest = largestComponent(coefficients);
+    std::vector<vec3> coefficients = transformFaces(cube, haarForward);
+    float largest = 0;
+    for (vec3& c : coefficients) {
+        c = {componentOf(c.x), componentOf(c.y), componentOf(c.z)};
+        largest = std::max(largest, largestComponent(c));
+    }
     LightVector vector{.faceSize = cube.size, .scale = 0, .indices = {}, .values = {}};
     if (largest == 0) return vector;
 
+    const float least = largest * keptShare(threshold);
     std::vector<uint32_t> kept;
-    glm::u32vec3 sums(0);
-    for (uint32_t i = 0; i < coefficients.size(); i++) {
-        const ivec3 q = quantise(coefficients[i], largest, kLightMaximum);
-        if (largestMagnitude(q) < std::max(threshold, 1)) continue;
-        kept.push_back(i);
-        sums += glm::u32vec3(glm::abs(q));
-    }
+    for (uint32_t i = 0; i < coefficients.size(); i++)
+        if (largestComponent(coefficients[i]) >= least) kept.push_back(i);
 
-    const int maximum = lightMaximumFor(std::max({sums.x, sums.y, sums.z}));
-    vector.scale = largest / float(maximum);
+    const auto fits = [&](double step) {
+        glm::u64vec3 sum(0);
+        for (uint32_t i : kept) sum += glm::u64vec3(glm::abs(quantise(coefficients[i], step)));
+        return std::max({sum.x, sum.y, sum.z}) <= kLightSumLimit;
+    };
+    double step = double(std::numeric_limits<float>::min());
+    while (double(largest) / step > kLightMaximum) step *= 2;
+    while (!fits(step)) step *= 2;
+    vector.scale = float(step);
     for (uint32_t i : kept) {
-        const ivec3 q = quantise(coefficients[i], largest, maximum);
+        const ivec3 q = quantise(coefficients[i], step);
         if (q == ivec3(0)) continue;
         vector.indices.push_back(uint16_t(i));
         vector.values.push_back({int16_t(q.x), int16_t(q.y), int16_t(q.z)});

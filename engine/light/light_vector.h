@@ -8,8 +8,8 @@
 
 namespace relume {
 
-// Largest |quantised coefficient|, and the default of the threshold below which all three channels
-// must lie for a coefficient to be dropped.
+// Largest |quantised coefficient|, and the default of the threshold (of kLightMaximum, where that stands for
+// the largest component) below which all three channels must lie for a coefficient to be dropped.
 constexpr int kLightMaximum = 32767;
 constexpr int kDefaultLightThreshold = 1024;
 
@@ -20,24 +20,24 @@ constexpr uint32_t kLightSumLimit = (1u << 21) - 1;
 
 struct LightVector {
     int faceSize = 0;                           // F
-    float scale = 0;                            // coefficient = scale · quantised value
+    float scale = 0;                            // coefficient = scale · quantised value; a power of two
     std::vector<uint16_t> indices;              // face·F² + y·F + x, rising
     std::vector<std::array<int16_t, 3>> values; // quantised, in [-32767, 32767]
 };
 
-// What the largest coefficient becomes when quantising to kLightMaximum gave `magnitudeSum` = the largest
-// channel's Σ|value| over the kept entries: kLightMaximum if that is within kLightSumLimit, else less, so
-// that requantising keeps the limit whichever way the entries round. With S = magnitudeSum and
-// n = kMaximumLightEntries: floor((kLightSumLimit - n) / ceil((S + n) / kLightMaximum)); all fits 32 bits.
-int lightMaximumFor(uint32_t magnitudeSum);
+// The share of the light's largest component that a kept entry's largest is at least: (threshold - ½) /
+// kLightMaximum, or 0.
+float keptShare(int threshold);
 
 // CPU twin of the light passes:
-//   1. c = the Haar transform of each face; m = the largest |component| of all (0: nothing is kept).
-//   2. q = sign(c) floor(|c| / m · 32767 + ½); kept are the entries with some |component of q| of at least
-//      `threshold` (and at least 1, so 0 keeps all but zeros).
-//   3. M = lightMaximumFor(the largest channel's Σ|q| over the kept).
-//   4. values of the kept: q again, with M for 32767, and again without those that are all zero;
-//      scale = m / M.
+//   1. c = the Haar transform of each face; m = the largest |component| of all. Components below 2^-126 count
+//      as 0: devices may flush them. Without any other, nothing is kept.
+//   2. Kept are the entries with some |component| of at least m · keptShare(threshold).
+//   3. step = the smallest power of two, from 2^-126, with m / step ≤ kLightMaximum and, for every channel,
+//      Σ|q| ≤ kLightSumLimit over the kept, where q = sign(c) floor(|c| / step + ½).
+//   4. values of the kept: q, without those that are all zero; scale = step.
+// Steps that are powers of two divide without rounding, so that every device gives the same q; and what is on
+// the grid of one light's step is on that of every finer one, so that lights can be subtracted exactly.
 // The cube must be finite, of a power of two of at most 64 texels a side.
 LightVector makeLightVector(const LightCube& cube, int threshold = kDefaultLightThreshold);
 

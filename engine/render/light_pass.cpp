@@ -61,8 +61,7 @@ void LightPass::setCube(const LightCube& cube) {
 
 void LightPass::record(vk::Commands& commands, float rotation, int threshold) const {
     RELUME_CHECK(mHasLight);
-    const shared::LightQuantisePush quantise{coefficients(), uint32_t(std::max(threshold, 1)),
-                                             uint32_t(kLightMaximum), kLightSumLimit, kMaximumLightEntries};
+    const shared::LightQuantisePush quantise{coefficients(), kLightSumLimit, keptShare(threshold)};
     // An earlier frame of the same submission may still be reading the table and the scale.
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Compute);

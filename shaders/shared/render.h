@@ -22,12 +22,10 @@ RELUME_SHARED_SIZE(LightSamplePush, 16)
 
 struct LightQuantisePush {
     uint coefficients; // 6 · F²
-    uint threshold;    // at least 1
-    uint maximum;      // kLightMaximum
     uint sumLimit;     // kLightSumLimit
-    uint entryLimit;   // kMaximumLightEntries
+    float share;       // of the largest component that a kept entry's largest has
 };
-RELUME_SHARED_SIZE(LightQuantisePush, 20)
+RELUME_SHARED_SIZE(LightQuantisePush, 12)
 
 // One quantised light coefficient: r and g in the halves of a word (r lowest), b in a word of its own.
 struct PackedLight {
@@ -38,7 +36,7 @@ RELUME_SHARED_SIZE(PackedLight, 8)
 
 // What belongs to all coefficients of a light.
 struct LightScale {
-    float scale; // coefficient = scale · quantised value
+    float scale; // coefficient = scale · quantised value; a power of two, or 0
 };
 RELUME_SHARED_SIZE(LightScale, 4)
 

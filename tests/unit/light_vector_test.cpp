@@ -53,9 +53,9 @@ TEST_CASE("light vector: constant light is one coefficient a face") {
     REQUIRE(vector.indices.size() == 6);
     for (size_t face = 0; face < 6; face++) {
         CHECK(vector.indices[face] == face * 64 * 64);
-        CHECK(vector.values[face] == std::array<int16_t, 3>{32767, 16384, 8192});
+        CHECK(vector.values[face] == std::array<int16_t, 3>{16384, 8192, 4096});
     }
-    CHECK(vector.scale == doctest::Approx(64.0 / 32767));
+    CHECK(vector.scale == 64.0f / 16384);
 }
 
 TEST_CASE("light vector: black light is empty") {
@@ -100,19 +100,23 @@ TEST_CASE("light vector: scaled light scales the vector") {
     const LightVector fourfold = makeLightVector(cube);
     CHECK(once.indices == fourfold.indices);
     CHECK(once.values == fourfold.values);
-    CHECK(fourfold.scale == doctest::Approx(4 * once.scale));
+    CHECK(fourfold.scale == 4 * once.scale);
 }
 
-TEST_CASE("light vector: the coarsened maximum keeps the limit for any sum") {
-    CHECK(lightMaximumFor(0) == kLightMaximum);
-    CHECK(lightMaximumFor(kLightSumLimit) == kLightMaximum);
-    const double n = kMaximumLightEntries;
-    for (uint64_t sum = kLightSumLimit + 1; sum <= uint64_t(n) * 32767; sum += 1 + sum / 97) {
-        const double maximum = lightMaximumFor(uint32_t(sum));
-        CHECK(maximum >= 64);
-        // Each entry may have been rounded down by a half, and may be rounded up by another.
-        CHECK((double(sum) + n / 2) * maximum / 32767 + n / 2 <= kLightSumLimit);
-    }
+TEST_CASE("light vector: the step is the smallest power of two that fits the largest component") {
+    const auto scaleOf = [](float largest) {
+        std::vector<vec3> coefficients(6 * 4 * 4, vec3(0));
+        coefficients[5].y = -largest; // a detail of one level: exactly representable after the inverse
+        return makeLightVector(cubeOfCoefficients(coefficients, 4)).scale;
+    };
+    CHECK(scaleOf(32767) == 1);
+    CHECK(scaleOf(std::nextafter(32767.0f, 1e9f)) == 2);
+    CHECK(scaleOf(16383.5f) == 0.5f);
+    CHECK(scaleOf(std::nextafter(16383.5f, 1e9f)) == 1);
+    CHECK(scaleOf(0x1p-100f) == 0x1p-114f);
+    CHECK(scaleOf(0x1p100f) == 0x1p86f);
+    CHECK(scaleOf(0x1p-120f) == 0x1p-126f); // the step is a normal float
+    CHECK(scaleOf(0x1p-130f) == 0);         // no light at all
 }
 
 TEST_CASE("light vector: sums stay below the limit for hostile cubes") {
@@ -125,7 +129,8 @@ TEST_CASE("light vector: sums stay below the limit for hostile cubes") {
         const LightVector vector = makeLightVector(cube, 0);
         CHECK(vector.values.size() == kMaximumLightEntries);
         CHECK(largestChannelSum(vector) <= kLightSumLimit);
-        CHECK(largestChannelSum(vector) > 0.5 * std::min(double(kLightSumLimit), value * 32767.0 * 24576));
+        CHECK(largestChannelSum(vector) >
+              0.49 * std::min(double(kLightSumLimit), double(value) * 16384 * kMaximumLightEntries));
         CHECK(relativeError(reconstruct(vector), cube) < 0.01);
     }
 }
