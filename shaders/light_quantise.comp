@@ -1,7 +1,7 @@
 #version 460
-// Quantises the light's coefficients into a dense table and drops those below the threshold. One
-// work-group: the maximum, then the sums that guard the range, then the values. All that decides a value is
-// integer, or a float product that is exact or rounded once.
+// Selects the light's coefficients, quantises them into a dense table of zeros elsewhere, and says what that cost.
+// One work-group, in passes over all: the maxima, the selection, the sums that guard the range, the values. All that
+// decides a value is integer, or a float product that is exact or rounded once.
 // C++ twin: makeLightVector() in engine/light/light_vector.h, where the steps are numbered.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,13 +13,16 @@ layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Push { LightQuantisePush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; };
 layout(binding = 1, scalar) writeonly buffer Table { PackedLight table[]; };
-layout(binding = 2, scalar) writeonly buffer Scale { LightScale lightScale; };
+layout(binding = 2, scalar) writeonly buffer Stats { LightStats stats; };
 
-shared uint maxima[kGroup];
-shared uvec3 sums[kGroup];
+shared uvec3 partial[kGroup];
+shared vec2 energies[kGroup];
+shared uint bins[kGroup];
+shared uvec2 chosen; // a bin, and how many of its entries are still to be kept
 
 // Magnitudes are compared as the bits of their floats, which are in the same order.
-const uint kLeastNormal = 0x00800000u;
+const uint kExponent = 23; // where it starts
+const uint kLeastNormal = 1u << kExponent;
 
 uint largest(uvec3 v) { return max(v.r, max(v.g, v.b)); }
 
@@ -28,61 +31,144 @@ uvec3 magnitudesOf(uint index) {
     return magnitudes * uvec3(greaterThanEqual(magnitudes, uvec3(kLeastNormal)));
 }
 
-uint magnitudeOf(uint index) { return largest(magnitudesOf(index)); }
+// What entries are selected by.
+uint weightOf(uint index, uint magnitude) {
+    const uint side = (1u << push.sideBits) - 1;
+    const uint x = index & side, y = (index >> push.sideBits) & side;
+    const uint fall = push.areaWeighted * (2 * uint(findMSB(x | y | 1)) << kExponent);
+    return magnitude >= fall + kLeastNormal ? magnitude - fall : 0;
+}
 
-// The largest |component| of all coefficients.
-uint groupMaximum(uint lane) {
-    uint found = 0;
-    for (uint i = lane; i < push.coefficients; i += kGroup) found = max(found, magnitudeOf(i));
-    maxima[lane] = found;
+uint weightOf(uint index) { return weightOf(index, largest(magnitudesOf(index))); }
+
+// The largest |component| of all coefficients, and the largest weight.
+uvec2 groupMaxima(uint lane) {
+    uvec2 found = uvec2(0);
+    for (uint i = lane; i < push.coefficients; i += kGroup) {
+        const uint magnitude = largest(magnitudesOf(i));
+        found = max(found, uvec2(magnitude, weightOf(i, magnitude)));
+    }
+    partial[lane] = uvec3(found, 0);
     barrier();
     for (uint step = kGroup / 2; step > 0; step /= 2) {
-        if (lane < step) maxima[lane] = max(maxima[lane], maxima[lane + step]);
+        if (lane < step) partial[lane] = max(partial[lane], partial[lane + step]);
         barrier();
     }
-    return maxima[0];
+    return partial[0].xy;
+}
+
+// Entries in the order of selection: by weight, and of equals the one of lower index first.
+uvec2 rankOf(uint index) { return uvec2(weightOf(index), push.coefficients - 1 - index); }
+
+// The least rank that is kept.
+bool isKept(uvec2 rank, uvec2 least) {
+    return rank.x > least.x || (rank.x == least.x && rank.y >= least.y);
+}
+
+// The rank of the entry number push.count: found digit by digit, from the highest, by counting the entries whose
+// digits before are those found.
+const uint kDigitBits = 7; // 2^7 bins: one a lane
+uvec2 selectByCount(uint lane) {
+    uvec2 found = uvec2(0);
+    uint remaining = push.count;
+    for (uint word = 0; word < 2; word++)
+        for (int shift = word == 0 ? 28 : 14; shift >= 0; shift -= int(kDigitBits)) {
+            bins[lane] = 0;
+            barrier();
+            for (uint i = lane; i < push.coefficients; i += kGroup) {
+                const uvec2 rank = rankOf(i);
+                const uint value = rank[word];
+                const bool follows = (word == 0 || rank.x == found.x) &&
+                                     (value >> shift) >> kDigitBits == (found[word] >> shift) >> kDigitBits;
+                if (follows) atomicAdd(bins[(value >> shift) & (kGroup - 1)], 1);
+            }
+            barrier();
+            // Entries in this bin and all above.
+            for (uint step = 1; step < kGroup; step *= 2) {
+                const uint above = lane + step < kGroup ? bins[lane + step] : 0;
+                barrier();
+                bins[lane] += above;
+                barrier();
+            }
+            const uint above = lane + 1 < kGroup ? bins[lane + 1] : 0;
+            if (lane == 0) chosen = uvec2(0, remaining); // where there are fewer
+            barrier();
+            if (above < remaining && bins[lane] >= remaining) chosen = uvec2(lane, remaining - above);
+            barrier();
+            found[word] |= chosen.x << shift;
+            remaining = chosen.y;
+            barrier();
+        }
+    return found;
 }
 
 // The exponent field of the smallest power of two of which `magnitude` is at most 32767: 14 below its own, or 13
 // if its mantissa is above that of 32767, 0x7ffe00.
-uint stepExponent(uint magnitude) { return max((magnitude + 0x1ffu) >> 23, 15u) - 14u; }
+uint stepExponent(uint magnitude) { return max((magnitude + 0x1ffu) >> kExponent, 15u) - 14u; }
 
-// |c| / step is a product with a power of two; its floor and the rest are exact. Halves away from zero.
-uvec3 quantise(uint index, float inverse) {
-    const vec3 places = uintBitsToFloat(magnitudesOf(index)) * inverse;
+float inverseOf(uint exponent) { return uintBitsToFloat((254u - exponent) << kExponent); }
+
+// In steps, of which `inverse` is one part: a product with a power of two.
+vec3 placesOf(uint index, float inverse) { return uintBitsToFloat(magnitudesOf(index)) * inverse; }
+
+// To nearest, halves away from zero. Floor and rest are exact.
+uvec3 quantise(vec3 places) {
     const vec3 whole = floor(places);
     return uvec3(whole) + uvec3(greaterThanEqual(places - whole, vec3(0.5)));
 }
 
-float inverseOf(uint exponent) { return uintBitsToFloat((254u - exponent) << 23); }
-
 // The largest channel's sum of magnitudes over the kept coefficients.
-uint groupMagnitude(uint lane, uint least, float inverse) {
+uint groupMagnitude(uint lane, uvec2 least, float inverse) {
     uvec3 sum = uvec3(0);
     for (uint i = lane; i < push.coefficients; i += kGroup)
-        if (magnitudeOf(i) >= least) sum += quantise(i, inverse);
-    barrier(); // the sums of the step before have been read
-    sums[lane] = sum;
+        if (isKept(rankOf(i), least)) sum += quantise(placesOf(i, inverse));
+    barrier(); // what was there before has been read
+    partial[lane] = sum;
     barrier();
     for (uint step = kGroup / 2; step > 0; step /= 2) {
-        if (lane < step) sums[lane] += sums[lane + step];
+        if (lane < step) partial[lane] += partial[lane + step];
         barrier();
     }
-    return largest(sums[0]);
+    return largest(partial[0]);
 }
 
 void main() {
     const uint lane = gl_LocalInvocationID.x;
-    const uint maximum = groupMaximum(lane);
-    precise const float cut = uintBitsToFloat(maximum) * push.share;
-    const uint least = max(floatBitsToUint(cut), kLeastNormal);
-    uint exponent = stepExponent(maximum);
+    const uvec2 maxima = groupMaxima(lane);
+    uvec2 least;
+    if (push.count > 0)
+        least = selectByCount(lane);
+    else
+        least = uvec2(floatBitsToUint(uintBitsToFloat(maxima.y) * push.share), 0);
+    if (least.x < kLeastNormal) least = uvec2(kLeastNormal, 0);
+    uint exponent = stepExponent(maxima.x);
     while (groupMagnitude(lane, least, inverseOf(exponent)) > push.sumLimit) exponent++;
+
+    const float inverse = inverseOf(exponent);
+    vec2 energy = vec2(0); // before, and lost
+    uint kept = 0;
     for (uint i = lane; i < push.coefficients; i += kGroup) {
-        ivec3 quantised = ivec3(0);
-        if (magnitudeOf(i) >= least)
-            quantised = ivec3(sign(coefficients[i])) * ivec3(quantise(i, inverseOf(exponent)));
-        table[i] = packLight(quantised);
+        const vec3 places = placesOf(i, inverse);
+        uvec3 quantised = uvec3(0);
+        if (isKept(rankOf(i), least)) quantised = quantise(places);
+        const vec3 rest = places - vec3(quantised);
+        energy += vec2(dot(places, places), dot(rest, rest));
+        kept += uint(largest(quantised) > 0);
+        table[i] = packLight(ivec3(sign(coefficients[i])) * ivec3(quantised));
     }
-    if (lane == 0) lightScale.scale = maximum > 0 ? uintBitsToFloat(exponent << 23) : 0;
+    barrier();
+    energies[lane] = energy;
+    partial[lane].x = kept;
+    barrier();
+    for (uint step = kGroup / 2; step > 0; step /= 2) {
+        if (lane < step) {
+            energies[lane] += energies[lane + step];
+            partial[lane].x += partial[lane + step].x;
+        }
+        barrier();
+    }
+    if (lane == 0) {
+        const float scale = maxima.x > 0 ? uintBitsToFloat(exponent << kExponent) : 0;
+        stats = LightStats(scale, energies[0].x, energies[0].y, partial[0].x);
+    }
 }

@@ -16,7 +16,7 @@ layout(binding = 0, std430) readonly buffer Starts { uint starts[]; };
 layout(binding = 1, std430) readonly buffer Indices { uint indices[]; }; // two columns a word
 layout(binding = 2, std430) readonly buffer Columns { uvec4 columns[]; };
 layout(binding = 3, scalar) readonly buffer Table { PackedLight table[]; };
-layout(binding = 4, scalar) readonly buffer Light { LightScale light; };
+layout(binding = 4, scalar) readonly buffer Light { LightStats light; };
 layout(binding = 5, scalar) readonly buffer RowScales { float rowScales[]; };
 layout(binding = 6, scalar) writeonly buffer Tuples { vec3 tuples[]; };
 

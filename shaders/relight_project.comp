@@ -14,7 +14,7 @@ layout(binding = 0, scalar) readonly buffer Groups { BasisGroup groups[]; };
 layout(binding = 1, std430) readonly buffer Indices { uint indices[]; }; // two columns a word
 layout(binding = 2, std430) readonly buffer Basis { uint basis[]; };     // column after column
 layout(binding = 3, scalar) readonly buffer Table { PackedLight table[]; };
-layout(binding = 4, scalar) readonly buffer Light { LightScale light; };
+layout(binding = 4, scalar) readonly buffer Light { LightStats light; };
 layout(binding = 5, scalar) writeonly buffer Projections { vec3 projections[]; };
 
 const uint kLanes = gl_WorkGroupSize.x;

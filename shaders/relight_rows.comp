@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push { RelightRowsPush push; };
 layout(binding = 0, std430) readonly buffer Starts { uint starts[]; };
 layout(binding = 1, std430) readonly buffer Entries { uvec4 entries[]; };
 layout(binding = 2, scalar) readonly buffer Table { PackedLight table[]; };
-layout(binding = 3, scalar) readonly buffer Light { LightScale light; };
+layout(binding = 3, scalar) readonly buffer Light { LightStats light; };
 layout(binding = 4, scalar) readonly buffer RowScales { float rowScales[]; };
 layout(binding = 5, scalar) writeonly buffer Tuples { vec3 tuples[]; };
 

@@ -20,7 +20,7 @@ struct Arguments {
     ImageArguments image;
     AppearanceArguments appearance;
     DeviceArguments device;
-    int threshold = kDefaultLightThreshold;
+    LightSelection selection;
     int frames = 1;
     std::string turn = "camera";
     std::filesystem::path timings;
@@ -34,6 +34,24 @@ std::filesystem::path framePath(const Arguments& arguments, int frame) {
         fmt::format("{}_{:04}{}", path.stem().string(), frame + 1, path.extension().string());
     return path.replace_filename(name);
 }
+
+// Over the frames whose light changed.
+struct LightLoss {
+    uint32_t fewest = UINT32_MAX, most = 0;
+    float error = 0;
+
+    void add(const LightStats& stats) {
+        fewest = std::min(fewest, stats.kept);
+        most = std::max(most, stats.kept);
+        error = std::max(error, stats.error);
+    }
+    void log(int faceSize) const {
+        const std::string kept =
+            fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most);
+        spdlog::info("light: {} of {} coefficients, error {}{:.3g}", kept, 6 * faceSize * faceSize,
+                     fewest == most ? "" : "up to ", error);
+    }
+};
 
 void writeTimings(const std::filesystem::path& path, const vk::TimingCapture& capture) {
     const TimingTrace trace = capture.trace();
@@ -70,6 +88,7 @@ void run(const Arguments& arguments) {
     view.setAppearance(appearance);
 
     const bool turnsLight = arguments.turn == "light";
+    LightLoss loss;
     Progress progress("rendering", uint64_t(arguments.frames), "frames");
     vk::Commands commands(*device, "render");
     commands.setCapture(capture);
@@ -86,19 +105,21 @@ void run(const Arguments& arguments) {
         commands.begin();
         if (lightChanges) {
             light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
-                         arguments.threshold);
+                         arguments.selection);
             relighter.record(commands, light, appearance);
         }
         view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter);
         recording.end();
         commands.submitAndWait();
         vk::CpuSpan reading(capture, "read back");
+        if (lightChanges) loss.add(light.readStats());
         const Image image = view.read();
         reading.end();
         const vk::CpuSpan writing(capture, "write image");
         arguments.image.write(framePath(arguments, frame), image);
         progress.update(uint64_t(frame) + 1);
     }
+    loss.log(asset.faceSize);
     if (capture) writeTimings(arguments.timings, *capture);
     DeviceArguments::expectNoMessages(*device);
 }
@@ -112,9 +133,20 @@ void addRenderCommand(CLI::App& program) {
     arguments->image.add(*command);
     arguments->appearance.add(*command);
     arguments->light.add(*command);
-    command->add_option("--threshold", arguments->threshold, "Drop light coefficients below this, of 32767")
-        ->check(CLI::Range(0, kLightMaximum))
-        ->capture_default_str();
+    CLI::Option* threshold =
+        command
+            ->add_option("--threshold", arguments->selection.threshold,
+                         "Drop light coefficients below this, where the largest is 32767")
+            ->check(CLI::Range(0, kLightMaximum))
+            ->capture_default_str();
+    command
+        ->add_option("--coefficients", arguments->selection.count,
+                     "Keep so many light coefficients, the largest, instead")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1, int(kMaximumLightEntries)))
+        ->excludes(threshold);
+    command->add_flag("--area-weighted", arguments->selection.areaWeighted,
+                      "Weigh light coefficients by the area of their functions when selecting");
     arguments->camera.add(*command);
     command->add_option("--frames", arguments->frames, "Images of one full turn, numbered")
         ->check(CLI::Range(1, 100000))

@@ -5,7 +5,9 @@
 #include "engine/math/haar.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace relume {
@@ -29,6 +31,38 @@ float componentOf(float coefficient) {
 
 float largestComponent(vec3 c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
+double lengthSquared(glm::dvec3 v) { return glm::dot(v, v); }
+
+// The share of its face that the function of coefficient (x, y) covers: 4^-level, level 0 for the average.
+float areaOf(int x, int y) {
+    const int side = std::max(1, int(std::bit_floor(unsigned(std::max(x, y)))));
+    return 1.0f / float(side * side);
+}
+
+// Indices of the kept entries, rising.
+std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
+                             const LightSelection& selection) {
+    std::vector<float> weights;
+    for (uint32_t i = 0; i < coefficients.size(); i++) {
+        const int x = int(i) % size, y = int(i) / size % size;
+        weights.push_back(
+            componentOf(largestComponent(coefficients[i]) * (selection.areaWeighted ? areaOf(x, y) : 1.0f)));
+    }
+    std::vector<uint32_t> kept;
+    for (uint32_t i = 0; i < weights.size(); i++)
+        if (weights[i] > 0) kept.push_back(i);
+    if (selection.count) {
+        RELUME_CHECK(*selection.count > 0);
+        std::ranges::stable_sort(kept, std::ranges::greater(), [&](uint32_t i) { return weights[i]; });
+        kept.resize(std::min(kept.size(), size_t(*selection.count)));
+        std::ranges::sort(kept);
+    } else {
+        const float least = std::ranges::max(weights) * shareOf(selection.threshold);
+        std::erase_if(kept, [&](uint32_t i) { return weights[i] < least; });
+    }
+    return kept;
+}
+
 // Rounds to nearest, halves away from zero. In double, where none of this rounds.
 ivec3 quantise(vec3 coefficient, double step) {
     const glm::dvec3 c(coefficient);
@@ -37,9 +71,7 @@ ivec3 quantise(vec3 coefficient, double step) {
 
 } // namespace
 
-float keptShare(int threshold) { return std::max(float(threshold) - 0.5f, 0.0f) / float(kLightMaximum); }
-
-LightVector makeLightVector(const LightCube& cube, int threshold) {
+LightVector makeLightVector(const LightCube& cube, const LightSelection& selection) {
     RELUME_CHECK_LE(cube.radiance.size(), size_t(kMaximumLightEntries));
     std::vector<vec3> coefficients = transformFaces(cube, haarForward);
     float largest = 0;
@@ -47,14 +79,10 @@ LightVector makeLightVector(const LightCube& cube, int threshold) {
         c = {componentOf(c.x), componentOf(c.y), componentOf(c.z)};
         largest = std::max(largest, largestComponent(c));
     }
-    LightVector vector{.faceSize = cube.size, .scale = 0, .indices = {}, .values = {}};
+    LightVector vector{.faceSize = cube.size, .scale = 0, .error = 0, .indices = {}, .values = {}};
     if (largest == 0) return vector;
 
-    const float least = largest * keptShare(threshold);
-    std::vector<uint32_t> kept;
-    for (uint32_t i = 0; i < coefficients.size(); i++)
-        if (largestComponent(coefficients[i]) >= least) kept.push_back(i);
-
+    const std::vector<uint32_t> kept = select(coefficients, cube.size, selection);
     const auto fits = [&](double step) {
         glm::u64vec3 sum(0);
         for (uint32_t i : kept) sum += glm::u64vec3(glm::abs(quantise(coefficients[i], step)));
@@ -64,12 +92,18 @@ LightVector makeLightVector(const LightCube& cube, int threshold) {
     while (double(largest) / step > kLightMaximum) step *= 2;
     while (!fits(step)) step *= 2;
     vector.scale = float(step);
+    double energy = 0, lost = 0; // in double: no power of two overflows
+    for (const vec3& c : coefficients) energy += lengthSquared(glm::dvec3(c));
+    lost = energy;
     for (uint32_t i : kept) {
         const ivec3 q = quantise(coefficients[i], step);
         if (q == ivec3(0)) continue;
+        const glm::dvec3 c(coefficients[i]);
+        lost += lengthSquared(c - step * glm::dvec3(q)) - lengthSquared(c);
         vector.indices.push_back(uint16_t(i));
         vector.values.push_back({int16_t(q.x), int16_t(q.y), int16_t(q.z)});
     }
+    vector.error = float(std::sqrt(std::max(lost, 0.0) / energy));
     return vector;
 }
 

@@ -152,7 +152,7 @@ void BasesRelighter::record(vk::Commands& commands, const LightPass& light) cons
     for (const Shard& shard : mShards)
         if (shard.groups > 0)
             commands.dispatch(mPrograms.project,
-                              {shard.groupList, shard.indices, shard.basis, light.table(), light.scale(),
+                              {shard.groupList, shard.indices, shard.basis, light.table(), light.stats(),
                                shard.projections},
                               0, {shard.groups * mPrograms.project.groupSize()[0], 1, 1});
     commands.barrier(Stage::Compute, Stage::Compute);

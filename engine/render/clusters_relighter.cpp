@@ -73,7 +73,7 @@ void ClustersRelighter::record(vk::Commands& commands, const LightPass& light) c
     for (const Shard& shard : mShards)
         commands.dispatch(
             mProgram,
-            {shard.starts, shard.indices, shard.columns, light.table(), light.scale(), mScales, tuples()},
+            {shard.starts, shard.indices, shard.columns, light.table(), light.stats(), mScales, tuples()},
             shared::RelightClustersPush{shard.firstGroup, mTerms, mVertices},
             {shard.groups * mProgram.groupSize()[0], 1, 1});
 }

@@ -10,13 +10,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace relume {
 
 using vk::BufferUse;
 using vk::Stage;
-
-static_assert(sizeof(shared::LightScale) == sizeof(float));
 
 LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), mFaceSize(faceSize) {
     RELUME_CHECK(faceSize >= 2 && std::has_single_bit(unsigned(faceSize)));
@@ -30,7 +29,7 @@ LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), 
         vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light coefficients");
     mTable =
         vk::Buffer(device, coefficients() * sizeof(shared::PackedLight), BufferUse::Device, "light table");
-    mScale = vk::Buffer(device, sizeof(shared::LightScale), BufferUse::Device, "light scale");
+    mStats = vk::Buffer(device, sizeof(shared::LightStats), BufferUse::Device, "light stats");
 }
 
 void LightPass::setEnvironment(const Environment& prepared) {
@@ -59,10 +58,16 @@ void LightPass::setCube(const LightCube& cube) {
     mSamplesEnvironment = false;
 }
 
-void LightPass::record(vk::Commands& commands, float rotation, int threshold) const {
+void LightPass::record(vk::Commands& commands, float rotation, const LightSelection& selection) const {
     RELUME_CHECK(mHasLight);
-    const shared::LightQuantisePush quantise{coefficients(), kLightSumLimit, keptShare(threshold)};
-    // An earlier frame of the same submission may still be reading the table and the scale.
+    RELUME_CHECK(!selection.count || *selection.count > 0);
+    const shared::LightQuantisePush quantise{coefficients(),
+                                             kLightSumLimit,
+                                             uint32_t(std::countr_zero(unsigned(mFaceSize))),
+                                             selection.areaWeighted,
+                                             uint32_t(selection.count.value_or(0)),
+                                             shareOf(selection.threshold)};
+    // An earlier frame of the same submission may still be reading the table and the stats.
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Compute);
     if (mSamplesEnvironment) {
@@ -81,7 +86,7 @@ void LightPass::record(vk::Commands& commands, float rotation, int threshold) co
         commands.barrier(Stage::Compute, Stage::Compute);
     });
     commands.pass("light quantise", [&] {
-        commands.dispatch(mQuantiseProgram, {mCoefficients, mTable, mScale}, quantise, {1, 1, 1});
+        commands.dispatch(mQuantiseProgram, {mCoefficients, mTable, mStats}, quantise, {1, 1, 1});
         commands.barrier(Stage::Compute, Stage::Compute);
         commands.barrier(Stage::Compute, Stage::Draw);
     });
@@ -91,10 +96,17 @@ LightCube LightPass::readCube() const {
     return {mFaceSize, vk::download<vec3>(mDevice, mRadiance, coefficients())};
 }
 
+LightStats LightPass::readStats() const {
+    const auto stats = vk::download<shared::LightStats>(mDevice, mStats, 1)[0];
+    return {stats.scale, stats.energy > 0 ? std::sqrt(stats.lost / stats.energy) : 0, stats.kept};
+}
+
 LightVector LightPass::readVector() const {
     LightVector vector;
     vector.faceSize = mFaceSize;
-    vector.scale = vk::download<shared::LightScale>(mDevice, mScale, 1)[0].scale;
+    const LightStats stats = readStats();
+    vector.scale = stats.scale;
+    vector.error = stats.error;
     const auto table = vk::download<shared::PackedLight>(mDevice, mTable, coefficients());
     for (uint32_t i = 0; i < table.size(); i++) {
         const auto& [redGreen, blue] = table[i];

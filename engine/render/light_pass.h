@@ -7,6 +7,12 @@
 
 namespace relume {
 
+struct LightStats {
+    float scale;   // LightVector::scale
+    float error;   // LightVector::error
+    uint32_t kept; // entries
+};
+
 class LightPass {
   public:
     // `faceSize`: F of the asset, 32 or 64 (any even power of two to 64 works).
@@ -20,11 +26,14 @@ class LightPass {
     // Passes "light sample" (environments only), "light haar", "light quantise". `rotation` in radians,
     // as in sampleEnvironment(), turns an environment, not a cube. Compute and draws may use the
     // results at once.
-    void record(vk::Commands& commands, float rotation = 0, int threshold = kDefaultLightThreshold) const;
+    void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {}) const;
 
     int faceSize() const { return mFaceSize; }
     const vk::Buffer& table() const { return mTable; } // 6 F² × shared::PackedLight, zero where dropped
-    const vk::Buffer& scale() const { return mScale; } // shared::LightScale
+    const vk::Buffer& stats() const { return mStats; } // shared::LightStats
+
+    // What selection and quantisation cost in the last submission of record(). Waits for the device.
+    LightStats readStats() const;
 
     // What the last submission of record() left, for tests and `relume verify`. They wait for the device.
     LightCube readCube() const;
@@ -43,7 +52,7 @@ class LightPass {
     vk::Buffer mFootprintStarts, mFootprintPixels; // LightFootprints
     vk::Buffer mRadiance;                          // 6 F² × vec3
     vk::Buffer mCoefficients;                      // 6 F² × vec3
-    vk::Buffer mTable, mScale;
+    vk::Buffer mTable, mStats;
 };
 
 } // namespace relume

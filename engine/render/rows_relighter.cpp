@@ -78,7 +78,7 @@ RowsRelighter::RowsRelighter(const vk::Device& device, const vk::ComputeProgram&
 void RowsRelighter::record(vk::Commands& commands, const LightPass& light) const {
     for (const Shard& shard : mShards)
         commands.dispatch(mProgram,
-                          {shard.starts, shard.entries, light.table(), light.scale(), mScales, tuples()},
+                          {shard.starts, shard.entries, light.table(), light.stats(), mScales, tuples()},
                           shared::RelightRowsPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
 }
 

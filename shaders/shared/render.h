@@ -23,9 +23,12 @@ RELUME_SHARED_SIZE(LightSamplePush, 16)
 struct LightQuantisePush {
     uint coefficients; // 6 · F²
     uint sumLimit;     // kLightSumLimit
-    float share;       // of the largest component that a kept entry's largest has
+    uint sideBits;     // log2 F
+    uint areaWeighted; // 0 or 1
+    uint count;        // of kept entries; 0: by share
+    float share;       // of the largest weight that a kept entry has
 };
-RELUME_SHARED_SIZE(LightQuantisePush, 12)
+RELUME_SHARED_SIZE(LightQuantisePush, 24)
 
 // One quantised light coefficient: r and g in the halves of a word (r lowest), b in a word of its own.
 struct PackedLight {
@@ -35,10 +38,13 @@ struct PackedLight {
 RELUME_SHARED_SIZE(PackedLight, 8)
 
 // What belongs to all coefficients of a light.
-struct LightScale {
-    float scale; // coefficient = scale · quantised value; a power of two, or 0
+struct LightStats {
+    float scale;  // coefficient = scale · quantised value; a power of two, or 0
+    float energy; // Σ c², in units of scale², of the light before,
+    float lost;   // and of what selection and rounding took
+    uint kept;    // entries that are not zero
 };
-RELUME_SHARED_SIZE(LightScale, 4)
+RELUME_SHARED_SIZE(LightStats, 16)
 
 struct RelightRowsPush {
     uint firstRow; // of the shard in its part

@@ -57,6 +57,8 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"render x.relume -o x.png --rotate inf", "--rotate"},
              {"render x.relume -o x.png --orbit 0,nan,1", "--orbit"},
              {"render x.relume -o x.png --distant-light nan,0", "--distant-light"},
+             {"render x.relume -o x.png --coefficients 0", "--coefficients"},
+             {"render x.relume -o x.png --coefficients 9 --threshold 9", "--threshold"},
              {"render x.relume -o x.png --intensity nan", "--intensity"},
              {"render x.relume -o x.png --fov nan", "--fov"},
              {"compare a.exr b.exr --threshold nan", "--threshold"},

@@ -34,10 +34,11 @@ LightCube makeNoise(int size, float low, float high) {
     return cube;
 }
 
-void submit(const vk::Device& device, const LightPass& pass, float rotation, int threshold) {
+void submit(const vk::Device& device, const LightPass& pass, float rotation,
+            const LightSelection& selection) {
     vk::Commands commands(device, "light test");
     commands.begin();
-    pass.record(commands, rotation, threshold);
+    pass.record(commands, rotation, selection);
     commands.submitAndWait();
 }
 
@@ -70,6 +71,7 @@ void checkSameVector(const LightVector& device, const LightVector& host, int thr
 // Of one cube: the same in every bit.
 void checkSameBits(const LightVector& device, const LightVector& host) {
     CHECK_EQ(device.scale, host.scale);
+    CHECK_EQ(device.error, doctest::Approx(host.error).epsilon(1e-4));
     CHECK(device.indices == host.indices);
     CHECK(device.values == host.values);
 }
@@ -80,7 +82,7 @@ TEST_CASE("light pass: a constant environment is one coefficient a face") {
     const TestDevice device;
     LightPass pass(device, 64);
     pass.setEnvironment({16, 8, std::vector<vec3>(128, vec3(3, 2, 1))});
-    submit(device, pass, 0.7f, 1024);
+    submit(device, pass, 0.7f, {});
     for (const vec3& radiance : pass.readCube().radiance)
         for (int c = 0; c < 3; c++) CHECK_EQ(radiance[c], doctest::Approx(3 - c).epsilon(1e-5));
     const LightVector vector = pass.readVector();
@@ -101,7 +103,7 @@ TEST_CASE("light pass: an environment agrees with the CPU twin") {
             LightPass pass(device, faceSize);
             pass.setEnvironment(environment);
             for (const float rotation : {0.0f, 2.5f}) {
-                submit(device, pass, rotation, kDefaultLightThreshold);
+                submit(device, pass, rotation, {});
                 const LightCube cube = pass.readCube(),
                                 expected = sampleEnvironment(environment, faceSize, rotation);
                 float worst = 0;
@@ -121,8 +123,8 @@ TEST_CASE("light pass: a cube is quantised as by the CPU twin") {
     for (const int threshold : {0, 1, 300, 1024}) {
         const LightCube cube = makeDistantLight({0.2f, 0.9f, 0.4f}, {3, 2, 1}, 64);
         pass.setCube(cube);
-        submit(device, pass, 0, threshold);
-        checkSameBits(pass.readVector(), makeLightVector(cube, threshold));
+        submit(device, pass, 0, {threshold});
+        checkSameBits(pass.readVector(), makeLightVector(cube, {threshold}));
     }
 }
 
@@ -132,7 +134,7 @@ TEST_CASE("light pass: the range guard coarsens as the CPU twin does") {
         LightPass pass(device, faceSize);
         const LightCube cube = makeNoise(faceSize, -1, 1); // negative radiance: the largest sums there are
         pass.setCube(cube);
-        submit(device, pass, 0, 0);
+        submit(device, pass, 0, {0});
         const LightVector vector = pass.readVector();
         uint64_t sum = 0;
         int largest = 0;
@@ -142,7 +144,7 @@ TEST_CASE("light pass: the range guard coarsens as the CPU twin does") {
         }
         CHECK_LT(largest, kLightMaximum / 4); // three halvings, at least
         CHECK_LE(sum, kLightSumLimit);
-        checkSameBits(vector, makeLightVector(cube, 0));
+        checkSameBits(vector, makeLightVector(cube, {0}));
     }
 }
 
@@ -161,9 +163,54 @@ TEST_CASE("light pass: any cube is quantised to the CPU twin's bits, however bri
         for (const int threshold : {0, 20, 1024}) {
             CAPTURE(brightness);
             CAPTURE(threshold);
-            submit(device, pass, 0, threshold);
-            checkSameBits(pass.readVector(), makeLightVector(cube, threshold));
+            submit(device, pass, 0, {threshold});
+            checkSameBits(pass.readVector(), makeLightVector(cube, {threshold}));
         }
+    }
+}
+
+TEST_CASE("light pass: every selection keeps what the CPU twin keeps") {
+    const TestDevice device;
+    for (const int faceSize : {2, 32, 64}) {
+        LightPass pass(device, faceSize);
+        std::mt19937 random(13);
+        LightCube cube{faceSize, {}};
+        for (int i = 0; i < 6 * faceSize * faceSize; i++) // few values: many equals
+            cube.radiance.push_back(vec3(float(random() % 4), float(random() % 3), float(random() % 2)));
+        pass.setCube(cube);
+        const int all = int(cube.radiance.size());
+        for (const bool areaWeighted : {false, true})
+            for (const LightSelection& selection : std::initializer_list<LightSelection>{{.threshold = 0},
+                                                                                         {.threshold = 500},
+                                                                                         {.count = 1},
+                                                                                         {.count = 7},
+                                                                                         {.count = all / 3},
+                                                                                         {.count = all - 1},
+                                                                                         {.count = 24576}}) {
+                LightSelection weighted = selection;
+                weighted.areaWeighted = areaWeighted;
+                CAPTURE(faceSize);
+                CAPTURE(areaWeighted);
+                CAPTURE(selection.count.value_or(-selection.threshold));
+                submit(device, pass, 0, weighted);
+                const LightVector vector = pass.readVector();
+                checkSameBits(vector, makeLightVector(cube, weighted));
+                CHECK_EQ(pass.readStats().kept, vector.indices.size());
+                CHECK_EQ(pass.readStats().error, vector.error);
+            }
+    }
+}
+
+TEST_CASE("light pass: the step turns where the largest coefficient passes 32767 of it") {
+    const TestDevice device;
+    LightPass pass(device, 2);
+    for (const float largest : {32767.0f, std::nextafter(32767.0f, 1e9f), 32768.0f}) {
+        LightCube cube{2, std::vector<vec3>(6 * 4, vec3(0))};
+        std::fill_n(cube.radiance.begin(), 4, vec3(largest / 2)); // whose average is half the sum
+        pass.setCube(cube);
+        submit(device, pass, 0, {});
+        CHECK_EQ(pass.readVector().scale, largest > 32767 ? 2 : 1);
+        checkSameBits(pass.readVector(), makeLightVector(cube));
     }
 }
 
@@ -171,7 +218,7 @@ TEST_CASE("light pass: no light is no coefficient") {
     const TestDevice device;
     LightPass pass(device, 32);
     pass.setCube({32, std::vector<vec3>(6 * 32 * 32, vec3(0))});
-    submit(device, pass, 0, 0);
+    submit(device, pass, 0, {0});
     const LightVector vector = pass.readVector();
     CHECK_EQ(vector.scale, 0);
     CHECK(vector.indices.empty());

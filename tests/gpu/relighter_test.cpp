@@ -50,7 +50,7 @@ void checkBits(const vk::Device& device, const Asset& asset, const RelighterOpti
     vk::Commands commands(device, "relight test");
     for (const int threshold : {0, 200}) { // the second over the first's tuples
         commands.begin();
-        light.record(commands, 0, threshold);
+        light.record(commands, 0, {threshold});
         relighter.record(commands, light);
         commands.submitAndWait();
         const LightVector vector = light.readVector();
@@ -111,7 +111,7 @@ TEST_CASE("relighter: tuples of sums that reach the limits of 32 bits are exact"
     light.setCube(cube);
     vk::Commands commands(device, "relight test");
     commands.begin();
-    light.record(commands, 0, 0);
+    light.record(commands, 0, {0});
     commands.submitAndWait();
     const LightVector vector = light.readVector();
 

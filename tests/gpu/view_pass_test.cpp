@@ -187,7 +187,7 @@ struct TestScene {
         light.setCube(makeLight());
         vk::Commands commands(device, "view test");
         commands.begin();
-        light.record(commands, 0, 0);
+        light.record(commands, 0, {0});
         relighter.record(commands, light, appearance);
         commands.submitAndWait();
     }

@@ -34,7 +34,7 @@ class MaterialTest {
     Image draw(const Appearance& appearance) {
         vk::Commands commands(mDevice, "material test");
         commands.begin();
-        mLight.record(commands, 0, 64);
+        mLight.record(commands, 0, {64});
         mRelighter.record(commands, mLight, appearance);
         mView.setAppearance(appearance);
         mView.record(commands, mCamera, mRelighter);

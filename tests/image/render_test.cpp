@@ -35,7 +35,7 @@ Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
     const ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
     vk::Commands commands(device, "render test");
     commands.begin();
-    light.record(commands, 0, threshold);
+    light.record(commands, 0, {threshold});
     relighter.record(commands, light);
     view.record(commands, viewOf(asset), relighter);
     commands.submitAndWait();

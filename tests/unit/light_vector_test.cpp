@@ -75,12 +75,12 @@ TEST_CASE("light vector: rounds halves away from zero and drops below the thresh
     REQUIRE(vector.indices == std::vector<uint16_t>{0, 1, 3});
     CHECK(vector.values[1] == std::array<int16_t, 3>{1024, 0, -3});
     CHECK(vector.values[2] == std::array<int16_t, 3>{0, 0, -4096});
-    CHECK(makeLightVector(cubeOfCoefficients(coefficients, 4), 0).indices.size() == 4);
+    CHECK(makeLightVector(cubeOfCoefficients(coefficients, 4), {0}).indices.size() == 4);
 }
 
 TEST_CASE("light vector: threshold 0 loses only to rounding") {
     const LightCube cube = randomCube(32, 4);
-    const LightVector vector = makeLightVector(cube, 0);
+    const LightVector vector = makeLightVector(cube, {0});
     CHECK(std::is_sorted(vector.indices.begin(), vector.indices.end()));
     CHECK(relativeError(reconstruct(vector), cube) < 2e-3);
 }
@@ -88,9 +88,51 @@ TEST_CASE("light vector: threshold 0 loses only to rounding") {
 TEST_CASE("light vector: a higher threshold keeps less and errs more") {
     LightCube cube = randomCube(32, 5);
     cube.radiance[1000] = vec3(500);
-    const LightVector fine = makeLightVector(cube, 16), coarse = makeLightVector(cube, 1024);
+    const LightVector fine = makeLightVector(cube, {16}), coarse = makeLightVector(cube, {1024});
     CHECK(fine.indices.size() > 2 * coarse.indices.size());
     CHECK(relativeError(reconstruct(fine), cube) < relativeError(reconstruct(coarse), cube));
+}
+
+TEST_CASE("light vector: a count keeps the largest, of equals the first") {
+    std::vector<vec3> coefficients(6 * 4 * 4, vec3(0));
+    coefficients[3] = coefficients[40] = vec3(0, -5, 0);
+    coefficients[90] = coefficients[17] = coefficients[20] = vec3(2, 1, 0);
+    coefficients[50] = vec3(0, 1, 0);
+    const LightCube cube = cubeOfCoefficients(coefficients, 4);
+    const auto kept = [&](int count) { return makeLightVector(cube, {.count = count}).indices; };
+    CHECK(kept(1) == std::vector<uint16_t>{3});
+    CHECK(kept(2) == std::vector<uint16_t>{3, 40});
+    CHECK(kept(4) == std::vector<uint16_t>{3, 17, 20, 40});
+    CHECK(kept(96) == std::vector<uint16_t>{3, 17, 20, 40, 50, 90});
+}
+
+TEST_CASE("light vector: area weighting prefers coarse functions") {
+    std::vector<vec3> coefficients(6 * 8 * 8, vec3(0));
+    const uint16_t average = 0, coarse = 8 + 1, middle = 2 * 8 + 1, fine = 64 + 8 + 4;
+    coefficients[average] = vec3(1);
+    coefficients[coarse] = vec3(1.5f);
+    coefficients[middle] = vec3(3.9f); // covers a quarter
+    coefficients[fine] = vec3(15);     // covers a sixteenth
+    const LightCube cube = cubeOfCoefficients(coefficients, 8);
+    const auto kept = [&](int count, bool areaWeighted) {
+        return makeLightVector(cube, {.count = count, .areaWeighted = areaWeighted}).indices;
+    };
+    CHECK(kept(1, false) == std::vector<uint16_t>{fine});
+    CHECK(kept(1, true) == std::vector<uint16_t>{coarse});
+    CHECK(kept(2, true) == std::vector<uint16_t>{average, coarse});
+    CHECK(kept(3, true) == std::vector<uint16_t>{average, coarse, middle});
+    // By threshold as well, of the largest weight: 1.5.
+    CHECK(makeLightVector(cube, {.threshold = 32767 / 2, .areaWeighted = true}).indices.size() == 4);
+    CHECK(makeLightVector(cube, {.threshold = 31000, .areaWeighted = true}).indices.size() == 1);
+}
+
+TEST_CASE("light vector: the error is what reconstruction misses") {
+    const LightCube cube = randomCube(32, 8);
+    for (const LightSelection& selection : std::initializer_list<LightSelection>{
+             {.threshold = 0}, {.threshold = 1024}, {.count = 100}, {.count = 100, .areaWeighted = true}}) {
+        const LightVector vector = makeLightVector(cube, selection);
+        CHECK(vector.error == doctest::Approx(relativeError(reconstruct(vector), cube)).epsilon(1e-3));
+    }
 }
 
 TEST_CASE("light vector: scaled light scales the vector") {
@@ -126,7 +168,7 @@ TEST_CASE("light vector: sums stay below the limit for hostile cubes") {
         for (vec3& c : coefficients) c = vec3(random() % 2 ? value : -value);
         coefficients[0] = vec3(1);
         const LightCube cube = cubeOfCoefficients(coefficients, 64);
-        const LightVector vector = makeLightVector(cube, 0);
+        const LightVector vector = makeLightVector(cube, {0});
         CHECK(vector.values.size() == kMaximumLightEntries);
         CHECK(largestChannelSum(vector) <= kLightSumLimit);
         CHECK(largestChannelSum(vector) >

@@ -1,0 +1,29 @@
+// Which coefficients of the light are kept.
+#pragma once
+
+#include <optional>
+
+namespace relume {
+
+// Largest |quantised coefficient|, and the default threshold, of kLightMaximum.
+constexpr int kLightMaximum = 32767;
+constexpr int kDefaultLightThreshold = 1024;
+
+// An entry's weight is the largest |component| of its three channels; with `areaWeighted` times the share of
+// a face that its Haar function covers, a power of two (Ng, Ramamoorthi, Hanrahan: All-Frequency Shadows
+// Using Non-linear Wavelet Lighting Approximation, 2003, "area-weighted selection": a smooth receiver answers
+// to a wavelet in proportion to its area). Weights below 2^-126 are 0, and such entries are never kept.
+struct LightSelection {
+    // Kept are entries of at least (threshold - ½) / kLightMaximum of the largest weight: all, with 0.
+    int threshold = kDefaultLightThreshold;
+    // Or, instead, the so many of the largest weight; of equals those of lower index. At least 1.
+    std::optional<int> count = std::nullopt;
+    bool areaWeighted = false;
+};
+
+// The share of the largest weight that a kept entry has at least.
+inline float shareOf(int threshold) {
+    return threshold > 0 ? (float(threshold) - 0.5f) / float(kLightMaximum) : 0;
+}
+
+} // namespace relume
