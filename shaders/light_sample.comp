@@ -1,6 +1,6 @@
 #version 460
 // Mean radiance of each texel of the lighting cube: a weighted sum over the pixels of its footprint in a
-// prepared latitude-longitude map, turned by interpolating between columns.
+// prepared latitude-longitude map, turned by interpolating between columns. Several maps add up.
 // C++ twin: sampleEnvironment() in engine/light/light_cube.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { LightSamplePush push; };
 layout(binding = 0, scalar) readonly buffer Environment { vec3 environment[]; };
 layout(binding = 1, scalar) readonly buffer Starts { uint starts[]; };
 layout(binding = 2, scalar) readonly buffer Pixels { FootprintPixel pixels[]; };
-layout(binding = 3, scalar) writeonly buffer Radiance { vec3 radiance[]; };
+layout(binding = 3, scalar) buffer Radiance { vec3 radiance[]; };
 
 void main() {
     const uint texel = gl_GlobalInvocationID.x;
@@ -26,5 +26,7 @@ void main() {
         const uint right = left + 1 < push.width ? left + 1 : 0;
         sum += pixel.weight * mix(environment[row + left], environment[row + right], push.fraction);
     }
+    sum *= push.gain;
+    if (push.isFirst == 0) sum += radiance[texel];
     radiance[texel] = sum;
 }

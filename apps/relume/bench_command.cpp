@@ -80,10 +80,7 @@ void run(Arguments& arguments) {
         bakeWithProgress(*device, std::move(scene), arguments.bake.options, arguments.json, times);
 
     LightPass light(*device, asset.faceSize);
-    if (arguments.light.isEnvironment())
-        light.setEnvironment(prepareForSampling(arguments.light.environment()));
-    else
-        light.setCube(arguments.light.lamp(asset.faceSize));
+    light.setLight(arguments.light.light());
     const Relighter relighter(*device, asset);
     ViewPass view(*device, asset, {.width = kWidth, .height = kHeight});
     CameraArguments view16by9;
@@ -91,7 +88,7 @@ void run(Arguments& arguments) {
     view16by9.height = kHeight;
     const Camera camera = view16by9.camera(asset);
     vk::Commands commands(*device, "bench");
-    // Every light change turns the environment a little, so that nothing can be reused.
+    // Every light change turns the light a little, so that nothing can be reused.
     const double lightChange = medianMilliseconds(commands, arguments.repeats, [&](int repeat) {
         light.record(commands, radians(arguments.light.rotationDegrees + float(repeat)));
         relighter.record(commands, light);

@@ -125,6 +125,14 @@ void LightArguments::add(CLI::App& command) {
                                ->expected(2)
                                ->check(between(-kLargestNumber, kLargestNumber))
                                ->excludes(environment);
+    CLI::Option* blend = command.add_option("--blend", mBlend, "A second environment, mixed into the first")
+                             ->type_name("FILE");
+    command.add_option("--blend-weight", mBlendWeight, "The second environment's share")
+        ->type_name("0..1")
+        ->capture_default_str()
+        ->check(between(0, 1))
+        ->needs(blend);
+    distant->excludes(blend);
     command
         .add_option("--sphere-light", mSphere,
                     "A distant sphere instead: azimuth, elevation and angular radius, degrees")
@@ -133,6 +141,7 @@ void LightArguments::add(CLI::App& command) {
         ->expected(3)
         ->check(between(-kLargestNumber, kLargestNumber))
         ->excludes(environment)
+        ->excludes(blend)
         ->excludes(distant);
     command.add_option("--rotate", rotationDegrees, "Turn the light about +Y, from +Z towards +X")
         ->check(between(-kLargestNumber, kLargestNumber))
@@ -151,18 +160,29 @@ Environment LightArguments::environment() const {
     return environment;
 }
 
-LightCube LightArguments::lamp(int faceSize, float turn) const {
-    const float turned = rotationDegrees + turn * 180 / kPi;
-    if (!mDistant.empty())
-        return makeDistantLight(directionOf(mDistant[0] + turned, mDistant[1]), vec3(mIntensity * kPi),
-                                faceSize);
-    if (!(mSphere[2] > 0 && mSphere[2] <= 90))
-        throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}",
-                         mSphere[2]);
-    // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
-    const float radius = radians(mSphere[2]), sine = std::sin(radius);
-    return makeSphereLight(directionOf(mSphere[0] + turned, mSphere[1]), radius,
-                           vec3(mIntensity / (sine * sine)), faceSize);
+Light LightArguments::light() const {
+    Light light;
+    if (!mDistant.empty()) {
+        light.distant.push_back({directionOf(mDistant[0], mDistant[1]), vec3(kPi)});
+    } else if (!mSphere.empty()) {
+        if (!(mSphere[2] > 0 && mSphere[2] <= 90))
+            throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}",
+                             mSphere[2]);
+        // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
+        const float radius = radians(mSphere[2]), sine = std::sin(radius);
+        light.lamps.push_back({directionOf(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))});
+    } else {
+        const auto prepared = [](const Environment& map) {
+            return std::make_shared<const Environment>(prepareForSampling(map));
+        };
+        light.environments.push_back(
+            {prepared(mEnvironment.empty() ? makeSky() : readEnvironment(mEnvironment))});
+        if (!mBlend.empty()) {
+            light.environments.front().gain = 1 - mBlendWeight;
+            light.environments.push_back({prepared(readEnvironment(mBlend)), 0, mBlendWeight});
+        }
+    }
+    return scaled(std::move(light), mIntensity);
 }
 
 void ImageArguments::add(CLI::App& command) {

@@ -1,8 +1,7 @@
 // Options that several subcommands share, and what they stand for.
 #pragma once
 
-#include "engine/light/light_cube.h"
-#include "engine/light/light_vector.h"
+#include "engine/light/light.h"
 #include "engine/render/tone_map.h"
 #include "engine/scene/camera.h"
 #include "engine/transport/asset.h"
@@ -38,19 +37,21 @@ struct CameraArguments {
     std::string mSize;
 };
 
-// --environment, --rotate, --distant-light, --sphere-light, --intensity
+// --environment, --blend, --blend-weight, --rotate, --distant-light, --sphere-light, --intensity
 struct LightArguments {
     float rotationDegrees = 0;
 
     void add(CLI::App& command);
-    bool isEnvironment() const { return mDistant.empty() && mSphere.empty(); }
-    // The environment file, or the built-in sky; at full resolution.
+    // A single environment and nothing else.
+    bool isEnvironment() const { return mDistant.empty() && mSphere.empty() && mBlend.empty(); }
+    // The environment file, or the built-in sky; at full resolution. Only if isEnvironment().
     Environment environment() const;
-    // The lamp as a cube, turned by `turn` radians about +Y; only if !isEnvironment().
-    LightCube lamp(int faceSize, float turn = 0) const;
+    // All of it, not rotated.
+    Light light() const;
 
   private:
-    std::string mEnvironment;
+    std::string mEnvironment, mBlend;
+    float mBlendWeight = 0.5f;
     std::vector<float> mDistant, mSphere;
     float mIntensity = 1;
 };

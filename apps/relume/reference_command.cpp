@@ -39,15 +39,13 @@ void run(const Arguments& arguments) {
     Image image;
     if (arguments.lightForm == "environment") {
         if (!arguments.light.isEnvironment())
-            throw UsageError("--light environment: expected an environment, found a lamp; use --light cube");
+            throw UsageError("--light-as environment: expected a single environment, found other light; use "
+                             "--light-as cube");
         image = renderReference(asset, camera, arguments.light.environment(), rotation,
                                 arguments.environmentWidth, options, report);
     } else {
-        const LightCube cube = arguments.light.isEnvironment()
-                                   ? sampleEnvironment(prepareForSampling(arguments.light.environment()),
-                                                       asset.faceSize, rotation)
-                                   : arguments.light.lamp(asset.faceSize);
-        image = renderReference(asset, camera, cube, options, report);
+        const Light light = turned(arguments.light.light(), rotation);
+        image = renderReference(asset, camera, sampleLight(light, asset.faceSize), options, report);
     }
     arguments.image.write(arguments.image.output, image);
 }
@@ -67,7 +65,7 @@ void addReferenceCommand(CLI::App& program) {
         ->check(CLI::IsMember({"exact", "factored"}))
         ->capture_default_str();
     command
-        ->add_option("--light", arguments->lightForm,
+        ->add_option("--light-as", arguments->lightForm,
                      "cube: the bake's lighting texels; environment: the full map")
         ->check(CLI::IsMember({"cube", "environment"}))
         ->capture_default_str();

@@ -81,8 +81,7 @@ void run(const Arguments& arguments) {
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     if (capture) capture->attach(*device);
     LightPass light(*device, asset.faceSize);
-    if (arguments.light.isEnvironment())
-        light.setEnvironment(prepareForSampling(arguments.light.environment()));
+    light.setLight(arguments.light.light());
     const Relighter relighter(*device, asset);
     ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
     view.setAppearance(appearance);
@@ -97,10 +96,6 @@ void run(const Arguments& arguments) {
         const vk::FrameSpan frameSpan(capture);
         const float angle = 2 * kPi * float(frame) / float(arguments.frames);
         const bool lightChanges = frame == 0 || turnsLight;
-        if (lightChanges && !arguments.light.isEnvironment()) {
-            const vk::CpuSpan lighting(capture, "light");
-            light.setCube(arguments.light.lamp(asset.faceSize, turnsLight ? angle : 0));
-        }
         vk::CpuSpan recording(capture, "record");
         commands.begin();
         if (lightChanges) {

@@ -30,7 +30,8 @@ void run(const Arguments& arguments) {
         expectWritable(arguments.visibilityImage);
     }
     const Asset asset = readAsset(arguments.file);
-    if (!arguments.light.isEnvironment()) throw UsageError("verify: expected an environment, found a lamp");
+    if (!arguments.light.isEnvironment())
+        throw UsageError("verify: expected a single environment, found other light");
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const Verification found = verify(*device, asset, prepareForSampling(arguments.light.environment()),
                                       radians(arguments.light.rotationDegrees), arguments.samples);

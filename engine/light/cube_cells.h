@@ -7,10 +7,10 @@
 
 namespace relume {
 
-// Visits the centres of count × count equal squares (in u and v) of a texel, row by row, with their
-// unnormalised direction and a weight in proportion to their solid angle.
+// Visits the centres (u, v) of count × count equal squares of a texel, row by row, with a weight in
+// proportion to their solid angle.
 template <typename Visit>
-void forEachSubCell(int face, int x, int y, int size, int count, Visit visit) {
+void forEachSubCellPlace(int x, int y, int size, int count, Visit visit) {
     const auto centre = [&](int texel, int sub) {
         return 2.0f * (float(texel) + (float(sub) + 0.5f) / float(count)) / float(size) - 1.0f;
     };
@@ -18,8 +18,23 @@ void forEachSubCell(int face, int x, int y, int size, int count, Visit visit) {
         for (int i = 0; i < count; i++) {
             const float u = centre(x, i), v = centre(y, j);
             const float squared = 1.0f + u * u + v * v;
-            visit(cubeDirection(face, u, v), 1.0f / (squared * std::sqrt(squared)));
+            visit(u, v, 1.0f / (squared * std::sqrt(squared)));
         }
+}
+
+// The same, with their unnormalised directions in place of (u, v).
+template <typename Visit>
+void forEachSubCell(int face, int x, int y, int size, int count, Visit visit) {
+    forEachSubCellPlace(x, y, size, count,
+                        [&](float u, float v, float weight) { visit(cubeDirection(face, u, v), weight); });
+}
+
+// Visits all texels of a cube in the order of their indices.
+template <typename Visit>
+void forEachTexel(int size, Visit visit) {
+    for (int face = 0; face < kCubeFaces; face++)
+        for (int y = 0; y < size; y++)
+            for (int x = 0; x < size; x++) visit(face, x, y, size_t(cubeTexelIndex(face, x, y, size)));
 }
 
 } // namespace relume

@@ -15,11 +15,4 @@ struct LightCube {
 // CPU twin of shaders/light_sample.comp.
 LightCube sampleEnvironment(const Environment& prepared, int size, float rotation);
 
-// Light from one direction: the texel that holds it carries `irradiance` (on a surface that faces it).
-LightCube makeDistantLight(vec3 direction, vec3 irradiance, int size);
-
-// A distant sphere of constant radiance seen under `angularRadius`, in (0, π] radians; covers texels by
-// fraction, scaled so that Σ radiance · solid angle is exact.
-LightCube makeSphereLight(vec3 direction, float angularRadius, vec3 radiance, int size);
-
 } // namespace relume

@@ -1,11 +1,9 @@
 #include "engine/render/light_pass.h"
 
-#include "engine/base/error.h"
-#include "engine/light/light_footprint.h"
+#include "engine/base/check.h"
 #include "engine/vk/upload.h"
 #include "shaders/light_haar_comp.h"
 #include "shaders/light_quantise_comp.h"
-#include "shaders/light_sample_comp.h"
 #include "shaders/shared/render.h"
 
 #include <algorithm>
@@ -17,11 +15,11 @@ namespace relume {
 using vk::BufferUse;
 using vk::Stage;
 
-LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), mFaceSize(faceSize) {
+LightPass::LightPass(const vk::Device& device, int faceSize)
+    : mDevice(device), mFaceSize(faceSize), mSources(device, faceSize) {
     RELUME_CHECK(faceSize >= 2 && std::has_single_bit(unsigned(faceSize)));
     RELUME_CHECK_LE(coefficients(), kMaximumLightEntries);
     const vk::Constants size{uint32_t(faceSize)};
-    mSampleProgram = vk::ComputeProgram(device, light_sample_comp_spirv, {}, "light sample");
     mHaarProgram = vk::ComputeProgram(device, light_haar_comp_spirv, size, "light haar");
     mQuantiseProgram = vk::ComputeProgram(device, light_quantise_comp_spirv, {}, "light quantise");
     mRadiance = vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light radiance");
@@ -32,34 +30,25 @@ LightPass::LightPass(const vk::Device& device, int faceSize) : mDevice(device), 
     mStats = vk::Buffer(device, sizeof(shared::LightStats), BufferUse::Device, "light stats");
 }
 
+void LightPass::setLight(Light light) {
+    mSources.prepare(light);
+    mLight = std::move(light);
+}
+
 void LightPass::setEnvironment(const Environment& prepared) {
-    RELUME_CHECK(prepared.width > 0 && prepared.height > 0);
-    RELUME_CHECK_EQ(prepared.radiance.size(), size_t(prepared.width) * size_t(prepared.height));
-    const ivec2 mapSize{prepared.width, prepared.height};
-    if (mapSize != mEnvironmentSize) {
-        const LightFootprints footprints = makeLightFootprints(mapSize.x, mapSize.y, mFaceSize);
-        mFootprintStarts = vk::upload<uint32_t>(mDevice, footprints.starts, "light footprint starts");
-        mFootprintPixels =
-            vk::upload<shared::FootprintPixel>(mDevice, footprints.pixels, "light footprint pixels");
-    }
-    mEnvironment = vk::upload<vec3>(mDevice, prepared.radiance, "environment");
-    mEnvironmentSize = mapSize;
-    if (std::max(mEnvironment.bytes(), mFootprintPixels.bytes()) > mDevice.largestStorageBuffer())
-        throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
-                    mapSize.x, mapSize.y, mDevice.name());
-    mHasLight = mSamplesEnvironment = true;
+    setLight({.environments = {{std::make_shared<Environment>(prepared)}}});
 }
 
 void LightPass::setCube(const LightCube& cube) {
     RELUME_CHECK_EQ(cube.size, mFaceSize);
     RELUME_CHECK_EQ(cube.radiance.size(), size_t(coefficients()));
     mRadiance = vk::upload<vec3>(mDevice, cube.radiance, "light radiance");
-    mHasLight = true;
-    mSamplesEnvironment = false;
+    mHasCube = true;
+    mLight.reset();
 }
 
 void LightPass::record(vk::Commands& commands, float rotation, const LightSelection& selection) const {
-    RELUME_CHECK(mHasLight);
+    RELUME_CHECK(mLight || mHasCube);
     RELUME_CHECK(!selection.count || *selection.count > 0);
     const shared::LightQuantisePush quantise{coefficients(),
                                              kLightSumLimit,
@@ -70,16 +59,7 @@ void LightPass::record(vk::Commands& commands, float rotation, const LightSelect
     // An earlier frame of the same submission may still be reading the table and the stats.
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Compute);
-    if (mSamplesEnvironment) {
-        commands.pass("light sample", [&] {
-            const ColumnShift shift = columnShift(rotation, mEnvironmentSize.x);
-            const shared::LightSamplePush push{coefficients(), uint32_t(mEnvironmentSize.x), shift.whole,
-                                               shift.fraction};
-            commands.dispatch(mSampleProgram, {mEnvironment, mFootprintStarts, mFootprintPixels, mRadiance},
-                              push, {coefficients(), 1, 1});
-            commands.barrier(Stage::Compute, Stage::Compute);
-        });
-    }
+    if (mLight) mSources.record(commands, turned(*mLight, rotation), mRadiance);
     commands.pass("light haar", [&] {
         // A work-group per face and channel.
         commands.dispatch(mHaarProgram, {mRadiance, mCoefficients}, 0, {1, 6, 3});

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/light/light_vector.h"
-#include "engine/vk/commands.h"
+#include "engine/render/light_sources.h"
 
 namespace relume {
 
@@ -18,14 +18,17 @@ class LightPass {
     // `faceSize`: F of the asset, 32 or 64 (any even power of two to 64 works).
     LightPass(const vk::Device& device, int faceSize);
 
-    // The light of the record() calls that follow. A prepared environment (prepareForSampling) is
-    // sampled anew by every record(); a cube, of F texels a side, is taken as it is.
-    void setEnvironment(const Environment& prepared);
+    // The light of the record() calls that follow. Sources are sampled anew by every record(), at most
+    // kMostSources of a kind; a cube, of F texels a side, is taken as it is. Maps of environments that the
+    // light before did not have are uploaded, which waits: maps are told apart by their pointers, and kept
+    // until the next light.
+    void setLight(Light light);
+    void setEnvironment(const Environment& prepared); // alone
     void setCube(const LightCube& cube);
 
-    // Passes "light sample" (environments only), "light haar", "light quantise". `rotation` in radians,
-    // as in sampleEnvironment(), turns an environment, not a cube. Compute and draws may use the
-    // results at once.
+    // Passes "light sample" (environments), "light strokes", "light lamps", "light distant" (where there are
+    // any), "light haar", "light quantise". `rotation` in radians turns the light, as turned() does, but not
+    // a cube. Compute and draws may use the results at once.
     void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {}) const;
 
     int faceSize() const { return mFaceSize; }
@@ -44,14 +47,12 @@ class LightPass {
 
     const vk::Device& mDevice;
     int mFaceSize;
-    vk::ComputeProgram mSampleProgram, mHaarProgram, mQuantiseProgram;
-    bool mHasLight = false;
-    bool mSamplesEnvironment = false;
-    ivec2 mEnvironmentSize{0};
-    vk::Buffer mEnvironment;                       // vec3 per pixel of the latlong map
-    vk::Buffer mFootprintStarts, mFootprintPixels; // LightFootprints
-    vk::Buffer mRadiance;                          // 6 F² × vec3
-    vk::Buffer mCoefficients;                      // 6 F² × vec3
+    vk::ComputeProgram mHaarProgram, mQuantiseProgram;
+    LightSources mSources;
+    std::optional<Light> mLight;
+    bool mHasCube = false;
+    vk::Buffer mRadiance;     // 6 F² × vec3
+    vk::Buffer mCoefficients; // 6 F² × vec3
     vk::Buffer mTable, mStats;
 };
 

@@ -17,8 +17,10 @@ struct LightSamplePush {
     uint width;  // of the map
     uint shift;  // columns that the map is turned by, below the width; and the fraction of one
     float fraction;
+    float gain;
+    uint isFirst; // 1: writes the cube; 0: adds to it
 };
-RELUME_SHARED_SIZE(LightSamplePush, 16)
+RELUME_SHARED_SIZE(LightSamplePush, 24)
 
 struct LightQuantisePush {
     uint coefficients; // 6 · F²

@@ -1,0 +1,23 @@
+// Discs on the sphere of directions, averaged over the lighting cube's texels so that they move smoothly:
+// what lamps and strokes are made of.
+#pragma once
+
+#include "engine/math/vector.h"
+#include "shaders/shared/light.h"
+
+namespace relume {
+
+// A disc around `direction` (any length but zero) of `angularRadius`, in (0, π] radians, for a cube of `size`
+// texels a side. It fades, linearly in the distance of unit vectors, from (1 - softness) of the radius to all
+// of it, and over the width of a sub-cell at least: that is what keeps it from flickering as it moves. A
+// radius below a quarter of a texel's side is taken as that. Amount and radiance are the caller's.
+shared::LightCap makeCap(vec3 direction, float angularRadius, float softness, int size);
+
+// The share of a texel that a cap covers, in [0, 1]: the mean over cap.side × cap.side sub-cells, weighted by
+// solid angle. Continuous in the cap's direction. CPU twin of shaders/lib/light_cap.glsl.
+float capCoverage(const shared::LightCap& cap, int face, int x, int y, int size);
+
+// The solid angle of a disc of that angular radius.
+float capSolidAngle(float angularRadius);
+
+} // namespace relume

@@ -1,0 +1,40 @@
+// Structs and push constants of what is summed into the lighting cube: engine/light/light.h.
+#ifndef RELUME_SHADERS_SHARED_LIGHT_H
+#define RELUME_SHADERS_SHARED_LIGHT_H
+#include "shaders/shared/types.h"
+
+RELUME_SHARED_BEGIN
+
+// A disc on the sphere of directions, as it is averaged over texels: engine/light/cap.h.
+struct LightCap {
+    vec3 centres[6]; // unit vector, in each face's frame: right, down, forward
+    float inner;     // covered up to this distance (of unit vectors) from the centre,
+    float outer;     // less and less up to this, and not at all beyond
+    uint side;       // sub-cells of a texel's side
+    float amount;    // of a lamp: its solid angle; of a stroke: its opacity
+    vec3 radiance;
+};
+RELUME_SHARED_SIZE(LightCap, 100)
+
+// The caps that one dispatch looks at, of those in its buffer.
+struct LightCapsPush {
+    uint sideBits; // log2 F
+    uint first;
+    uint count;
+};
+RELUME_SHARED_SIZE(LightCapsPush, 12)
+
+struct LightTap {
+    uint texel;
+    vec3 radiance;
+};
+RELUME_SHARED_SIZE(LightTap, 16)
+
+struct LightDistantPush {
+    uint taps;
+};
+RELUME_SHARED_SIZE(LightDistantPush, 4)
+
+RELUME_SHARED_END
+
+#endif
