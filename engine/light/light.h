@@ -1,11 +1,13 @@
 // All light of a moment: what an image is lit by.
 #pragma once
 
+#include "engine/light/day_sky.h"
 #include "engine/light/distant_light.h"
 #include "engine/light/lamp.h"
 #include "engine/light/stroke.h"
 
 #include <memory>
+#include <optional>
 
 namespace relume {
 
@@ -19,19 +21,27 @@ struct EnvironmentLight {
 // Most lamps, strokes and distant lights, of each.
 constexpr size_t kMostSources = 512;
 
-// Environments are summed; strokes painted over them, in their order; lamps and distant lights added.
+// Environments and sky are summed; strokes painted over them, in their order; the sun, lamps and distant
+// lights added.
 struct Light {
     std::vector<EnvironmentLight> environments;
+    std::optional<DaySky> sky = std::nullopt;
     std::vector<Stroke> strokes;
     std::vector<Lamp> lamps;
     std::vector<DistantLight> distant;
 };
+
+// Unit vector at an azimuth (0: +Z, 90: +X) and an elevation, in degrees.
+vec3 directionAt(float azimuth, float elevation);
 
 // All of it turned about +Y, by a positive angle from +Z towards +X.
 Light turned(Light light, float angle);
 
 // All of it `factor` times as bright, which is at least 0.
 Light scaled(Light light, float factor);
+
+// The lamps, and the sky's sun after them.
+std::vector<Lamp> lampsAndSun(const Light& light);
 
 // CPU twin of LightPass up to the transform.
 LightCube sampleLight(const Light& light, int size);

@@ -26,9 +26,9 @@ class LightPass {
     void setEnvironment(const Environment& prepared); // alone
     void setCube(const LightCube& cube);
 
-    // Passes "light sample" (environments), "light strokes", "light lamps", "light distant" (where there are
-    // any), "light haar", "light quantise". `rotation` in radians turns the light, as turned() does, but not
-    // a cube. Compute and draws may use the results at once.
+    // Passes "light sample" (environments), "light sky", "light strokes", "light lamps", "light distant"
+    // (where there are any), "light haar", "light quantise". `rotation` in radians turns the light, as
+    // turned() does, but not a cube. Compute and draws may use the results at once.
     void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {}) const;
 
     int faceSize() const { return mFaceSize; }

@@ -7,6 +7,7 @@
 #include "shaders/light_lamp_gains_comp.h"
 #include "shaders/light_lamps_comp.h"
 #include "shaders/light_sample_comp.h"
+#include "shaders/light_sky_comp.h"
 #include "shaders/light_strokes_comp.h"
 
 #include <algorithm>
@@ -34,12 +35,13 @@ void send(vk::Commands& commands, const vk::Buffer& buffer, const std::vector<T>
 
 LightSources::LightSources(const vk::Device& device, int faceSize) : mDevice(device), mFaceSize(faceSize) {
     mSampleProgram = vk::ComputeProgram(device, light_sample_comp_spirv, {}, "light sample");
+    mSkyProgram = vk::ComputeProgram(device, light_sky_comp_spirv, {}, "light sky");
     mStrokesProgram = vk::ComputeProgram(device, light_strokes_comp_spirv, {}, "light strokes");
     mLampGainsProgram = vk::ComputeProgram(device, light_lamp_gains_comp_spirv, {}, "light lamp gains");
     mLampsProgram = vk::ComputeProgram(device, light_lamps_comp_spirv, {}, "light lamps");
     mDistantProgram = vk::ComputeProgram(device, light_distant_comp_spirv, {}, "light distant");
     const auto buffer = [&](uint64_t bytes, const char* name) {
-        return vk::Buffer(device, kMostSources * bytes, BufferUse::Device, name);
+        return vk::Buffer(device, (kMostSources + 1) * bytes, BufferUse::Device, name);
     };
     mStrokes = buffer(sizeof(shared::LightCap), "light strokes");
     mLamps = buffer(sizeof(shared::LightCap), "light lamps");
@@ -94,10 +96,11 @@ void LightSources::record(vk::Commands& commands, const Light& light, const vk::
         for (const EnvironmentLight& environment : light.environments)
             sample(commands, environment, &environment == &light.environments.front(), radiance);
     });
+    if (light.sky) commands.pass("light sky", [&] { addSky(commands, *light.sky, radiance); });
     if (!light.strokes.empty())
         commands.pass("light strokes", [&] { paint(commands, light.strokes, radiance); });
-    if (!light.lamps.empty())
-        commands.pass("light lamps", [&] { addLamps(commands, light.lamps, radiance); });
+    if (const std::vector<Lamp> lamps = lampsAndSun(light); !lamps.empty())
+        commands.pass("light lamps", [&] { addLamps(commands, lamps, radiance); });
     if (!light.distant.empty())
         commands.pass("light distant", [&] { addDistant(commands, light.distant, radiance); });
 }
@@ -113,6 +116,13 @@ void LightSources::sample(vk::Commands& commands, const EnvironmentLight& enviro
     commands.dispatch(mSampleProgram,
                       {map->pixels, map->footprints->starts, map->footprints->pixels, radiance}, push,
                       {texels(), 1, 1});
+    commands.barrier(Stage::Compute, Stage::Compute);
+}
+
+void LightSources::addSky(vk::Commands& commands, const DaySky& sky, const vk::Buffer& radiance) const {
+    shared::LightSky model = makeSkyModel(sky);
+    model.sideBits = uint32_t(std::countr_zero(unsigned(mFaceSize)));
+    commands.dispatch(mSkyProgram, {radiance}, model, {texels(), 1, 1});
     commands.barrier(Stage::Compute, Stage::Compute);
 }
 

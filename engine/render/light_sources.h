@@ -33,6 +33,7 @@ class LightSources {
     Map upload(std::shared_ptr<const Environment> environment, const std::vector<Map>& others) const;
     void sample(vk::Commands& commands, const EnvironmentLight& environment, bool isFirst,
                 const vk::Buffer& radiance) const;
+    void addSky(vk::Commands& commands, const DaySky& sky, const vk::Buffer& radiance) const;
     void paint(vk::Commands& commands, const std::vector<Stroke>& strokes, const vk::Buffer& radiance) const;
     void addLamps(vk::Commands& commands, const std::vector<Lamp>& lamps, const vk::Buffer& radiance) const;
     void addDistant(vk::Commands& commands, const std::vector<DistantLight>& distant,
@@ -40,10 +41,11 @@ class LightSources {
 
     const vk::Device& mDevice;
     int mFaceSize;
-    vk::ComputeProgram mSampleProgram, mStrokesProgram, mLampGainsProgram, mLampsProgram, mDistantProgram;
+    vk::ComputeProgram mSampleProgram, mSkyProgram, mStrokesProgram, mLampGainsProgram, mLampsProgram,
+        mDistantProgram;
     std::vector<Map> mMaps;
-    vk::Buffer mStrokes, mLamps; // kMostSources × shared::LightCap
-    vk::Buffer mLampGains;       // kMostSources × float
+    vk::Buffer mStrokes, mLamps; // (kMostSources + 1) × shared::LightCap: the sun is a lamp too
+    vk::Buffer mLampGains;       // (kMostSources + 1) × float
     vk::Buffer mTaps;            // 4 kMostSources × shared::LightTap
 };
 

@@ -24,6 +24,17 @@ struct LightCapsPush {
 };
 RELUME_SHARED_SIZE(LightCapsPush, 12)
 
+// The day sky, as engine/light/day_sky.h makes it: of the paper's five coefficients and the zenith, the
+// components are Y, x and y.
+struct LightSky {
+    vec3 sun; // where it is brightest; unit length
+    vec3 a, b, c, d, e;
+    vec3 zenith;   // over the distribution there
+    vec3 ground;   // radiance
+    uint sideBits; // log2 F; the device's alone
+};
+RELUME_SHARED_SIZE(LightSky, 100)
+
 struct LightTap {
     uint texel;
     vec3 radiance;

@@ -202,6 +202,31 @@ TEST_CASE("light pass: all sources together agree with the CPU twin") {
     }
 }
 
+TEST_CASE("light pass: the day sky agrees with the CPU twin") {
+    const TestDevice device;
+    for (const int faceSize : {32, 64}) {
+        LightPass pass(device, faceSize);
+        for (const float elevation : {70.0f, 8.0f, 0.1f, -4.0f})
+            for (const float turbidity : {2.0f, 6.0f}) {
+                const Light light{.sky = DaySky{.sun = directionAt(130, elevation), .turbidity = turbidity}};
+                pass.setLight(light);
+                submit(device, pass, 0, {});
+                const LightCube cube = pass.readCube(), expected = sampleLight(light, faceSize);
+                float worst = 0, largest = 0;
+                for (size_t i = 0; i < cube.radiance.size(); i++)
+                    for (int c = 0; c < 3; c++) {
+                        largest = std::max(largest, expected.radiance[i][c]);
+                        worst = std::max(worst, std::abs(cube.radiance[i][c] - expected.radiance[i][c]) /
+                                                    (1e-9f + expected.radiance[i].y));
+                    }
+                CAPTURE(elevation);
+                CAPTURE(turbidity);
+                CHECK_LT(worst, 2e-3f);
+                CHECK_GT(largest, 0);
+            }
+    }
+}
+
 TEST_CASE("light pass: a light after another leaves nothing of it") {
     const TestDevice device;
     LightPass pass(device, 32);
