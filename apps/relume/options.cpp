@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/image/image_file.h"
+#include "engine/light/light_file.h"
 
 #include <cmath>
 #include <cstdio>
@@ -24,12 +25,6 @@ CLI::Validator between(float low, float high) {
 }
 
 namespace {
-
-// Unit vector at an azimuth (0: +Z, 90: +X) and elevation, in degrees.
-vec3 directionOf(float azimuth, float elevation) {
-    const float a = radians(azimuth), e = radians(elevation);
-    return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
-}
 
 // The object: everything but a ground, which would push it out of the picture's middle.
 Bounds objectBounds(const Asset& asset) {
@@ -133,16 +128,24 @@ void LightArguments::add(CLI::App& command) {
         ->check(between(0, 1))
         ->needs(blend);
     distant->excludes(blend);
+    CLI::Option* sphere =
+        command
+            .add_option("--sphere-light", mSphere,
+                        "A distant sphere instead: azimuth, elevation and angular radius, degrees")
+            ->type_name("AZ,EL,RADIUS")
+            ->delimiter(',')
+            ->expected(3)
+            ->check(between(-kLargestNumber, kLargestNumber))
+            ->excludes(environment)
+            ->excludes(blend)
+            ->excludes(distant);
     command
-        .add_option("--sphere-light", mSphere,
-                    "A distant sphere instead: azimuth, elevation and angular radius, degrees")
-        ->type_name("AZ,EL,RADIUS")
-        ->delimiter(',')
-        ->expected(3)
-        ->check(between(-kLargestNumber, kLargestNumber))
+        .add_option("--light", mFile, "A light file instead: environments, day sky, strokes, lamps (.json)")
+        ->type_name("FILE")
         ->excludes(environment)
         ->excludes(blend)
-        ->excludes(distant);
+        ->excludes(distant)
+        ->excludes(sphere);
     command.add_option("--rotate", rotationDegrees, "Turn the light about +Y, from +Z towards +X")
         ->check(between(-kLargestNumber, kLargestNumber))
         ->type_name("DEG")
@@ -162,15 +165,17 @@ Environment LightArguments::environment() const {
 
 Light LightArguments::light() const {
     Light light;
-    if (!mDistant.empty()) {
-        light.distant.push_back({directionOf(mDistant[0], mDistant[1]), vec3(kPi)});
+    if (!mFile.empty()) {
+        light = readLight(mFile);
+    } else if (!mDistant.empty()) {
+        light.distant.push_back({directionAt(mDistant[0], mDistant[1]), vec3(kPi)});
     } else if (!mSphere.empty()) {
         if (!(mSphere[2] > 0 && mSphere[2] <= 90))
             throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}",
                              mSphere[2]);
         // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
         const float radius = radians(mSphere[2]), sine = std::sin(radius);
-        light.lamps.push_back({directionOf(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))});
+        light.lamps.push_back({directionAt(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))});
     } else {
         const auto prepared = [](const Environment& map) {
             return std::make_shared<const Environment>(prepareForSampling(map));

@@ -37,20 +37,22 @@ struct CameraArguments {
     std::string mSize;
 };
 
-// --environment, --blend, --blend-weight, --rotate, --distant-light, --sphere-light, --intensity
+// --light, --environment, --blend, --blend-weight, --rotate, --distant-light, --sphere-light, --intensity
 struct LightArguments {
     float rotationDegrees = 0;
 
     void add(CLI::App& command);
     // A single environment and nothing else.
-    bool isEnvironment() const { return mDistant.empty() && mSphere.empty() && mBlend.empty(); }
+    bool isEnvironment() const {
+        return mDistant.empty() && mSphere.empty() && mBlend.empty() && mFile.empty();
+    }
     // The environment file, or the built-in sky; at full resolution. Only if isEnvironment().
     Environment environment() const;
     // All of it, not rotated.
     Light light() const;
 
   private:
-    std::string mEnvironment, mBlend;
+    std::string mEnvironment, mBlend, mFile;
     float mBlendWeight = 0.5f;
     std::vector<float> mDistant, mSphere;
     float mIntensity = 1;

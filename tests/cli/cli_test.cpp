@@ -58,6 +58,8 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"render x.relume -o x.png --orbit 0,nan,1", "--orbit"},
              {"render x.relume -o x.png --distant-light nan,0", "--distant-light"},
              {"render x.relume -o x.png --coefficients 0", "--coefficients"},
+             {"render x.relume -o x.png --light l.json -e e.exr", "--environment"},
+             {"render x.relume -o x.png --blend-weight 0.5", "--blend"},
              {"render x.relume -o x.png --coefficients 9 --threshold 9", "--threshold"},
              {"render x.relume -o x.png --intensity nan", "--intensity"},
              {"render x.relume -o x.png --fov nan", "--fov"},
@@ -224,7 +226,10 @@ TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, witho
     CHECK(nlohmann::json::parse(info.out).is_object());
     CHECK(says(runRelume(folder, "info a.relume").out, "provenance"));
 
-    for (const std::string light : {"", "--distant-light 30,60", "--sphere-light 30,60,5"}) {
+    folder.write("l.json", R"({"sky": {"sun": {"azimuth": 40, "elevation": 30}},
+                              "lamps": [{"azimuth": 200, "elevation": 40, "radius": 5, "radiance": [20, 10, 5]}]})");
+    for (const std::string light :
+         {"", "--distant-light 30,60", "--sphere-light 30,60,5", "--light l.json --rotate 20"}) {
         const Outcome render =
             runRelume(folder, "render a.relume -o a.exr --size 64x48 " + light + validated);
         CAPTURE(render.err);

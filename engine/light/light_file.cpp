@@ -1,0 +1,136 @@
+// The JSON of docs/light_format.md.
+#include "engine/light/light_file.h"
+
+#include "engine/base/error.h"
+#include "engine/base/json_object.h"
+#include "engine/light/sun_position.h"
+
+#include <algorithm>
+
+namespace relume {
+
+namespace {
+
+using Json = nlohmann::json;
+using Keys = std::span<const std::string_view>;
+
+constexpr float kMostDegrees = 36000, kMostRadiance = 1e9f, kMostGain = 1e6f;
+constexpr float kSmallestRadius = 1e-4f; // degrees
+
+vec3 directionOf(const JsonObject& object) {
+    const float azimuth = object.requiredNumber("azimuth", -kMostDegrees, kMostDegrees);
+    return directionAt(azimuth, object.requiredNumber("elevation", -90, 90));
+}
+
+float radiusOf(const JsonObject& object) {
+    return std::min(glm::radians(object.requiredNumber("radius", kSmallestRadius, 180)), kPi);
+}
+
+EnvironmentLight readEnvironmentLight(const JsonObject& object, const std::filesystem::path& folder,
+                                      float share) {
+    const std::string file = object.requiredText("file", "an .exr or .hdr file");
+    return {std::make_shared<const Environment>(prepareForSampling(readEnvironment(folder / file))),
+            glm::radians(object.number("rotate", 0, -kMostDegrees, kMostDegrees)),
+            share * object.number("gain", 1, 0, kMostGain)};
+}
+
+void readEnvironments(const JsonObject& root, const std::filesystem::path& folder, Light& light) {
+    static constexpr std::string_view kKeys[] = {"file", "rotate", "gain"},
+                                      kBlendKeys[] = {"file", "rotate", "gain", "weight"};
+    const Json* first = root.find("environment");
+    const Json* second = root.find("blend");
+    if (second && !first) root.fail("environment", "one that \"blend\" is mixed into");
+    float weight = 0;
+    if (second) {
+        const JsonObject blend(*second, root.place() + ": blend", kBlendKeys);
+        weight = blend.requiredNumber("weight", 0, 1);
+        light.environments.push_back(readEnvironmentLight(blend, folder, weight));
+    }
+    if (first) {
+        const JsonObject environment(*first, root.place() + ": environment", kKeys);
+        light.environments.insert(light.environments.begin(),
+                                  readEnvironmentLight(environment, folder, 1 - weight));
+    }
+}
+
+vec3 readSun(const JsonObject& sky) {
+    static constexpr std::string_view kKeys[] = {"azimuth", "elevation"};
+    const Json* sun = sky.find("sun");
+    const Json* time = sky.find("time");
+    if (!sun == !time)
+        sky.fail("sun", "its azimuth and elevation, or \"time\", \"latitude\" and \"longitude\"");
+    if (sun) {
+        for (const char* key : {"latitude", "longitude", "north"})
+            if (sky.find(key)) sky.fail(key, "no such key beside \"sun\"");
+        return directionOf(JsonObject(*sun, sky.place() + ": sun", kKeys));
+    }
+    const float latitude = sky.requiredNumber("latitude", -90, 90);
+    const float longitude = sky.requiredNumber("longitude", -180, 180);
+    const float north = sky.number("north", 180, -kMostDegrees, kMostDegrees);
+    Moment moment;
+    try {
+        moment = parseMoment(sky.requiredText("time", "a moment"));
+    } catch (const UsageError& wrong) {
+        throw Error("{}: \"time\": {}", sky.place(), wrong.what());
+    }
+    const SunPosition position = sunPosition(moment, double(latitude), double(longitude));
+    return directionAt(north - float(position.azimuth), float(position.elevation));
+}
+
+void readSky(const JsonObject& root, Light& light) {
+    static constexpr std::string_view kKeys[] = {"sun",  "time",      "latitude", "longitude", "north",
+                                                 "disc", "turbidity", "ground",   "gain"};
+    const Json* json = root.find("sky");
+    if (!json) return;
+    const JsonObject sky(*json, root.place() + ": sky", kKeys);
+    DaySky day{.sun = readSun(sky)};
+    day.hasDisc = sky.flag("disc", day.hasDisc);
+    day.turbidity = sky.number("turbidity", day.turbidity, 2, 10);
+    day.ground = sky.vector("ground", day.ground, 0, 1);
+    day.gain = sky.number("gain", day.gain, 0, kMostGain);
+    light.sky = day;
+}
+
+// Calls `read` with every object of a list.
+template <typename Read>
+void forEach(const JsonObject& root, const char* key, Keys keys, Read read) {
+    const Json* list = root.find(key);
+    if (!list) return;
+    if (!list->is_array() || list->size() > kMostSources)
+        root.fail(key, fmt::format("a list of at most {} objects", kMostSources));
+    for (size_t i = 0; i < list->size(); i++)
+        read(JsonObject((*list)[i], fmt::format("{}: {}[{}]", root.place(), key, i), keys));
+}
+
+} // namespace
+
+Light readLight(const std::filesystem::path& path) {
+    static constexpr std::string_view kKeys[] = {"environment", "blend", "sky",
+                                                 "strokes",     "lamps", "distant"};
+    static constexpr std::string_view kStrokeKeys[] = {"azimuth",  "elevation", "radius",
+                                                       "radiance", "softness",  "opacity"};
+    static constexpr std::string_view kLampKeys[] = {"azimuth", "elevation", "radius", "radiance"};
+    static constexpr std::string_view kDistantKeys[] = {"azimuth", "elevation", "irradiance"};
+    const Json document = readJson(path);
+    const JsonObject root(document, path.string(), kKeys);
+    Light light;
+    readSky(root, light);
+    forEach(root, "strokes", kStrokeKeys, [&](const JsonObject& object) {
+        light.strokes.push_back({.direction = directionOf(object),
+                                 .angularRadius = radiusOf(object),
+                                 .radiance = object.requiredVector("radiance", 0, kMostRadiance),
+                                 .softness = object.number("softness", 0.5f, 0, 1),
+                                 .opacity = object.number("opacity", 1, 0, 1)});
+    });
+    forEach(root, "lamps", kLampKeys, [&](const JsonObject& object) {
+        light.lamps.push_back(
+            {directionOf(object), radiusOf(object), object.requiredVector("radiance", 0, kMostRadiance)});
+    });
+    forEach(root, "distant", kDistantKeys, [&](const JsonObject& object) {
+        light.distant.push_back({directionOf(object), object.requiredVector("irradiance", 0, kMostRadiance)});
+    });
+    readEnvironments(root, path.parent_path(), light); // last: reading images takes longest
+    return light;
+}
+
+} // namespace relume

@@ -1,0 +1,117 @@
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+#include "engine/light/light_file.h"
+#include "engine/light/sun_position.h"
+#include "tests/support/temporary_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+using relume::test::TemporaryFolder;
+
+namespace {
+
+std::string failureOf(const std::string& text) {
+    const TemporaryFolder folder;
+    try {
+        readLight(folder.write("light.json", text));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("light file: everything that the format has") {
+    const TemporaryFolder folder;
+    Image image(8, 4);
+    for (vec4& pixel : image.pixels) pixel = vec4(1, 2, 3, 1);
+    writeExr(folder.path() / "a.exr", image);
+    const Light light = readLight(folder.write("light.json", R"({
+        "environment": {"file": "a.exr", "rotate": 90, "gain": 2},
+        "blend": {"file": "a.exr", "weight": 0.25},
+        "sky": {"time": "2026-06-21T12:00:00+02:00", "latitude": 48, "longitude": 11, "north": 90, "turbidity": 4,
+                "ground": [0.1, 0.2, 0.3], "gain": 0.5, "disc": false},
+        "strokes": [{"azimuth": 90, "elevation": 0, "radius": 20, "radiance": [1, 2, 3], "softness": 0.25,
+                     "opacity": 0.75}],
+        "lamps": [{"azimuth": 0, "elevation": 90, "radius": 1, "radiance": [4, 5, 6]},
+                  {"azimuth": 0, "elevation": 0, "radius": 180, "radiance": [0, 0, 0]}],
+        "distant": [{"azimuth": 180, "elevation": 30, "irradiance": [7, 8, 9]}]
+    })"));
+    REQUIRE(light.environments.size() == 2);
+    CHECK(light.environments[0].gain == 1.5f);
+    CHECK(light.environments[0].rotation == doctest::Approx(kPi / 2));
+    CHECK(light.environments[1].gain == 0.25f);
+    CHECK(glm::distance(light.environments[0].map->radiance[5], vec3(1, 2, 3)) < 1e-5f);
+    REQUIRE(light.sky);
+    // A little before noon, so east of south; here the compass's north is the world's +X, south -X, east +Z.
+    const SunPosition sun = sunPosition(parseMoment("2026-06-21T10:00Z"), 48, 11);
+    CHECK(light.sky->sun.y == doctest::Approx(std::sin(glm::radians(sun.elevation))));
+    CHECK(light.sky->sun.x < -0.2f);
+    CHECK(light.sky->sun.z > 0.1f);
+    CHECK(light.sky->turbidity == 4);
+    CHECK(light.sky->ground == vec3(0.1f, 0.2f, 0.3f));
+    CHECK_FALSE(light.sky->hasDisc);
+    REQUIRE(light.strokes.size() == 1);
+    CHECK(glm::distance(light.strokes[0].direction, vec3(1, 0, 0)) < 1e-6f);
+    CHECK(light.strokes[0].angularRadius == doctest::Approx(kPi / 9));
+    CHECK(light.strokes[0].softness == 0.25f);
+    CHECK(light.strokes[0].opacity == 0.75f);
+    REQUIRE(light.lamps.size() == 2);
+    CHECK(glm::distance(light.lamps[0].direction, vec3(0, 1, 0)) < 1e-6f);
+    CHECK(light.lamps[1].angularRadius == kPi);
+    REQUIRE(light.distant.size() == 1);
+    CHECK(light.distant[0].irradiance == vec3(7, 8, 9));
+    CHECK_NOTHROW(sampleLight(light, 16));
+}
+
+TEST_CASE("light file: a sky by its sun, and nothing at all") {
+    const TemporaryFolder folder;
+    const Light light =
+        readLight(folder.write("light.json", R"({"sky": {"sun": {"azimuth": 90, "elevation": 30}}})"));
+    CHECK(glm::distance(light.sky->sun, vec3(std::sqrt(0.75f), 0.5f, 0)) < 1e-6f);
+    CHECK(light.sky->hasDisc);
+    for (const vec3& radiance : sampleLight(readLight(folder.write("dark.json", "{}")), 16).radiance)
+        CHECK(radiance == vec3(0));
+}
+
+TEST_CASE("light file: errors name file, place and field") {
+    const auto check = [](const std::string& text, std::initializer_list<const char*> parts) {
+        const std::string failure = failureOf(text);
+        CAPTURE(text);
+        CAPTURE(failure);
+        CHECK(failure.find("light.json") != std::string::npos);
+        for (const char* part : parts) CHECK(failure.find(part) != std::string::npos);
+    };
+    check("[", {"JSON"});
+    check("[]", {"object"});
+    check(R"({"lamp": []})", {"\"lamp\"", "did you mean \"lamps\""});
+    check(R"({"lamps": {}})", {"\"lamps\"", "list"});
+    check(R"({"lamps": [{}]})", {"lamps[0]", "\"azimuth\"", "nothing"});
+    check(R"({"lamps": [{"azimuth": 0, "elevation": 0, "radius": 0, "radiance": [1, 1, 1]}]})",
+          {"\"radius\""});
+    check(R"({"lamps": [{"azimuth": 0, "elevation": 0, "radius": 1, "radiance": [1, -1, 1]}]})",
+          {"\"radiance\""});
+    check(R"({"lamps": [{"azimuth": 0, "elevation": 0, "radius": 1, "radiance": [1, 1]}]})",
+          {"three numbers"});
+    check(R"({"strokes": [{"azimuth": 0, "elevation": 91, "radius": 1, "radiance": [1, 1, 1]}]})",
+          {"strokes[0]", "\"elevation\"", "91"});
+    check(R"({"distant": [{"azimuth": 1e99, "elevation": 0, "irradiance": [1, 1, 1]}]})", {"\"azimuth\""});
+    check(R"({"blend": {"file": "a.exr", "weight": 0.5}})", {"\"environment\"", "blend"});
+    check(R"({"environment": {"flie": "a.exr"}})", {"environment", "did you mean \"file\""});
+    check(R"({"sky": {}})", {"sky", "\"sun\"", "latitude"});
+    check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "time": "2026-06-21T12:00Z"}})", {"\"sun\""});
+    check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "latitude": 3}})",
+          {"\"latitude\"", "beside \"sun\""});
+    check(R"({"sky": {"time": "noon", "latitude": 3, "longitude": 4}})",
+          {"\"time\"", "noon", "2026-06-21T14:30"});
+    check(R"({"sky": {"time": "2026-06-21T12:00Z", "latitude": 3}})", {"\"longitude\""});
+    check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "turbidity": 1}})",
+          {"\"turbidity\"", "2 to 10"});
+    check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "disc": 1}})", {"\"disc\"", "true or false"});
+    std::string many = R"({"distant": [)";
+    for (int i = 0; i <= 512; i++) many += i ? ",{}" : "{}";
+    check(many + "]}", {"at most 512"});
+    CHECK(failureOf(R"({"environment": {"file": "none.exr"}})").find("none.exr") != std::string::npos);
+}
