@@ -57,7 +57,7 @@ TEST_CASE("cli: a timing capture opens as trace events and as a table") {
     const Outcome lamp = runRelume(folder, "render a.relume -o a.png --size 32x24 --timings u.csv "
                                            "--sphere-light 30,40,5");
     REQUIRE_EQ(lamp.exitCode, 0);
-    onlySpan(readTimingTable(contents(folder.path() / "u.csv")), "CPU", 0, "light");
+    onlySpan(readTimingTable(contents(folder.path() / "u.csv")), "GPU", 0, "light lamps");
 }
 
 TEST_CASE("cli: a device that lacks a way to match clocks, or timestamps, still gives a capture") {
