@@ -29,7 +29,8 @@ struct Arguments {
     bool json = false;
 };
 
-double median(std::vector<double> values, const std::vector<double>& divisors) {
+// Of two series' times in the same rounds.
+double medianRatio(std::vector<double> values, const std::vector<double>& divisors) {
     for (size_t i = 0; i < values.size(); i++) values[i] /= divisors[i];
     return median(values);
 }
@@ -64,8 +65,8 @@ Json describe(const Asset& asset, const LayoutSeries& own, const RelightSeries& 
             {"bytes_touched", touched},
             {"floor_ms", floorMs},
             {"share_of_floor", floorMs / ms},
-            {"ratio_to_rows", median(own.deviceMs, series.layouts.at("rows").deviceMs)},
-            {"ratio_to_eigen_csr", median(own.deviceMs, series.csrMs)},
+            {"ratio_to_rows", medianRatio(own.deviceMs, series.layouts.at("rows").deviceMs)},
+            {"ratio_to_eigen_csr", medianRatio(own.deviceMs, series.csrMs)},
             {"relit_error", median(own.errors)}};
 }
 

@@ -8,7 +8,7 @@
 namespace relume {
 
 // The error at which bases relight about as well as rows of 96 coefficients do.
-constexpr double kDefaultLayoutError = 0.045;
+constexpr double kDefaultLayoutError = 0.058;
 
 struct LayoutOptions {
     TransportLayout layout = TransportLayout::Bases;
