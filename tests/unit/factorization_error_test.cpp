@@ -115,8 +115,8 @@ TEST_CASE("factorization errors: lights and factorizations measured together are
     const BrdfTable table = tabulate(*brdf, 16, DiskMapping::EqualArea);
     const FactoredBrdf few = factorize(table, {3}), paper = factorize(table, {8, Factorization::Paper});
     const std::vector<LayerOf> layers = {{&few}, {&paper}};
-    const std::vector<LightCube> lights = {skyLight(16),
-                                           sampleLight({.distant = {{{0.3f, 0.9f, 0.2f}, vec3(1, 0.8f, 0.5f)}}}, 16)};
+    const std::vector<LightCube> lights = {
+        skyLight(16), sampleLight({.distant = {{{0.3f, 0.9f, 0.2f}, vec3(1, 0.8f, 0.5f)}}}, 16)};
     const auto together = radianceErrors(*brdf, layers, lights, {10});
     for (size_t l = 0; l < 2; l++)
         for (size_t a = 0; a < 2; a++)
