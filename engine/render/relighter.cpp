@@ -25,15 +25,16 @@ std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, con
                                                  uint64_t largestShard) {
     const uint32_t coefficients = 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize);
     if (const auto* rows = std::get_if<SparseTransport>(&transport)) {
-        if (!mRows) mRows = RowsRelighter::makeProgram(mDevice);
+        if (!mRows) mRows = std::make_unique<vk::ComputeProgram>(RowsRelighter::makeProgram(mDevice));
         return std::make_unique<RowsRelighter>(mDevice, *mRows, *rows, coefficients, largestShard, name);
     }
     if (const auto* clusters = std::get_if<ClusteredTransport>(&transport)) {
-        if (!mClusters) mClusters = ClustersRelighter::makeProgram(mDevice);
+        if (!mClusters)
+            mClusters = std::make_unique<vk::ComputeProgram>(ClustersRelighter::makeProgram(mDevice));
         return std::make_unique<ClustersRelighter>(mDevice, *mClusters, *clusters, coefficients, largestShard,
                                                    name);
     }
-    if (!mBases) mBases.emplace(mDevice);
+    if (!mBases) mBases = std::make_unique<BasesRelighter::Programs>(mDevice);
     return std::make_unique<BasesRelighter>(mDevice, *mBases, std::get<BasisTransport>(transport),
                                             coefficients, largestShard, name);
 }

@@ -7,7 +7,6 @@
 
 #include <limits>
 #include <memory>
-#include <optional>
 
 namespace relume {
 
@@ -41,9 +40,9 @@ class Relighter {
 
     const vk::Device& mDevice;
     int mFaceSize;
-    // Of the layouts that are there.
-    std::optional<vk::ComputeProgram> mRows, mClusters;
-    std::optional<BasesRelighter::Programs> mBases;
+    // Of the layouts that are there; where they are they stay, as the sets refer to them.
+    std::unique_ptr<vk::ComputeProgram> mRows, mClusters;
+    std::unique_ptr<BasesRelighter::Programs> mBases;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
 };
 
