@@ -20,7 +20,7 @@ TEST_CASE("cli: help and version go to stdout and end well") {
     const Outcome help = runRelume(folder, "--help");
     CHECK_EQ(help.exitCode, 0);
     for (const char* command : {"bake", "render", "reference", "compare", "verify", "info", "materials",
-                                "brdf", "devices", "bench"}) {
+                                "brdf", "devices", "bench", "convert"}) {
         CHECK(says(help.out, command));
         const Outcome own = runRelume(folder, std::string(command) + " --help");
         CHECK_EQ(own.exitCode, 0);

@@ -1,0 +1,101 @@
+// Transport in every layout: converted, explained, drawn, verified and timed.
+#include "tests/support/run_relume.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace relume::test;
+using Json = nlohmann::json;
+
+namespace {
+
+Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
+    const Outcome outcome = runRelume(folder, arguments, "LP_NUM_THREADS=0");
+    REQUIRE_MESSAGE(outcome.exitCode == 0, arguments << ": " << outcome.err);
+    return outcome;
+}
+
+void bakeSphere(const TemporaryFolder& folder) {
+    run(folder, "bake sphere --ground --ground-tessellation 10 -m gold -K 2 -N 200 --visibility-size 64 "
+                "--face-size 32 --map-size 16 -q -o rows.relume");
+}
+
+} // namespace
+
+TEST_CASE(
+    "convert: every layout says what it is, relights to the reference's bits, and draws the same image") {
+    const TemporaryFolder folder;
+    bakeSphere(folder);
+    run(folder, "render rows.relume --size 96x72 --threshold 0 -o rows.exr");
+    const Json rows = Json::parse(run(folder, "info rows.relume --json").out);
+    for (const std::string layout : {"clusters", "bases"}) {
+        CAPTURE(layout);
+        const std::string file = layout + ".relume", image = layout + ".exr";
+        const Outcome convert =
+            run(folder, "convert rows.relume --layout " + layout + " --error 0.03 -o " + file);
+        CHECK(says(convert.err, "bytes"));
+        const Json info = Json::parse(run(folder, "info " + file + " --json").out);
+        CHECK_EQ(info["parts"][0]["sets"][0]["layout"], layout);
+        CHECK_LT(info["total"]["bytes_per_vertex"], rows["total"]["bytes_per_vertex"]);
+        const Json verify = Json::parse(run(folder, "verify " + file + " --samples 20 --json").out);
+        CHECK_EQ(verify["relight_bits"], 0);
+        CHECK_GT(verify["layout_error"], 0);
+        run(folder, "render " + file + " --size 96x72 --threshold 0 -o " + image);
+        const Json compare = Json::parse(run(folder, "compare " + image + " rows.exr --json").out);
+        CHECK_LE(compare["relative_rmse"], 0.05);
+        CHECK_GT(compare["relative_rmse"], 0);
+    }
+    run(folder, "convert bases.relume --layout rows -o again.relume");
+    run(folder, "convert rows.relume --layout rows -N 20 -o short.relume");
+    CHECK_EQ(Json::parse(run(folder, "info short.relume --json").out)["coefficients"], 20);
+    run(folder, "render again.relume --size 96x72 --threshold 0 -o again.exr");
+    CHECK_LE(Json::parse(run(folder, "compare again.exr bases.exr --json").out)["relative_rmse"], 0.02);
+}
+
+TEST_CASE("convert: the same bytes every time, within the budget, and errors that say what to do") {
+    const TemporaryFolder folder;
+    bakeSphere(folder);
+    run(folder, "convert rows.relume --budget 60 -q -o a.relume");
+    run(folder, "convert rows.relume --budget 60 -q -o b.relume");
+    CHECK(contents(folder.path() / "a.relume") == contents(folder.path() / "b.relume"));
+    const Json info = Json::parse(run(folder, "info a.relume --json").out);
+    CHECK_LE(info["total"]["bytes_per_vertex"], 60);
+    CHECK_GE(info["total"]["bytes_per_vertex"], 40);
+
+    const auto fails = [&](const std::string& arguments, const std::string& what) {
+        const Outcome outcome = runRelume(folder, "convert " + arguments);
+        CAPTURE(outcome.err);
+        CHECK_EQ(outcome.exitCode, 2);
+        CHECK(says(outcome.err, what));
+    };
+    fails("rows.relume --layout rows --budget 60 -o c.relume", "--budget");
+    fails("rows.relume --layout bases -N 60 -o c.relume", "--coefficients");
+    fails("rows.relume --layout cells -o c.relume", "cells");
+    fails("rows.relume -o rows.relume", "itself");
+    fails("rows.relume --budget 60 --error 0.1 -o c.relume", "--budget");
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "c.relume"));
+}
+
+TEST_CASE("cli: bench relight prints every layout's figures as JSON") {
+    const TemporaryFolder folder;
+    bakeSphere(folder);
+    const Json found =
+        Json::parse(run(folder, "bench relight rows.relume -N 40 --budget 60 --repeats 2 --json").out);
+    CHECK_EQ(found["repeats"], 2);
+    CHECK_EQ(found["source_coefficients"], 200);
+    CHECK_GT(found["eigen_csr_ms"], 0);
+    CHECK_GT(found["light_coefficients"], 0);
+    for (const char* layout : {"rows", "clusters", "bases"}) {
+        CAPTURE(layout);
+        const Json& own = found["layouts"][layout];
+        for (const char* figure : {"ms", "fps", "cpu_ms", "floor_ms", "bytes_touched", "ratio_to_eigen_csr"})
+            CHECK_GT(own[figure], 0);
+        CHECK_GT(own["relit_error"], 0);
+        CHECK_LE(own["relit_error"], 0.5);
+    }
+    CHECK_EQ(found["layouts"]["rows"]["ratio_to_rows"], 1);
+    CHECK_LE(found["layouts"]["bases"]["bytes_per_vertex"], 60);
+    const Outcome table = run(folder, "bench relight rows.relume --repeats 1");
+    CHECK(says(table.out, "Eigen CSR"));
+    CHECK_EQ(runRelume(folder, "bench --json relight rows.relume").exitCode, 2);
+}
