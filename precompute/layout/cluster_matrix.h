@@ -21,8 +21,10 @@ struct ClusterMatrix {
     size_t kinds() const { return size_t(energy.size()); }
 };
 
-// Root mean square over a set's vertices of what they hold in all terms, times the spectrum; 1 for none. As
-// the unit it makes errors relative, so that a dark or smooth part is not starved beside a bright one.
+// Root mean square over a set's vertices of how far they are from their mean in all terms, times the
+// spectrum; a tenth of what they hold at least; 1 for none. As the unit it makes errors relative to what
+// tells vertices apart: a dark part is not starved beside a bright one, nor a shadow on a ground that is
+// otherwise even.
 float transportUnit(const SparseTransport& rows, std::span<const float> spectrum);
 
 // Of vertices [first, first + count) of a set's rows; `most` columns at most.

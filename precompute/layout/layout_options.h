@@ -13,7 +13,8 @@ constexpr double kDefaultLayoutError = 0.058;
 struct LayoutOptions {
     TransportLayout layout = TransportLayout::Bases;
     // Of clusters and bases, one of both. Bytes of transport in memory per vertex of the asset, or the error
-    // of transport, weighted as light weighs it: root mean square, relative to the whole of each set.
+    // of transport, weighted as light weighs it: root mean square, relative to each set's variation
+    // (transportUnit() in cluster_matrix.h).
     std::optional<double> bytesPerVertex;
     double error = kDefaultLayoutError;
     std::optional<int> coefficients; // of rows alone: most of a row; none: as many as the asset's have

@@ -88,16 +88,16 @@ const BasisTransport& basesOf(const Asset& asset) {
 // Relative, weighted by light: what Conversion::error says.
 double errorOf(const Transport& kept, const Transport& rows) {
     const std::vector<float> spectrum = lightSpectrum(kFace);
-    double lost = 0, all = 0;
+    double lost = 0;
     for (size_t row = 0; row < rowsOf(rows).rows(); row++) {
         const std::vector<vec3> a = coefficientsOf(kept, row, kCoefficients),
                                 b = coefficientsOf(rows, row, kCoefficients);
         for (size_t i = 0; i < a.size(); i++) {
-            const vec3 away = (a[i] - b[i]) * spectrum[i], whole = b[i] * spectrum[i];
-            lost += double(glm::dot(away, away)), all += double(glm::dot(whole, whole));
+            const vec3 away = (a[i] - b[i]) * spectrum[i];
+            lost += double(glm::dot(away, away));
         }
     }
-    return std::sqrt(lost / all);
+    return std::sqrt(lost / verticesOf(rows)) / double(transportUnit(rowsOf(rows), spectrum));
 }
 
 double bytesPerVertex(const Asset& asset) {
@@ -143,13 +143,27 @@ TEST_CASE("layout: a grey material has one kind a term; a coloured one its princ
     CHECK(basisKinds({.size = 4, .terms = 1, .lightMaps = std::vector<vec3>(16, vec3(0))}).size() == 1);
 }
 
+TEST_CASE("layout: errors are relative to what tells a set's vertices apart") {
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    SparseTransport rows{
+        .vertices = 2, .terms = 1, .rowStarts = {0, 1, 2}, .scales = {3, 3}, .indices = {0, 0}, .values = {}};
+    const auto unitOf = [&](ivec3 first, ivec3 second) {
+        rows.values = {packCoefficient(first), packCoefficient(second)};
+        return transportUnit(rows, spectrum);
+    };
+    CHECK(unitOf({1023, 0, 0}, {-1023, 0, 0}) == doctest::Approx(3));  // no mean
+    CHECK(unitOf({1023, 0, 0}, {0, 0, 0}) == doctest::Approx(1.5));    // half of it is mean
+    CHECK(unitOf({1023, 0, 0}, {1023, 0, 0}) == doctest::Approx(0.3)); // nothing else: a tenth
+    CHECK(unitOf({0, 0, 0}, {0, 0, 0}) == 1);
+}
+
 TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
     const SparseTransport rows = smoothRows(256, 2, 3);
     const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
     const std::vector<float> spectrum = lightSpectrum(kFace);
     const ClusterMatrix matrix =
         clusterMatrix(rows, 0, 256, kinds, spectrum, transportUnit(rows, spectrum), kAnalysedColumns);
-    CHECK(matrix.energy.sum() == doctest::Approx(256).epsilon(1e-3));
+    CHECK(matrix.energy.sum() >= 256); // what varies, and the mean
     CHECK(matrix.values.squaredNorm() == doctest::Approx(matrix.energy.sum()));
     const BasisAnalysis analysis = analyse(matrix);
     const Eigen::VectorXf sigma = Eigen::BDCSVD<Eigen::MatrixXf>(matrix.values).singularValues();
@@ -255,8 +269,9 @@ TEST_CASE("layout: nothing to keep, little to keep, one term, many") {
             asset = rows;
             const Conversion conversion = convertLayout(asset, bases({}, 0.01));
             checkAsset(asset, "few");
-            CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) < 0.015);
-            CHECK(*conversion.error < 0.015);
+            const double most = vertices < 3 ? 0.1 : 0.03; // so few hardly vary
+            CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) < most);
+            CHECK(*conversion.error < most);
         }
 }
 
