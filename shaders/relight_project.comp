@@ -1,7 +1,7 @@
 #version 460
-// The light on the basis vectors of clusters: exact sums, times the light's scale. A subgroup a cluster and 32 of its components.
-// It lists the columns that the light meets, and reads no others: a word of four components a lane, so that larger
-// subgroups read several columns at a time.
+// The light on the basis vectors of clusters: exact sums, times the light's scale. A subgroup a cluster and 64 of its
+// components. It lists the columns that the light meets, and reads no others: two words of four components a lane, so
+// that larger subgroups read several columns at a time.
 // C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/render/bases_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -18,23 +18,37 @@ layout(binding = 4, scalar) readonly buffer Light { LightStats light; };
 layout(binding = 5, scalar) writeonly buffer Projections { vec3 projections[]; };
 
 const uint kLanes = gl_WorkGroupSize.x;
-const uint kWords = 8; // of a column, that a group reads
+const uint kWords = 8; // of a column, that a group reads at a time
 const uint kStreams = kLanes / kWords;
 const uint kListed = 64;
 
 shared uint listedColumns[kListed];
 shared ivec3 listedLights[kListed];
-shared ivec3 streamSums[kLanes * 4];
+shared ivec3 streamSums[kLanes * 8];
 
 uint columnIndex(uint column) { return indices[column / 2] >> (column % 2 * 16) & 0xffff; }
+
+#define ADD(word, first)                                                                                              \
+    sums[first] += bitfieldExtract(word, 0, 8) * value;                                                               \
+    sums[first + 1] += bitfieldExtract(word, 8, 8) * value;                                                           \
+    sums[first + 2] += bitfieldExtract(word, 16, 8) * value;                                                          \
+    sums[first + 3] += (word >> 24) * value;
+
+#define STORE(component, first)                                                                                       \
+    projections[component] = vec3(sums[first]) * light.scale;                                                         \
+    projections[component + 1] = vec3(sums[first + 1]) * light.scale;                                                 \
+    projections[component + 2] = vec3(sums[first + 2]) * light.scale;                                                 \
+    projections[component + 3] = vec3(sums[first + 3]) * light.scale;
 
 void main() {
     const BasisGroup group = groups[gl_WorkGroupID.x];
     const uint lane = gl_LocalInvocationID.x;
     const uint word = lane % kWords, stream = lane / kWords;
+    // A second word of the same columns: listing these again would cost more.
     const bool hasWord = group.firstWord + word < group.wordsPerColumn;
+    const bool hasSecond = group.firstWord + word + kWords < group.wordsPerColumn;
     const uint end = group.firstColumn + group.columns;
-    ivec3 sums[4] = ivec3[](ivec3(0), ivec3(0), ivec3(0), ivec3(0));
+    ivec3 sums[8] = ivec3[](ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(0));
     uint listed = 0;
     for (uint first = group.firstColumn; first < end; first += kLanes) {
         const uint column = first + lane;
@@ -51,28 +65,30 @@ void main() {
         if (listed + kLanes <= kListed && first + kLanes < end) continue;
         barrier();
         for (uint i = stream; i < listed && hasWord; i += kStreams) {
-            const int four = int(
-                basis[group.firstBasisWord + listedColumns[i] * group.wordsPerColumn + group.firstWord + word]);
+            const uint place =
+                group.firstBasisWord + listedColumns[i] * group.wordsPerColumn + group.firstWord + word;
             const ivec3 value = listedLights[i];
-            sums[0] += bitfieldExtract(four, 0, 8) * value;
-            sums[1] += bitfieldExtract(four, 8, 8) * value;
-            sums[2] += bitfieldExtract(four, 16, 8) * value;
-            sums[3] += (four >> 24) * value;
+            const int four = int(basis[place]);
+            ADD(four, 0)
+            if (hasSecond) {
+                const int more = int(basis[place + kWords]);
+                ADD(more, 4)
+            }
         }
         barrier();
         listed = 0;
     }
     if (kStreams > 1) {
-        for (uint i = 0; i < 4; i++) streamSums[lane * 4 + i] = sums[i];
+        for (uint i = 0; i < 8; i++) streamSums[lane * 8 + i] = sums[i];
         barrier();
         if (stream > 0) return;
         for (uint other = 1; other < kStreams; other++)
-            for (uint i = 0; i < 4; i++) sums[i] += streamSums[(other * kWords + word) * 4 + i];
+            for (uint i = 0; i < 8; i++) sums[i] += streamSums[(other * kWords + word) * 8 + i];
     }
     if (!hasWord) return;
     const uint component = group.firstComponent + 4 * (group.firstWord + word);
-    projections[component] = vec3(sums[0]) * light.scale;
-    projections[component + 1] = vec3(sums[1]) * light.scale;
-    projections[component + 2] = vec3(sums[2]) * light.scale;
-    projections[component + 3] = vec3(sums[3]) * light.scale;
+    STORE(component, 0)
+    if (hasSecond) {
+        STORE(component + 4 * kWords, 4)
+    }
 }

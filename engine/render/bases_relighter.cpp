@@ -15,7 +15,7 @@ using vk::Stage;
 namespace {
 
 constexpr uint32_t kLeastLanes = 8, kMostLanes = 64; // of the shaders
-constexpr uint32_t kWordsPerGroup = 8;               // of a column
+constexpr uint32_t kWordsPerGroup = 16;              // of a column
 constexpr uint32_t kVerticesPerLane = 8;
 
 uint32_t lanesOf(const vk::Device& device) {

@@ -61,7 +61,7 @@ struct RelightClustersPush {
 };
 RELUME_SHARED_SIZE(RelightClustersPush, 12)
 
-// What a group of relight_project works on: eight words, of four components each, of a cluster's columns.
+// What a group of relight_project works on: 16 words, of four components each, of a cluster's columns.
 struct BasisGroup {
     uint firstColumn, columns;           // of the cluster
     uint firstBasisWord, wordsPerColumn; // of the cluster
