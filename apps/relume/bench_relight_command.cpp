@@ -133,7 +133,7 @@ void addBenchRelightCommand(CLI::App& bench) {
     CLI::Option* error = command
                              ->add_option("--error", arguments->error,
                                           "Error of transport in clusters and bases, weighted as light is")
-                             ->check(between(0, 1))
+                             ->check(between(1e-6f, 1))
                              ->capture_default_str();
     command->add_option("--budget", arguments->budget, "Bytes of transport a vertex in clusters and bases")
         ->type_name("BYTES")

@@ -60,6 +60,20 @@ Conversion convert(Asset& asset, const LayoutOptions& options, bool quiet) {
     return convertLayout(asset, options, report);
 }
 
+// What was asked for may be beyond what a layout can do.
+void warnOfMisses(const LayoutOptions& options, const Conversion& conversion, double bytesPerVertex) {
+    constexpr double kHardlyMore = 1.05;
+    if (options.bytesPerVertex && bytesPerVertex > *options.bytesPerVertex)
+        spdlog::warn("a budget of {} bytes a vertex is less than scales alone take; it has {:.0f}",
+                     *options.bytesPerVertex, bytesPerVertex);
+    if (conversion.error && !options.bytesPerVertex && *conversion.error > kHardlyMore * options.error)
+        spdlog::warn(
+            "an error of {:.2f} % is beyond this layout's precision; rows of many coefficients keep more",
+            100 * options.error);
+    if (conversion.error && *conversion.error > 0.5)
+        spdlog::warn("more than half of what tells vertices apart is lost; ask for more bytes");
+}
+
 void run(const Arguments& arguments) {
     const LayoutOptions options = optionsOf(arguments);
     checkOutput(arguments);
@@ -79,6 +93,7 @@ void run(const Arguments& arguments) {
                      arguments.output.string(), double(std::filesystem::file_size(arguments.output)) * 1e-6,
                      arguments.layout, double(conversion.bytesAfter) / vertices,
                      double(conversion.bytesBefore) / vertices, error);
+        warnOfMisses(options, conversion, double(conversion.bytesAfter) / vertices);
     } catch (const BakeStopped&) {
         spdlog::warn("stopped; {} is as it was", arguments.output.string());
         throw CLI::RuntimeError(kExitStopped + caughtInterrupt());

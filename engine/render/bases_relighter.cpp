@@ -57,7 +57,8 @@ class BasesRelighter::ShardData {
         const BasisCluster& more = transport.clusters[cluster];
         const uint64_t words = roundUp(more.components, 4);
         const uint64_t octets = roundUp(transport.verticesOf(cluster), kVerticesPerLane);
-        return 4 * std::max({basis.size() + words * more.columns(),
+        return 4 * std::max({basis.size() + words * more.columns(), (indices.size() + more.columns() + 1) / 2,
+                             (weightings.size() + transport.kinds.size()) * 3,
                              weights.size() + octets * more.scales.size() * 2, (components + 4 * words) * 3});
     }
 
@@ -106,7 +107,7 @@ class BasesRelighter::ShardData {
 BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& programs,
                                const BasisTransport& transport, uint32_t coefficients, uint64_t largestShard,
                                const std::string& name)
-    : SetRelighter(device, uint32_t(transport.rows()), name), mPrograms(programs), mTerms(transport.terms),
+    : SetRelighter(device, transport.rows(), name), mPrograms(programs), mTerms(transport.terms),
       mKinds(uint32_t(transport.kinds.size())),
       mGroupsPerTerm(roundUp(kBasisVertices / kVerticesPerLane, programs.combine.groupSize()[0])) {
     std::vector<shared::BasisTermKinds> termKinds(mTerms, {0, 0});

@@ -42,7 +42,7 @@ vk::ComputeProgram ClustersRelighter::makeProgram(const vk::Device& device) {
 ClustersRelighter::ClustersRelighter(const vk::Device& device, const vk::ComputeProgram& program,
                                      const ClusteredTransport& transport, uint32_t coefficients,
                                      uint64_t largestShard, const std::string& name)
-    : SetRelighter(device, uint32_t(transport.rows()), name), mProgram(program), mTerms(transport.terms),
+    : SetRelighter(device, transport.rows(), name), mProgram(program), mTerms(transport.terms),
       mVertices(transport.vertices),
       mScales(vk::upload<float>(device, transport.scales, name + " row scales")) {
     const auto groups = uint32_t(transport.groups());

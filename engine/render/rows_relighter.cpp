@@ -57,7 +57,7 @@ vk::ComputeProgram RowsRelighter::makeProgram(const vk::Device& device) {
 RowsRelighter::RowsRelighter(const vk::Device& device, const vk::ComputeProgram& program,
                              const SparseTransport& transport, uint32_t coefficients, uint64_t largestShard,
                              const std::string& name)
-    : SetRelighter(device, uint32_t(transport.rows()), name), mProgram(program),
+    : SetRelighter(device, transport.rows(), name), mProgram(program),
       mScales(vk::upload<float>(device, transport.scales, name + " row scales")) {
     const uint64_t largestGroups = largestShard / kGroupBytes;
     const uint32_t largestRows = largestRowCount(device, program, largestShard);

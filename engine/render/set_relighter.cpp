@@ -6,13 +6,14 @@
 
 namespace relume {
 
-SetRelighter::SetRelighter(const vk::Device& device, uint32_t rows, const std::string& name) : mRows(rows) {
+SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name) {
     const uint64_t bytes = std::max<uint64_t>(rows, 1) * sizeof(vec3);
     if (bytes > device.largestStorageBuffer())
         throw Error(
             "{}: {} vertices times terms need {} bytes of tuples; {} binds at most {}; split the mesh "
             "into several parts",
             name, rows, bytes, device.name(), device.largestStorageBuffer());
+    mRows = uint32_t(rows);
     mTuples = vk::Buffer(device, bytes, vk::BufferUse::Device, name + " tuples");
 }
 

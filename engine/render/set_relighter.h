@@ -8,7 +8,7 @@ namespace relume {
 class SetRelighter {
   public:
     // Throws OutOfMemory, or Error when the device cannot bind as many tuples. `name` stands for the part.
-    SetRelighter(const vk::Device& device, uint32_t rows, const std::string& name);
+    SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name);
     virtual ~SetRelighter() = default;
 
     // Writes the tuples under the light recorded before.
@@ -21,7 +21,7 @@ class SetRelighter {
     const vk::Buffer& tuples() const { return mTuples; } // vec3 per row
 
   private:
-    uint32_t mRows;
+    uint32_t mRows = 0;
     vk::Buffer mTuples;
 };
 

@@ -65,15 +65,31 @@ std::string describeSamples(int samples) {
     }
 }
 
+std::string describeLayout(const Transport& transport) {
+    switch (layoutOf(transport)) {
+    case TransportLayout::Rows:
+        return "rows, 11, 11 and 10 bits for red, green and blue";
+    case TransportLayout::Clusters:
+        return fmt::format("clusters, {} vertices share their coefficients; 11, 11 and 10 bits",
+                           kClusterVertices);
+    case TransportLayout::Bases:
+        return fmt::format("bases, {} vertices share basis vectors; 8 bits for these and for weights",
+                           kBasisVertices);
+    }
+    return "";
+}
+
 Json describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
     Json list = Json::array();
     list.push_back("transport: " + describeSamples(asset.transportSamples));
     if (asset.coefficients < all)
         list.push_back(
-            fmt::format("truncation: the {} largest of {} coefficients of a vertex and term are kept",
+            fmt::format("truncation: the {} largest of {} coefficients of a vertex and term were kept",
                         asset.coefficients, all));
-    list.push_back("quantisation: 11, 11 and 10 bits for red, green and blue");
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            list.push_back(fmt::format("layout of {}: {}", part.name, describeLayout(set.transport)));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}{}", part.name, set.brdf.terms,

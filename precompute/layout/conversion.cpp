@@ -1,6 +1,6 @@
 #include "precompute/layout/conversion.h"
 
-#include "engine/base/check.h"
+#include "engine/base/error.h"
 #include "precompute/layout/basis_encoder.h"
 #include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/cluster_encoder.h"
@@ -8,6 +8,7 @@
 #include "precompute/layout/slope.h"
 #include "precompute/reference/transport_stages.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
@@ -17,6 +18,7 @@ namespace relume {
 namespace {
 
 constexpr size_t kBatch = 32; // clusters between two reports of progress
+constexpr ptrdiff_t kFirstCache = 32 << 10, kSecondCache = 256 << 10, kThirdCache = 2 << 20; // bytes
 
 using Report = std::function<void(uint64_t done, uint64_t total)>;
 
@@ -175,6 +177,8 @@ uint64_t verticesOf(const Asset& asset) {
 }
 
 Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Report& progress) {
+    // Eigen cuts products by the caches it finds, and sums would differ from one machine to another.
+    Eigen::setCpuCacheSizes(kFirstCache, kSecondCache, kThirdCache);
     const std::vector<MaterialSet*> sets = setsOf(asset);
     Conversion conversion;
     conversion.bytesBefore = bytesOf(sets);
@@ -190,6 +194,9 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Repor
                                ? convertToClusters(source, options, budget)
                                : convertToBases(source, options, budget, progress);
     }
+    if (conversion.error && !std::isfinite(*conversion.error))
+        throw Error(
+            "transport is too large for numbers of 32 bits; bake it again, with a material of less gain");
     conversion.bytesAfter = bytesOf(sets);
     return conversion;
 }
