@@ -164,6 +164,18 @@ void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {
         readArray<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(set.brdf.terms));
 }
 
+// In the order of TransportLayout.
+constexpr ChunkTag kLayoutTags[] = {kTransport, kClusters, kBases};
+static_assert(std::size(kLayoutTags) == std::variant_size_v<Transport>);
+
+// A set has transport in its own layout alone.
+void expectNoOtherLayout(const ChunkFile& file, uint32_t set, TransportLayout own) {
+    for (const ChunkTag tag : kLayoutTags)
+        if (tag != kLayoutTags[size_t(own)] && !file.find(tag, set).empty())
+            throw Error("{}: expected none in a set of the layout {}; the file is damaged",
+                        whereOf(file, tag, set), layoutName(own));
+}
+
 AssetMeta readMeta(const ChunkFile& file) {
     const auto runs = file.find(kMeta, kWholeFile);
     if (runs.size() != 1 || runs[0].rawSize > kLargestMeta)
@@ -255,6 +267,7 @@ Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
     uint32_t setNumber = 0;
     for (AssetPart& part : meta.asset.parts)
         for (MaterialSet& set : part.sets) {
+            expectNoOtherLayout(file, setNumber, layoutOf(set.transport));
             std::visit(
                 [&](auto& transport) {
                     readTransport(file, setNumber, meta.setEntries[setNumber], coefficients, transport);

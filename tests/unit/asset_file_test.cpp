@@ -320,6 +320,8 @@ TEST_CASE("asset file: unknown chunks are skipped if optional, refused if requir
     CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("appears twice"), Error);
     chunks.back() = {chunkTag("MPOS"), 1, 2, content};
     CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("run 1 is missing"), Error);
+    chunks.back() = {chunkTag("TRBS"), 1, 0, content};
+    CHECK_THROWS_WITH_AS(decodeAsset(fileOf(chunks), "file"), doctest::Contains("of the layout rows"), Error);
 }
 
 TEST_CASE("asset file: every required chunk is missed") {
