@@ -151,11 +151,9 @@ void addBenchRelightCommand(CLI::App& bench) {
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
-        "Every round turns the light by a degree. The floor is the time to copy the bytes that the light "
-        "makes\n"
-        "a layout read and write. Relit errors are of tuples under all of the light, against those of "
-        "FILE's\n"
-        "rows as they are. Eigen CSR multiplies the same rows as sparse matrices of floats, on all cores.");
+        "Every round turns the light by a degree. The floor is the time to copy the bytes that the light\n"
+        "makes a layout read and write. Relit errors are of tuples under all of the light, against those\n"
+        "of FILE as it is. Eigen CSR multiplies the rows as sparse matrices of floats, on all cores.");
     command->callback([arguments, &bench] {
         for (const CLI::Option* option : bench.get_options())
             if (option->count() > 0)

@@ -12,12 +12,12 @@ struct Verification {
     uint64_t samples = 0;
     double visibilityMismatch = 0; // fraction of texels above the horizon: device against Embree
     double transportError = 0;     // all coefficients: device against CPU twin on the device's visibility
-    double layoutError = 0;       // the asset's transport against what was kept of: all that its layout loses
-    double waveletError = 0;      // of rows: lost by keeping N
-    double quantisationError = 0; // of rows: against the coefficients they keep
-    double brdfError = 0;         // cos-weighted relative RMS of the K terms, mean over samples' materials
-    uint64_t relightBits = 0;     // vertices, of all, whose integer K-tuple differs between device and CPU
-    double totalError = 0;        // the asset's rows against uncompressed transport under Embree's visibility
+    double layoutError = 0;        // the asset's transport against all coefficients: what its layout loses
+    double waveletError = 0;       // of rows: lost by keeping N
+    double quantisationError = 0;  // of rows: against the coefficients they keep
+    double brdfError = 0;          // cos-weighted relative RMS of the K terms, mean over samples' materials
+    uint64_t relightBits = 0;      // vertices, of all, whose K-tuple differs between device and CPU
+    double totalError = 0; // the asset's rows against uncompressed transport under Embree's visibility
 };
 
 // Recomputes `samples` random vertices (seeded, so the same ones every time), and relights all vertices under
