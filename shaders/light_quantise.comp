@@ -1,5 +1,6 @@
 #version 460
-// Selects the light's coefficients, quantises them into a dense table of zeros elsewhere, and says what that cost.
+// Selects the light's coefficients, quantises them into a dense table of zeros elsewhere, and says what that cost and
+// how the table differs from that of the light before.
 // One work-group, in passes over all: the maxima, the selection, the sums that guard the range, the values. All that
 // decides a value is integer, or a float product that is exact or rounded once.
 // C++ twin: makeLightVector() in engine/light/light_vector.h, where the steps are numbered.
@@ -12,8 +13,8 @@ const uint kGroup = 128;
 layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Push { LightQuantisePush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; };
-layout(binding = 1, scalar) writeonly buffer Table { PackedLight table[]; };
-layout(binding = 2, scalar) writeonly buffer Stats { LightStats stats; };
+layout(binding = 1, scalar) buffer Table { PackedLight table[]; }; // the light, then its changes
+layout(binding = 2, scalar) buffer Stats { LightStats stats; };
 
 shared uvec3 partial[kGroup];
 shared vec2 energies[kGroup];
@@ -132,6 +133,11 @@ uint groupMagnitude(uint lane, uvec2 least, float inverse) {
     return largest(partial[0]);
 }
 
+bool fits16(ivec3 value) { return all(lessThanEqual(abs(value), ivec3(32767))); }
+
+// Of counts of changes.
+uint addChange(uint a, uint b) { return max(a, b) == kUnknownChange ? kUnknownChange : a + b; }
+
 void main() {
     const uint lane = gl_LocalInvocationID.x;
     const uvec2 maxima = groupMaxima(lane);
@@ -145,8 +151,10 @@ void main() {
     while (groupMagnitude(lane, least, inverseOf(exponent)) > push.sumLimit) exponent++;
 
     const float inverse = inverseOf(exponent);
+    const float scale = maxima.x > 0 ? uintBitsToFloat(exponent << kExponent) : 0;
+    const bool isSameScale = stats.scale == scale;
     vec2 energy = vec2(0); // before, and lost
-    uint kept = 0;
+    uint kept = 0, changed = 0;
     for (uint i = lane; i < push.coefficients; i += kGroup) {
         const vec3 places = placesOf(i, inverse);
         uvec3 quantised = uvec3(0);
@@ -154,21 +162,26 @@ void main() {
         const vec3 rest = places - vec3(quantised);
         energy += vec2(dot(places, places), dot(rest, rest));
         kept += uint(largest(quantised) > 0);
-        table[i] = packLight(ivec3(sign(coefficients[i])) * ivec3(quantised));
+        const ivec3 value = ivec3(sign(coefficients[i])) * ivec3(quantised);
+        const ivec3 change = value - unpackLight(table[i]);
+        if (change != ivec3(0)) changed = addChange(changed, fits16(change) ? 1 : kUnknownChange);
+        table[i] = packLight(value);
+        table[push.coefficients + i] = packLight(change);
     }
     barrier();
     energies[lane] = energy;
-    partial[lane].x = kept;
+    partial[lane].xy = uvec2(kept, changed);
     barrier();
     for (uint step = kGroup / 2; step > 0; step /= 2) {
         if (lane < step) {
             energies[lane] += energies[lane + step];
             partial[lane].x += partial[lane + step].x;
+            partial[lane].y = addChange(partial[lane].y, partial[lane + step].y);
         }
         barrier();
     }
     if (lane == 0) {
-        const float scale = maxima.x > 0 ? uintBitsToFloat(exponent << kExponent) : 0;
-        stats = LightStats(scale, energies[0].x, energies[0].y, partial[0].x);
+        const uint change = isSameScale ? partial[0].y : kUnknownChange;
+        stats = LightStats(scale, energies[0].x, energies[0].y, partial[0].x, change);
     }
 }

@@ -81,7 +81,7 @@ void run(Arguments& arguments) {
 
     LightPass light(*device, asset.faceSize);
     light.setLight(arguments.light.light());
-    const Relighter relighter(*device, asset);
+    Relighter relighter(*device, asset);
     ViewPass view(*device, asset, {.width = kWidth, .height = kHeight});
     CameraArguments view16by9;
     view16by9.width = kWidth;

@@ -25,6 +25,7 @@ struct Arguments {
     int coefficients = 96;
     std::optional<double> budget;
     double error = kDefaultLayoutError;
+    std::vector<int> counts = {16, 64, 256, 1024, 4096};
     int repeats = 9;
     bool json = false;
 };
@@ -58,6 +59,8 @@ Json describe(const Asset& asset, const LayoutSeries& own, const RelightSeries& 
     for (const AssetPart& part : asset.parts) bytes += bytesOf(part.sets[0].transport);
     const double ms = median(own.deviceMs), touched = median(own.bytesTouched);
     const double floorMs = 1e3 * touched / bandwidth;
+    Json msByCount = Json::object();
+    for (const auto& [count, values] : own.msByCount) msByCount[fmt::format("{}", count)] = median(values);
     return {{"ms", ms},
             {"fps", 1e3 / ms},
             {"cpu_ms", median(own.cpuMs)},
@@ -67,7 +70,11 @@ Json describe(const Asset& asset, const LayoutSeries& own, const RelightSeries& 
             {"share_of_floor", floorMs / ms},
             {"ratio_to_rows", medianRatio(own.deviceMs, series.layouts.at("rows").deviceMs)},
             {"ratio_to_eigen_csr", medianRatio(own.deviceMs, series.csrMs)},
-            {"relit_error", median(own.errors)}};
+            {"relit_error", median(own.errors)},
+            {"lamp_ms", median(own.lampMs)},
+            {"incremental_ms", median(own.incrementalMs)},
+            {"incremental_ratio", medianRatio(own.incrementalMs, own.lampMs)},
+            {"ms_by_light_coefficients", msByCount}};
 }
 
 void print(const Json& result) {
@@ -75,26 +82,37 @@ void print(const Json& result) {
     fmt::print("{}, {} vertices, {} light coefficients, {:.1f} GB/s copied\n\n",
                result["device"].get<std::string>(), result["vertices"].dump(),
                result["light_coefficients"].dump(), number(result["device_gb_per_s"]));
-    fmt::print("{:10}{:>9}{:>9}{:>10}{:>12}{:>10}{:>10}{:>10}{:>12}\n", "", "ms", "CPU, ms", "floor, ms",
-               "bytes/vertex", "of rows", "of CSR", "MB read", "relit error");
+    fmt::print("{:10}{:>9}{:>9}{:>10}{:>12}{:>10}{:>10}{:>10}{:>12}{:>10}{:>13}\n", "", "ms", "CPU, ms",
+               "floor, ms", "bytes/vertex", "of rows", "of CSR", "MB read", "relit error", "lamp, ms",
+               "moved, ms");
     for (const auto& [name, layout] : result["layouts"].items())
-        fmt::print("{:10}{:9.2f}{:9.2f}{:10.2f}{:12.0f}{:10.2f}{:10.2f}{:10.1f}{:12.4f}\n", name,
-                   number(layout["ms"]), number(layout["cpu_ms"]), number(layout["floor_ms"]),
+        fmt::print("{:10}{:9.2f}{:9.2f}{:10.2f}{:12.0f}{:10.2f}{:10.2f}{:10.1f}{:12.4f}{:10.2f}{:13.2f}\n",
+                   name, number(layout["ms"]), number(layout["cpu_ms"]), number(layout["floor_ms"]),
                    number(layout["bytes_per_vertex"]), number(layout["ratio_to_rows"]),
                    number(layout["ratio_to_eigen_csr"]), 1e-6 * number(layout["bytes_touched"]),
-                   number(layout["relit_error"]));
+                   number(layout["relit_error"]), number(layout["lamp_ms"]),
+                   number(layout["incremental_ms"]));
     fmt::print("{:10}{:9.2f}\n", "Eigen CSR", number(result["eigen_csr_ms"]));
     fmt::print("{:10}{:9.2f}\n", "light", number(result["light_ms"]));
+    fmt::print("\nms from the largest light coefficients\n{:10}", "");
+    const auto& counts = result["layouts"]["rows"]["ms_by_light_coefficients"];
+    for (const auto& [count, ms] : counts.items()) fmt::print("{:>9}", count);
+    for (const auto& [name, layout] : result["layouts"].items()) {
+        fmt::print("\n{:10}", name);
+        for (const auto& [count, ms] : layout["ms_by_light_coefficients"].items())
+            fmt::print("{:9.2f}", number(ms));
+    }
+    fmt::print("\n\nWith the lamp: {} light coefficients, of which {} changed when it moved\n",
+               result["lamp_coefficients"].dump(), result["lamp_changes"].dump());
 }
 
 void run(const Arguments& arguments) {
     const Asset source = readAsset(arguments.file);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const RelightBenchInput input = makeInput(source, arguments);
-    LightPass light(*device, source.faceSize);
-    light.setLight(arguments.light.light());
     const RelightSeries series = benchRelight(
-        *device, input, light, {arguments.repeats, arguments.light.rotationDegrees, arguments.selection},
+        *device, input, arguments.light.light(),
+        {arguments.repeats, arguments.light.rotationDegrees, arguments.selection, arguments.counts},
         arguments.json);
     const double bandwidth = deviceCopyBandwidth(*device);
     Json layouts;
@@ -107,6 +125,8 @@ void run(const Arguments& arguments) {
                          {"repeats", arguments.repeats},
                          {"source_coefficients", source.coefficients},
                          {"light_coefficients", median(series.lightCoefficients)},
+                         {"lamp_coefficients", median(series.lampCoefficients)},
+                         {"lamp_changes", median(series.lampChanges)},
                          {"device_gb_per_s", 1e-9 * bandwidth},
                          {"layouts", layouts},
                          {"eigen_csr_ms", median(series.csrMs)},
@@ -145,13 +165,22 @@ void addBenchRelightCommand(CLI::App& bench) {
                      "Drop light coefficients below this, where the largest is 32767")
         ->check(CLI::Range(0, kLightMaximum))
         ->capture_default_str();
+    command
+        ->add_option("--light-counts", arguments->counts,
+                     "Relight from so many of the light's largest coefficients as well")
+        ->type_name("COUNT,…")
+        ->delimiter(',')
+        ->check(CLI::Range(1, int(kMaximumLightEntries)))
+        ->capture_default_str();
     arguments->device.add(*command);
     command->add_option("--repeats", arguments->repeats, "Rounds to take the medians of")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
-        "Every round turns the light by a degree. The floor is the time to copy the bytes that the light\n"
+        "Every round turns the light by a degree; then it adds a lamp of 3 degrees that alone would light\n"
+        "white to radiance 1, and moves it by a degree: relit in full, and by what changed. The floor is the "
+        "time to copy the bytes that the light\n"
         "makes a layout read and write. Relit errors are of tuples under all of the light, against those\n"
         "of FILE as it is. Eigen CSR multiplies the rows as sparse matrices of floats, on all cores.");
     command->callback([arguments, &bench] {

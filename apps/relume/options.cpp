@@ -108,10 +108,11 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
 }
 
 void LightArguments::add(CLI::App& command) {
-    CLI::Option* environment = command
-                                   .add_option("-e,--environment", mEnvironment,
-                                               "Latlong or cube .exr, or .hdr (default: a built-in sky)")
-                                   ->type_name("FILE");
+    CLI::Option* environment =
+        command
+            .add_option("-e,--environment", mEnvironment,
+                        "Latlong or cube .exr, or .hdr; a_####.exr: 24 a second (default: a built-in sky)")
+            ->type_name("FILE");
     CLI::Option* distant = command
                                .add_option("--distant-light", mDistant,
                                            "One direction instead: azimuth (0 +Z, 90 +X), elevation, degrees")
@@ -140,7 +141,8 @@ void LightArguments::add(CLI::App& command) {
             ->excludes(blend)
             ->excludes(distant);
     command
-        .add_option("--light", mFile, "A light file instead: environments, day sky, strokes, lamps (.json)")
+        .add_option("--light", mFile,
+                    "A light file instead: environments, day sky, strokes, lamps, still or moving (.json)")
         ->type_name("FILE")
         ->excludes(environment)
         ->excludes(blend)
@@ -149,6 +151,10 @@ void LightArguments::add(CLI::App& command) {
     command.add_option("--rotate", rotationDegrees, "Turn the light about +Y, from +Z towards +X")
         ->check(between(-kLargestNumber, kLargestNumber))
         ->type_name("DEG")
+        ->capture_default_str();
+    command.add_option("--time", seconds, "The moment of a light that moves, or the first")
+        ->check(between(0, 1e6f))
+        ->type_name("SECONDS")
         ->capture_default_str();
     command
         .add_option("--intensity", mIntensity, "Scales the light; 1 lets a lamp light white to radiance 1")
@@ -163,31 +169,50 @@ Environment LightArguments::environment() const {
     return environment;
 }
 
-Light LightArguments::light() const {
-    Light light;
-    if (!mFile.empty()) {
-        light = readLight(mFile);
-    } else if (!mDistant.empty()) {
-        light.distant.push_back({directionAt(mDistant[0], mDistant[1]), vec3(kPi)});
-    } else if (!mSphere.empty()) {
+MovingLight LightArguments::moving() const {
+    MovingLight light = source();
+    light.setGain(mIntensity);
+    return light;
+}
+
+MovingLight LightArguments::source() const {
+    if (!mFile.empty()) return readLight(mFile);
+    if (!mDistant.empty())
+        return MovingLight({.distant = {{directionAt(mDistant[0], mDistant[1]), vec3(kPi)}}});
+    if (!mSphere.empty()) {
         if (!(mSphere[2] > 0 && mSphere[2] <= 90))
             throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}",
                              mSphere[2]);
         // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
         const float radius = radians(mSphere[2]), sine = std::sin(radius);
-        light.lamps.push_back({directionAt(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))});
-    } else {
-        const auto prepared = [](const Environment& map) {
-            return std::make_shared<const Environment>(prepareForSampling(map));
-        };
-        light.environments.push_back(
-            {prepared(mEnvironment.empty() ? makeSky() : readEnvironment(mEnvironment))});
-        if (!mBlend.empty()) {
-            light.environments.front().gain = 1 - mBlendWeight;
-            light.environments.push_back({prepared(readEnvironment(mBlend)), 0, mBlendWeight});
-        }
+        return MovingLight(
+            {.lamps = {{directionAt(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))}}});
     }
-    return scaled(std::move(light), mIntensity);
+    if (isSequence(mEnvironment) || isSequence(mBlend)) return sequence();
+    const auto prepared = [](const Environment& map) {
+        return std::make_shared<const Environment>(prepareForSampling(map));
+    };
+    Light light{
+        .environments = {{prepared(mEnvironment.empty() ? makeSky() : readEnvironment(mEnvironment))}}};
+    if (!mBlend.empty()) {
+        light.environments.front().gain = 1 - mBlendWeight;
+        light.environments.push_back({prepared(readEnvironment(mBlend)), 0, mBlendWeight});
+    }
+    return MovingLight(std::move(light));
+}
+
+MovingLight LightArguments::sequence() const {
+    if (mEnvironment.empty())
+        throw UsageError("--blend: a sequence is mixed into an --environment; give one");
+    const auto describe = [](const std::string& file) {
+        return nlohmann::json{{isSequence(file) ? "sequence" : "file", file}};
+    };
+    nlohmann::json light{{"environment", describe(mEnvironment)}};
+    if (!mBlend.empty()) {
+        light["blend"] = describe(mBlend);
+        light["blend"]["weight"] = mBlendWeight;
+    }
+    return {std::move(light), "--environment", ""};
 }
 
 void ImageArguments::add(CLI::App& command) {

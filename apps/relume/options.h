@@ -1,7 +1,7 @@
 // Options that several subcommands share, and what they stand for.
 #pragma once
 
-#include "engine/light/light.h"
+#include "engine/light/moving_light.h"
 #include "engine/render/tone_map.h"
 #include "engine/scene/camera.h"
 #include "engine/transport/asset.h"
@@ -40,18 +40,24 @@ struct CameraArguments {
 // --light, --environment, --blend, --blend-weight, --rotate, --distant-light, --sphere-light, --intensity
 struct LightArguments {
     float rotationDegrees = 0;
+    double seconds = 0;
 
     void add(CLI::App& command);
     // A single environment and nothing else.
     bool isEnvironment() const {
-        return mDistant.empty() && mSphere.empty() && mBlend.empty() && mFile.empty();
+        return mDistant.empty() && mSphere.empty() && mBlend.empty() && mFile.empty() &&
+               !isSequence(mEnvironment);
     }
     // The environment file, or the built-in sky; at full resolution. Only if isEnvironment().
     Environment environment() const;
     // All of it, not rotated.
-    Light light() const;
+    MovingLight moving() const;
+    Light light() const { return moving().at(seconds); } // at that moment
 
   private:
+    MovingLight source() const;
+    MovingLight sequence() const;
+
     std::string mEnvironment, mBlend, mFile;
     float mBlendWeight = 0.5f;
     std::vector<float> mDistant, mSphere;

@@ -53,15 +53,58 @@ double relativeError(const std::vector<CpuPart>& parts, const std::vector<CpuPar
     return all > 0 ? std::sqrt(difference / all) : 0;
 }
 
+struct Variant {
+    std::string name;
+    Relighter relighter;
+    std::vector<CpuPart> cpu;
+};
+
+Light withLamp(Light light, float azimuth) {
+    constexpr float kRadius = 3; // degrees
+    const float radius = radians(kRadius), sine = std::sin(radius);
+    light.lamps.push_back({directionAt(azimuth, 40), radius, vec3(1 / (sine * sine))});
+    return light;
+}
+
+// Under the light recorded last.
+double relightMs(vk::Commands& commands, const LightPass& light, Relighter& relighter, RelightMode mode) {
+    return milliseconds([&] {
+        relighter.setMode(mode);
+        commands.begin();
+        relighter.record(commands, light);
+        commands.submitAndWait();
+    });
+}
+
+// A lamp beside the light that moves by a degree, from where it is no other round's.
+void benchLamp(vk::Commands& commands, LightPass& pass, const Light& light, float azimuth,
+               const LightSelection& selection, std::vector<Variant>& variants, RelightSeries& series) {
+    const auto setLight = [&](float place) {
+        pass.setLight(withLamp(light, place));
+        commands.begin();
+        pass.record(commands, 0, selection);
+        commands.submitAndWait();
+    };
+    const auto relight = [&](Relighter& relighter, RelightMode mode) {
+        return relightMs(commands, pass, relighter, mode);
+    };
+    setLight(azimuth);
+    for (Variant& variant : variants) relight(variant.relighter, RelightMode::Full);
+    setLight(azimuth + 1);
+    for (Variant& variant : variants) {
+        LayoutSeries& own = series.layouts[variant.name];
+        own.incrementalMs.push_back(relight(variant.relighter, RelightMode::Incremental));
+        own.lampMs.push_back(relight(variant.relighter, RelightMode::Full));
+    }
+    const LightStats stats = pass.readStats();
+    series.lampCoefficients.push_back(stats.kept);
+    series.lampChanges.push_back(stats.changed.value_or(stats.kept));
+}
+
 } // namespace
 
-RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& input, LightPass& light,
+RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& input, const Light& light,
                            const RelightRounds& rounds, bool quiet) {
-    struct Variant {
-        std::string name;
-        Relighter relighter;
-        std::vector<CpuPart> cpu;
-    };
     std::vector<Variant> variants;
     std::vector<CsrRelighter> csr;
     for (const auto& [name, asset] : input.variants) {
@@ -72,36 +115,34 @@ RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& in
     }
     std::vector<CpuPart> exact = cpuParts(*input.source);
     std::array<Eigen::VectorXf, 3> csrTuples;
+    LightPass pass(device, input.source->faceSize);
     vk::Commands commands(device, "bench relight");
     RelightSeries series;
     Progress progress("relighting", uint64_t(rounds.count) + 1, "rounds", quiet);
     for (int round = 0; round <= rounds.count; round++) {
         const float rotation = radians(rounds.rotationDegrees + float(round));
+        pass.setLight(light);
         const auto setLight = [&](const LightSelection& selection) {
             commands.begin();
-            light.record(commands, rotation, selection);
+            pass.record(commands, rotation, selection);
             commands.submitAndWait();
         };
         LightSelection all;
         all.threshold = 0;
         setLight(all);
-        relight(exact, light.readVector());
-        for (Variant& variant : variants) relight(variant.cpu, light.readVector());
+        relight(exact, pass.readVector());
+        for (Variant& variant : variants) relight(variant.cpu, pass.readVector());
         for (Variant& variant : variants)
             series.layouts[variant.name].errors.push_back(relativeError(variant.cpu, exact));
 
         const double lightMs = milliseconds([&] { setLight(rounds.selection); });
-        const LightVector vector = light.readVector();
+        const LightVector vector = pass.readVector();
         for (Variant& variant : variants) {
             LayoutSeries& own = series.layouts[variant.name];
             double bytes = 0;
             for (const CpuPart& part : variant.cpu) bytes += relightBytes(part.transport, vector);
             own.bytesTouched.push_back(bytes);
-            own.deviceMs.push_back(milliseconds([&] {
-                commands.begin();
-                variant.relighter.record(commands, light);
-                commands.submitAndWait();
-            }));
+            own.deviceMs.push_back(relightMs(commands, pass, variant.relighter, RelightMode::Full));
             own.cpuMs.push_back(milliseconds([&] { relight(variant.cpu, vector); }));
         }
         series.lightMs.push_back(lightMs);
@@ -109,13 +150,27 @@ RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& in
         series.csrMs.push_back(milliseconds([&] {
             for (const CsrRelighter& part : csr) part.relight(vector, csrTuples);
         }));
+        for (const int count : rounds.counts) {
+            setLight({.count = count});
+            for (Variant& variant : variants)
+                series.layouts[variant.name].msByCount[count].push_back(
+                    relightMs(commands, pass, variant.relighter, RelightMode::Full));
+        }
+        benchLamp(commands, pass, turned(light, rotation), 10 * float(round), rounds.selection, variants,
+                  series);
         progress.update(uint64_t(round) + 1);
     }
     // The first round warmed up.
     const auto dropFirst = [](std::vector<double>& values) { values.erase(values.begin()); };
-    for (auto& [name, own] : series.layouts)
-        for (auto* values : {&own.deviceMs, &own.cpuMs, &own.bytesTouched, &own.errors}) dropFirst(*values);
-    for (auto* values : {&series.csrMs, &series.lightMs, &series.lightCoefficients}) dropFirst(*values);
+    for (auto& [name, own] : series.layouts) {
+        for (auto& [count, values] : own.msByCount) dropFirst(values);
+        for (auto* values :
+             {&own.deviceMs, &own.cpuMs, &own.bytesTouched, &own.errors, &own.lampMs, &own.incrementalMs})
+            dropFirst(*values);
+    }
+    for (auto* values : {&series.csrMs, &series.lightMs, &series.lightCoefficients, &series.lampCoefficients,
+                         &series.lampChanges})
+        dropFirst(*values);
     return series;
 }
 

@@ -22,22 +22,28 @@ struct LayoutSeries {
     std::vector<double> cpuMs;
     std::vector<double> bytesTouched; // relight_traffic.h
     std::vector<double> errors;       // of tuples, relative L2 to the source's under the light as given
+    // With a small lamp beside the light, after it moved by a degree.
+    std::vector<double> lampMs;                   // in full
+    std::vector<double> incrementalMs;            // by what changed
+    std::map<int, std::vector<double>> msByCount; // by how many of the light's largest coefficients are kept
 };
 
 struct RelightSeries {
     std::map<std::string, LayoutSeries> layouts;
     std::vector<double> csrMs, lightMs;
     std::vector<double> lightCoefficients;
+    std::vector<double> lampCoefficients, lampChanges; // with the lamp: kept, and not as before it moved
 };
 
 struct RelightRounds {
     int count = 9;             // after one that warms up
     float rotationDegrees = 0; // of the first; each further one turns the light by a degree
     LightSelection selection;
+    std::vector<int> counts; // of kept light coefficients, to relight from as well
 };
 
-// `light` has its sources.
-RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& input, LightPass& light,
+// The lamp is one of 3 degrees that alone would light white to radiance 1.
+RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& input, const Light& light,
                            const RelightRounds& rounds, bool quiet);
 
 } // namespace relume

@@ -22,7 +22,9 @@ struct Arguments {
     DeviceArguments device;
     LightSelection selection;
     int frames = 1;
+    float rate = 24; // frames a second of light that moves
     std::string turn = "camera";
+    RelightMode mode = RelightMode::Auto;
     std::filesystem::path timings;
 };
 
@@ -81,12 +83,16 @@ void run(const Arguments& arguments) {
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     if (capture) capture->attach(*device);
     LightPass light(*device, asset.faceSize);
-    light.setLight(arguments.light.light());
-    const Relighter relighter(*device, asset);
+    MovingLight moving = arguments.light.moving();
+    light.setLight(moving.at(arguments.light.seconds));
+    Relighter relighter(*device, asset);
+    relighter.setMode(arguments.mode);
     ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
     view.setAppearance(appearance);
 
-    const bool turnsLight = arguments.turn == "light";
+    const bool turnsBoth = arguments.turn == "both";
+    const bool turnsLight = turnsBoth || arguments.turn == "light";
+    const bool turnsCamera = turnsBoth || arguments.turn == "camera";
     LightLoss loss;
     Progress progress("rendering", uint64_t(arguments.frames), "frames");
     vk::Commands commands(*device, "render");
@@ -95,7 +101,9 @@ void run(const Arguments& arguments) {
     for (int frame = 0; frame < arguments.frames; frame++) {
         const vk::FrameSpan frameSpan(capture);
         const float angle = 2 * kPi * float(frame) / float(arguments.frames);
-        const bool lightChanges = frame == 0 || turnsLight;
+        const bool lightChanges = frame == 0 || turnsLight || moving.moves();
+        if (frame > 0 && moving.moves())
+            light.setLight(moving.at(arguments.light.seconds + double(frame) / double(arguments.rate)));
         vk::CpuSpan recording(capture, "record");
         commands.begin();
         if (lightChanges) {
@@ -103,7 +111,7 @@ void run(const Arguments& arguments) {
                          arguments.selection);
             relighter.record(commands, light, appearance);
         }
-        view.record(commands, arguments.camera.camera(asset, turnsLight ? 0 : angle), relighter);
+        view.record(commands, arguments.camera.camera(asset, turnsCamera ? angle : 0), relighter);
         recording.end();
         commands.submitAndWait();
         vk::CpuSpan reading(capture, "read back");
@@ -117,6 +125,18 @@ void run(const Arguments& arguments) {
     loss.log(asset.faceSize);
     if (capture) writeTimings(arguments.timings, *capture);
     DeviceArguments::expectNoMessages(*device);
+}
+
+void addRelightMode(CLI::App& command, RelightMode& mode) {
+    const std::map<std::string, RelightMode> modes = {
+        {"full", RelightMode::Full}, {"incremental", RelightMode::Incremental}, {"auto", RelightMode::Auto}};
+    command
+        .add_option(
+            "--relight", mode,
+            "From all of the light, or what changed of it, or by whichever is less; the images are the "
+            "same (default auto)")
+        ->transform(CLI::CheckedTransformer(modes))
+        ->type_name("full|incremental|auto");
 }
 
 } // namespace
@@ -143,12 +163,18 @@ void addRenderCommand(CLI::App& program) {
     command->add_flag("--area-weighted", arguments->selection.areaWeighted,
                       "Weigh light coefficients by the area of their functions when selecting");
     arguments->camera.add(*command);
-    command->add_option("--frames", arguments->frames, "Images of one full turn, numbered")
+    command
+        ->add_option("--frames", arguments->frames,
+                     "Images, numbered, of one full turn and of --rate a second")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    command->add_option("--turn", arguments->turn, "What turns over the frames: camera or light")
-        ->check(CLI::IsMember({"camera", "light"}))
+    command->add_option("--turn", arguments->turn, "What turns over the frames: camera, light, both or none")
+        ->check(CLI::IsMember({"camera", "light", "both", "none"}))
         ->capture_default_str();
+    command->add_option("--rate", arguments->rate, "Frames a second of a light that moves")
+        ->check(between(1e-3f, 1e6f))
+        ->capture_default_str();
+    addRelightMode(*command, arguments->mode);
     arguments->device.add(*command);
     command
         ->add_option("--timings", arguments->timings,

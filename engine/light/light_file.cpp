@@ -16,6 +16,8 @@ using Keys = std::span<const std::string_view>;
 
 constexpr float kMostDegrees = 36000, kMostRadiance = 1e9f, kMostGain = 1e6f;
 constexpr float kSmallestRadius = 1e-4f; // degrees
+constexpr float kSequenceRate = 24;      // files a second
+constexpr float kMostHours = 100;        // of the day, a second
 
 vec3 directionOf(const JsonObject& object) {
     const float azimuth = object.requiredNumber("azimuth", -kMostDegrees, kMostDegrees);
@@ -26,41 +28,55 @@ float radiusOf(const JsonObject& object) {
     return std::min(glm::radians(object.requiredNumber("radius", kSmallestRadius, 180)), kPi);
 }
 
-EnvironmentLight readEnvironmentLight(const JsonObject& object, const std::filesystem::path& folder,
-                                      float share) {
-    const std::string file = object.requiredText("file", "an .exr or .hdr file");
-    return {std::make_shared<const Environment>(prepareForSampling(readEnvironment(folder / file))),
-            glm::radians(object.number("rotate", 0, -kMostDegrees, kMostDegrees)),
-            share * object.number("gain", 1, 0, kMostGain)};
+// Adds an environment, or of a sequence the two files that the moment is between.
+void addEnvironment(const JsonObject& object, const LightMoment& moment, float share, Light& light) {
+    const float rotation = glm::radians(object.number("rotate", 0, -kMostDegrees, kMostDegrees));
+    const float gain = share * object.number("gain", 1, 0, kMostGain);
+    const auto add = [&](const std::filesystem::path& file, float weight) {
+        if (weight > 0) light.environments.push_back({moment.files.map(file), rotation, weight * gain});
+    };
+    if (object.find("sequence") && object.find("file"))
+        object.fail("sequence", "no such key beside \"file\"");
+    if (!object.find("sequence")) {
+        if (object.find("rate")) object.fail("rate", "no such key without \"sequence\"");
+        add(moment.folder / object.requiredText("file", "an .exr or .hdr file, or \"sequence\""), 1);
+        return;
+    }
+    const std::string pattern = object.requiredText("sequence", "file names with # for their number");
+    const auto& files = moment.files.sequence(moment.folder / pattern);
+    const double rate = double(object.number("rate", kSequenceRate, 1e-3f, 1e3f));
+    const double place = std::min(moment.seconds * rate, double(files.size() - 1));
+    const auto first = size_t(place);
+    const auto weight = float(place - double(first));
+    add(files[first], 1 - weight);
+    if (weight > 0) add(files[first + 1], weight);
 }
 
-void readEnvironments(const JsonObject& root, const std::filesystem::path& folder, Light& light) {
-    static constexpr std::string_view kKeys[] = {"file", "rotate", "gain"},
-                                      kBlendKeys[] = {"file", "rotate", "gain", "weight"};
+void readEnvironments(const JsonObject& root, const LightMoment& moment, Light& light) {
+    static constexpr std::string_view kKeys[] = {"file", "sequence", "rate", "rotate", "gain"},
+                                      kBlendKeys[] = {"file", "sequence", "rate", "rotate", "gain", "weight"};
     const Json* first = root.find("environment");
     const Json* second = root.find("blend");
     if (second && !first) root.fail("environment", "one that \"blend\" is mixed into");
+    std::optional<JsonObject> blend;
     float weight = 0;
     if (second) {
-        const JsonObject blend(*second, root.place() + ": blend", kBlendKeys);
-        weight = blend.requiredNumber("weight", 0, 1);
-        light.environments.push_back(readEnvironmentLight(blend, folder, weight));
+        blend.emplace(*second, root.place() + ": blend", kBlendKeys);
+        weight = blend->requiredNumber("weight", 0, 1);
     }
-    if (first) {
-        const JsonObject environment(*first, root.place() + ": environment", kKeys);
-        light.environments.insert(light.environments.begin(),
-                                  readEnvironmentLight(environment, folder, 1 - weight));
-    }
+    if (first)
+        addEnvironment(JsonObject(*first, root.place() + ": environment", kKeys), moment, 1 - weight, light);
+    if (blend) addEnvironment(*blend, moment, weight, light);
 }
 
-vec3 readSun(const JsonObject& sky) {
+vec3 readSun(const JsonObject& sky, double seconds) {
     static constexpr std::string_view kKeys[] = {"azimuth", "elevation"};
     const Json* sun = sky.find("sun");
     const Json* time = sky.find("time");
     if (!sun == !time)
         sky.fail("sun", "its azimuth and elevation, or \"time\", \"latitude\" and \"longitude\"");
     if (sun) {
-        for (const char* key : {"latitude", "longitude", "north"})
+        for (const char* key : {"latitude", "longitude", "north", "hours_per_second"})
             if (sky.find(key)) sky.fail(key, "no such key beside \"sun\"");
         return directionOf(JsonObject(*sun, sky.place() + ": sun", kKeys));
     }
@@ -73,17 +89,18 @@ vec3 readSun(const JsonObject& sky) {
     } catch (const UsageError& wrong) {
         throw Error("{}: \"time\": {}", sky.place(), wrong.what());
     }
+    moment.hours += seconds * double(sky.number("hours_per_second", 0, -kMostHours, kMostHours));
     const SunPosition position = sunPosition(moment, double(latitude), double(longitude));
     return directionAt(north - float(position.azimuth), float(position.elevation));
 }
 
-void readSky(const JsonObject& root, Light& light) {
-    static constexpr std::string_view kKeys[] = {"sun",  "time",      "latitude", "longitude", "north",
-                                                 "disc", "turbidity", "ground",   "gain"};
+void readSky(const JsonObject& root, const LightMoment& moment, Light& light) {
+    static constexpr std::string_view kKeys[] = {"sun",   "time", "hours_per_second", "latitude", "longitude",
+                                                 "north", "disc", "turbidity",        "ground",   "gain"};
     const Json* json = root.find("sky");
     if (!json) return;
     const JsonObject sky(*json, root.place() + ": sky", kKeys);
-    DaySky day{.sun = readSun(sky)};
+    DaySky day{.sun = readSun(sky, moment.seconds)};
     day.hasDisc = sky.flag("disc", day.hasDisc);
     day.turbidity = sky.number("turbidity", day.turbidity, 2, 10);
     day.ground = sky.vector("ground", day.ground, 0, 1);
@@ -104,17 +121,20 @@ void forEach(const JsonObject& root, const char* key, Keys keys, Read read) {
 
 } // namespace
 
-Light readLight(const std::filesystem::path& path) {
+MovingLight readLight(const std::filesystem::path& path) {
+    return {readJson(path), path.string(), path.parent_path()};
+}
+
+Light readLight(const Json& values, const LightMoment& moment) {
     static constexpr std::string_view kKeys[] = {"environment", "blend", "sky",
                                                  "strokes",     "lamps", "distant"};
     static constexpr std::string_view kStrokeKeys[] = {"azimuth",  "elevation", "radius",
                                                        "radiance", "softness",  "opacity"};
     static constexpr std::string_view kLampKeys[] = {"azimuth", "elevation", "radius", "radiance"};
     static constexpr std::string_view kDistantKeys[] = {"azimuth", "elevation", "irradiance"};
-    const Json document = readJson(path);
-    const JsonObject root(document, path.string(), kKeys);
+    const JsonObject root(values, moment.name, kKeys);
     Light light;
-    readSky(root, light);
+    readSky(root, moment, light);
     forEach(root, "strokes", kStrokeKeys, [&](const JsonObject& object) {
         light.strokes.push_back({.direction = directionOf(object),
                                  .angularRadius = radiusOf(object),
@@ -129,7 +149,7 @@ Light readLight(const std::filesystem::path& path) {
     forEach(root, "distant", kDistantKeys, [&](const JsonObject& object) {
         light.distant.push_back({directionOf(object), object.requiredVector("irradiance", 0, kMostRadiance)});
     });
-    readEnvironments(root, path.parent_path(), light); // last: reading images takes longest
+    readEnvironments(root, moment, light); // last: reading images takes longest
     return light;
 }
 

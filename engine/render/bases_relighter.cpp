@@ -1,6 +1,6 @@
 #include "engine/render/bases_relighter.h"
 
-#include "engine/base/error.h"
+#include "engine/render/column_listing.h"
 #include "engine/vk/upload.h"
 #include "shaders/relight_combine_comp.h"
 #include "shaders/relight_project_comp.h"
@@ -14,18 +14,8 @@ using vk::Stage;
 
 namespace {
 
-constexpr uint32_t kLeastLanes = 8, kMostLanes = 64; // of the shaders
-constexpr uint32_t kWordsPerGroup = 16;              // of a column
+constexpr uint32_t kWordsPerGroup = 16; // of a column
 constexpr uint32_t kVerticesPerLane = 8;
-
-uint32_t lanesOf(const vk::Device& device) {
-    const uint32_t lanes = device.info().subgroupSize;
-    if (!device.info().subgroupBallot || lanes % kLeastLanes != 0 || lanes > kMostLanes)
-        throw Error("{}: relighting bases needs subgroups of {} to {} invocations that can vote; convert the "
-                    "bake to rows: `relume convert --layout rows`",
-                    device.name(), kLeastLanes, kMostLanes);
-    return lanes;
-}
 
 uint32_t roundUp(uint64_t value, uint32_t step) { return uint32_t((value + step - 1) / step); }
 
@@ -35,7 +25,7 @@ void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint
 } // namespace
 
 BasesRelighter::Programs::Programs(const vk::Device& device) {
-    const uint32_t lanes = lanesOf(device);
+    const uint32_t lanes = listingLanes(device, TransportLayout::Bases);
     project = {
         device, relight_project_comp_spirv, {lanes}, "relight project", vk::ComputeProgram::Subgroups::Full};
     combine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
@@ -62,22 +52,21 @@ class BasesRelighter::ShardData {
                              weights.size() + octets * more.scales.size() * 2, (components + 4 * words) * 3});
     }
 
-    void add(const BasisTransport& transport, size_t number, uint32_t coefficients) {
+    void add(const BasisTransport& transport, size_t number) {
         const BasisCluster& from = transport.clusters[number];
         const uint32_t words = roundUp(from.components, 4);
         clusters.push_back({uint32_t(number * kBasisVertices), transport.verticesOf(number), components});
         for (uint32_t word = 0; word < words; word += kWordsPerGroup)
             groups.push_back({uint32_t(indices.size()), uint32_t(from.columns()), uint32_t(basis.size()),
-                              words, word, components});
+                              words, word, components, uint32_t(clusters.size() - 1)});
         components += 4 * words;
-        addBasis(from, words, coefficients);
+        addBasis(from, words);
         addWeights(from, transport.verticesOf(number));
     }
 
   private:
-    void addBasis(const BasisCluster& from, uint32_t words, uint32_t coefficients) {
+    void addBasis(const BasisCluster& from, uint32_t words) {
         for (size_t column = 0; column < from.columns(); column++) {
-            RELUME_CHECK_LT(uint32_t(from.indices[column]), coefficients);
             indices.push_back(from.indices[column]);
             const size_t first = basis.size();
             basis.resize(first + words, 0);
@@ -125,44 +114,46 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
         device.limits().maxComputeWorkGroupCount[0] / std::max(mTerms * mGroupsPerTerm, kMostGroups);
     for (size_t cluster = 0; cluster < transport.clusters.size();) {
         ShardData data;
-        do data.add(transport, cluster++, coefficients);
+        do data.add(transport, cluster++);
         while (cluster < transport.clusters.size() && data.clusters.size() < mostClusters &&
                data.bytesWith(transport, cluster) <= largestShard);
-        mShards.push_back(upload(device, data, name));
+        mShards.push_back(upload(device, data, coefficients, name));
     }
 }
 
 BasesRelighter::Shard BasesRelighter::upload(const vk::Device& device, const ShardData& data,
-                                             const std::string& name) const {
-    std::vector<uint32_t> pairs(roundUp(data.indices.size(), 2), 0);
-    for (size_t i = 0; i < data.indices.size(); i++) pairs[i / 2] |= uint32_t(data.indices[i]) << i % 2 * 16;
-    const uint64_t projectionBytes = std::max<uint64_t>(data.components, 1) * sizeof(vec3);
+                                             uint32_t coefficients, const std::string& name) const {
+    const uint64_t componentBytes = std::max<uint64_t>(data.components, 1) * sizeof(vec3);
     return {uint32_t(data.clusters.size()),
             uint32_t(data.groups.size()),
             vk::upload<shared::BasisGroup>(device, data.groups, name + " basis groups"),
-            vk::upload<uint32_t>(device, pairs, name + " column indices"),
+            vk::upload<uint32_t>(device, inPairs(data.indices, coefficients), name + " column indices"),
             vk::upload<uint32_t>(device, data.basis, name + " basis"),
-            vk::Buffer(device, projectionBytes, vk::BufferUse::Device, name + " projections"),
+            vk::Buffer(device, componentBytes, vk::BufferUse::Device, name + " projection sums"),
+            vk::Buffer(device, componentBytes, vk::BufferUse::Device, name + " projections"),
+            vk::upload<uint32_t>(device, std::vector<uint32_t>(data.clusters.size(), 0), name + " stamps"),
             vk::upload<shared::BasisVertices>(device, data.clusters, name + " clusters"),
             vk::upload<shared::BasisWeighting>(device, data.weightings, name + " weightings"),
             vk::upload<uint32_t>(device, data.weights, name + " weights"),
             vk::upload<float>(device, data.scales, name + " weight scales")};
 }
 
-void BasesRelighter::record(vk::Commands& commands, const LightPass& light) const {
+void BasesRelighter::recordLayout(vk::Commands& commands, const LightPass& light, RelightMode mode) const {
+    const auto stamp = uint32_t(light.recording());
     for (const Shard& shard : mShards)
         if (shard.groups > 0)
             commands.dispatch(mPrograms.project,
-                              {shard.groupList, shard.indices, shard.basis, light.table(), light.stats(),
-                               shard.projections},
-                              0, {shard.groups * mPrograms.project.groupSize()[0], 1, 1});
+                              {shard.indices, light.table(), light.stats(), shard.groupList, shard.basis,
+                               shard.sums, shard.projections, shard.stamps},
+                              shared::RelightProjectPush{pushed(mode), stamp},
+                              {shard.groups * mPrograms.project.groupSize()[0], 1, 1});
     commands.barrier(Stage::Compute, Stage::Compute);
     for (const Shard& shard : mShards)
         commands.dispatch(
             mPrograms.combine,
             {shard.clusterList, mTermKinds, mColors, shard.weightings, shard.weights, shard.scales,
-             shard.projections, tuples()},
-            shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm},
+             shard.projections, tuples(), light.stats(), shard.stamps},
+            shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, pushed(mode), stamp},
             {shard.clusters * mTerms * mGroupsPerTerm * mPrograms.combine.groupSize()[0], 1, 1});
 }
 

@@ -21,17 +21,19 @@ class BasesRelighter : public SetRelighter {
     BasesRelighter(const vk::Device& device, const Programs& programs, const BasisTransport& transport,
                    uint32_t coefficients, uint64_t largestShard, const std::string& name);
 
-    void record(vk::Commands& commands, const LightPass& light) const override;
     size_t shards() const override { return mShards.size(); }
 
   private:
+    void recordLayout(vk::Commands& commands, const LightPass& light, RelightMode mode) const override;
+
     struct Shard {
         uint32_t clusters = 0, groups = 0;
-        vk::Buffer groupList, indices, basis, projections;   // relight_project.comp
-        vk::Buffer clusterList, weightings, weights, scales; // relight_combine.comp
+        vk::Buffer groupList, indices, basis, sums, projections, stamps; // relight_project.comp
+        vk::Buffer clusterList, weightings, weights, scales;             // relight_combine.comp
     };
     class ShardData;
-    Shard upload(const vk::Device& device, const ShardData& data, const std::string& name) const;
+    Shard upload(const vk::Device& device, const ShardData& data, uint32_t coefficients,
+                 const std::string& name) const;
 
     const Programs& mPrograms;
     uint32_t mTerms, mKinds, mGroupsPerTerm;

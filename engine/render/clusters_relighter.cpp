@@ -1,6 +1,6 @@
 #include "engine/render/clusters_relighter.h"
 
-#include "engine/base/error.h"
+#include "engine/render/column_listing.h"
 #include "engine/vk/upload.h"
 #include "shaders/relight_clusters_comp.h"
 #include "shaders/shared/render.h"
@@ -11,30 +11,14 @@ namespace relume {
 
 namespace {
 
-constexpr uint32_t kLeastLanes = 8, kMostLanes = 64; // of the shader
 constexpr uint64_t kColumnBytes = kClusterVertices * sizeof(uint32_t);
-
-std::vector<uint32_t> inPairs(std::span<const uint16_t> indices, uint32_t coefficients) {
-    std::vector<uint32_t> words((indices.size() + 1) / 2, 0);
-    for (size_t i = 0; i < indices.size(); i++) {
-        RELUME_CHECK_LT(uint32_t(indices[i]), coefficients);
-        words[i / 2] |= uint32_t(indices[i]) << i % 2 * 16;
-    }
-    return words;
-}
 
 } // namespace
 
 vk::ComputeProgram ClustersRelighter::makeProgram(const vk::Device& device) {
-    const uint32_t lanes = device.info().subgroupSize;
-    if (!device.info().subgroupBallot || lanes % kLeastLanes != 0 || lanes > kMostLanes)
-        throw Error(
-            "{}: relighting clusters needs subgroups of {} to {} invocations that can vote; convert the "
-            "bake to rows: `relume convert --layout rows`",
-            device.name(), kLeastLanes, kMostLanes);
     return {device,
             relight_clusters_comp_spirv,
-            {lanes},
+            {listingLanes(device, TransportLayout::Clusters)},
             "relight clusters",
             vk::ComputeProgram::Subgroups::Full};
 }
@@ -44,7 +28,8 @@ ClustersRelighter::ClustersRelighter(const vk::Device& device, const vk::Compute
                                      uint64_t largestShard, const std::string& name)
     : SetRelighter(device, transport.rows(), name), mProgram(program), mTerms(transport.terms),
       mVertices(transport.vertices),
-      mScales(vk::upload<float>(device, transport.scales, name + " row scales")) {
+      mScales(vk::upload<float>(device, transport.scales, name + " row scales")),
+      mSums(device, std::max(1u, rows()) * sizeof(ivec3), vk::BufferUse::Device, name + " sums") {
     const auto groups = uint32_t(transport.groups());
     const uint64_t mostColumns = largestShard / kColumnBytes;
     const uint32_t mostGroups = device.limits().maxComputeWorkGroupCount[0];
@@ -69,13 +54,13 @@ ClustersRelighter::ClustersRelighter(const vk::Device& device, const vk::Compute
     }
 }
 
-void ClustersRelighter::record(vk::Commands& commands, const LightPass& light) const {
+void ClustersRelighter::recordLayout(vk::Commands& commands, const LightPass& light, RelightMode mode) const {
     for (const Shard& shard : mShards)
-        commands.dispatch(
-            mProgram,
-            {shard.starts, shard.indices, shard.columns, light.table(), light.stats(), mScales, tuples()},
-            shared::RelightClustersPush{shard.firstGroup, mTerms, mVertices},
-            {shard.groups * mProgram.groupSize()[0], 1, 1});
+        commands.dispatch(mProgram,
+                          {shard.indices, light.table(), light.stats(), shard.starts, shard.columns, mScales,
+                           mSums, tuples()},
+                          shared::RelightClustersPush{shard.firstGroup, mTerms, mVertices, pushed(mode)},
+                          {shard.groups * mProgram.groupSize()[0], 1, 1});
 }
 
 } // namespace relume

@@ -16,10 +16,11 @@ class ClustersRelighter : public SetRelighter {
     // Throws Error when the device has no subgroups that suit.
     static vk::ComputeProgram makeProgram(const vk::Device& device);
 
-    void record(vk::Commands& commands, const LightPass& light) const override;
     size_t shards() const override { return mShards.size(); }
 
   private:
+    void recordLayout(vk::Commands& commands, const LightPass& light, RelightMode mode) const override;
+
     struct Shard {
         uint32_t firstGroup = 0, groups = 0;
         vk::Buffer starts;  // groups + 1: first column of each
@@ -31,6 +32,7 @@ class ClustersRelighter : public SetRelighter {
     uint32_t mTerms, mVertices;
     std::vector<Shard> mShards;
     vk::Buffer mScales; // of rows
+    vk::Buffer mSums;   // ivec3 per row
 };
 
 } // namespace relume

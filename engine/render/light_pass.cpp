@@ -7,6 +7,7 @@
 #include "shaders/shared/render.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -25,8 +26,8 @@ LightPass::LightPass(const vk::Device& device, int faceSize)
     mRadiance = vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light radiance");
     mCoefficients =
         vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light coefficients");
-    mTable =
-        vk::Buffer(device, coefficients() * sizeof(shared::PackedLight), BufferUse::Device, "light table");
+    mTable = vk::Buffer(device, 2 * coefficients() * sizeof(shared::PackedLight), BufferUse::Device,
+                        "light table");
     mStats = vk::Buffer(device, sizeof(shared::LightStats), BufferUse::Device, "light stats");
 }
 
@@ -47,7 +48,7 @@ void LightPass::setCube(const LightCube& cube) {
     mLight.reset();
 }
 
-void LightPass::record(vk::Commands& commands, float rotation, const LightSelection& selection) const {
+void LightPass::record(vk::Commands& commands, float rotation, const LightSelection& selection) {
     RELUME_CHECK(mLight || mHasCube);
     RELUME_CHECK(!selection.count || *selection.count > 0);
     const shared::LightQuantisePush quantise{coefficients(),
@@ -56,6 +57,9 @@ void LightPass::record(vk::Commands& commands, float rotation, const LightSelect
                                              selection.areaWeighted,
                                              uint32_t(selection.count.value_or(0)),
                                              shareOf(selection.threshold)};
+    static std::atomic<uint64_t> recordings = 0;
+    mRecordingBefore = mRecording;
+    mRecording = ++recordings;
     // An earlier frame of the same submission may still be reading the table and the stats.
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Compute);
@@ -78,7 +82,9 @@ LightCube LightPass::readCube() const {
 
 LightStats LightPass::readStats() const {
     const auto stats = vk::download<shared::LightStats>(mDevice, mStats, 1)[0];
-    return {stats.scale, stats.energy > 0 ? std::sqrt(stats.lost / stats.energy) : 0, stats.kept};
+    const bool isKnown = mRecordingBefore > 0 && stats.changed != shared::kUnknownChange;
+    return {stats.scale, stats.energy > 0 ? std::sqrt(stats.lost / stats.energy) : 0, stats.kept,
+            isKnown ? std::optional(stats.changed) : std::nullopt};
 }
 
 LightVector LightPass::readVector() const {

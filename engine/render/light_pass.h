@@ -5,12 +5,15 @@
 #include "engine/light/light_vector.h"
 #include "engine/render/light_sources.h"
 
+#include <optional>
+
 namespace relume {
 
 struct LightStats {
-    float scale;   // LightVector::scale
-    float error;   // LightVector::error
-    uint32_t kept; // entries
+    float scale;                     // LightVector::scale
+    float error;                     // LightVector::error
+    uint32_t kept;                   // entries
+    std::optional<uint32_t> changed; // that differ from the light recorded before; none: not to be told
 };
 
 class LightPass {
@@ -28,12 +31,18 @@ class LightPass {
 
     // Passes "light sample" (environments), "light sky", "light strokes", "light lamps", "light distant"
     // (where there are any), "light haar", "light quantise". `rotation` in radians turns the light, as
-    // turned() does, but not a cube. Compute and draws may use the results at once.
-    void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {}) const;
+    // turned() does, but not a cube. Compute and draws may use the results at once. Recordings are to be
+    // submitted in their order, and once: the table's changes are those since the recording before.
+    void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {});
 
     int faceSize() const { return mFaceSize; }
-    const vk::Buffer& table() const { return mTable; } // 6 F² × shared::PackedLight, zero where dropped
+    // 6 F² × shared::PackedLight, zero where dropped; then, of the same shape, how the light changed.
+    const vk::Buffer& table() const { return mTable; }
     const vk::Buffer& stats() const { return mStats; } // shared::LightStats
+
+    // Of the last record() and the one before, among those of all light passes: from 1; 0 is none.
+    uint64_t recording() const { return mRecording; }
+    uint64_t recordingBefore() const { return mRecordingBefore; }
 
     // What selection and quantisation cost in the last submission of record(). Waits for the device.
     LightStats readStats() const;
@@ -54,6 +63,7 @@ class LightPass {
     vk::Buffer mRadiance;     // 6 F² × vec3
     vk::Buffer mCoefficients; // 6 F² × vec3
     vk::Buffer mTable, mStats;
+    uint64_t mRecording = 0, mRecordingBefore = 0;
 };
 
 } // namespace relume

@@ -39,14 +39,14 @@ std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, con
                                             coefficients, largestShard, name);
 }
 
-void Relighter::record(vk::Commands& commands, const LightPass& light, const Appearance& appearance) const {
+void Relighter::record(vk::Commands& commands, const LightPass& light, const Appearance& appearance) {
     RELUME_CHECK(appearance.empty() || appearance.size() == mParts.size());
     RELUME_CHECK_EQ(light.faceSize(), mFaceSize);
     // An earlier frame of the same submission may still be reading the tuples.
     commands.barrier(Stage::Draw, Stage::Compute);
     commands.pass("relight", [&] {
         for (size_t part = 0; part < mParts.size(); part++)
-            mParts[part].at(appearance.empty() ? 0 : appearance[part].set)->record(commands, light);
+            mParts[part].at(appearance.empty() ? 0 : appearance[part].set)->record(commands, light, mMode);
         commands.barrier(Stage::Compute, Stage::Draw);
     });
 }

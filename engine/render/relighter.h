@@ -23,8 +23,12 @@ class Relighter {
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
     // Pass "relight": tuples of every part's worn set (none given: the first) under the light recorded
-    // before. Draws may use them at once. Those of other sets stay as they are.
-    void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {}) const;
+    // before. Draws may use them at once. Those of other sets stay as they are. Recordings are to be
+    // submitted in their order, and once: tuples may be made from those of the light before.
+    void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {});
+
+    // Of the record() calls that follow.
+    void setMode(RelightMode mode) { mMode = mode; }
 
     size_t parts() const { return mParts.size(); }
     size_t shards(size_t part, size_t set = 0) const { return mParts[part][set]->shards(); }
@@ -40,6 +44,7 @@ class Relighter {
 
     const vk::Device& mDevice;
     int mFaceSize;
+    RelightMode mMode = RelightMode::Auto;
     // Of the layouts that are there; where they are they stay, as the sets refer to them.
     std::unique_ptr<vk::ComputeProgram> mRows, mClusters;
     std::unique_ptr<BasesRelighter::Programs> mBases;

@@ -75,7 +75,7 @@ RowsRelighter::RowsRelighter(const vk::Device& device, const vk::ComputeProgram&
     }
 }
 
-void RowsRelighter::record(vk::Commands& commands, const LightPass& light) const {
+void RowsRelighter::recordLayout(vk::Commands& commands, const LightPass& light, RelightMode) const {
     for (const Shard& shard : mShards)
         commands.dispatch(mProgram,
                           {shard.starts, shard.entries, light.table(), light.stats(), mScales, tuples()},

@@ -17,10 +17,12 @@ class RowsRelighter : public SetRelighter {
                   const std::string& name);
     static vk::ComputeProgram makeProgram(const vk::Device& device);
 
-    void record(vk::Commands& commands, const LightPass& light) const override;
     size_t shards() const override { return mShards.size(); }
 
   private:
+    // Always in full: what changed is not to be had without reading all of the indices.
+    void recordLayout(vk::Commands& commands, const LightPass& light, RelightMode) const override;
+
     struct Shard {
         uint32_t firstRow = 0, rows = 0;
         vk::Buffer starts;  // rows + 1: first group of each row

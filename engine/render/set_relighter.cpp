@@ -17,4 +17,10 @@ SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, const std::s
     mTuples = vk::Buffer(device, bytes, vk::BufferUse::Device, name + " tuples");
 }
 
+void SetRelighter::record(vk::Commands& commands, const LightPass& light, RelightMode mode) {
+    const bool follows = mRecording > 0 && mRecording == light.recordingBefore();
+    mRecording = light.recording();
+    recordLayout(commands, light, follows ? mode : RelightMode::Full);
+}
+
 } // namespace relume

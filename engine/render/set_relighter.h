@@ -5,6 +5,13 @@
 
 namespace relume {
 
+// How tuples follow a light that changes. All give the same bits.
+enum class RelightMode {
+    Full,        // from all of the light
+    Incremental, // from what changed since the light recorded before, wherever sums of that light are there
+    Auto         // by whichever is less
+};
+
 class SetRelighter {
   public:
     // Throws OutOfMemory, or Error when the device cannot bind as many tuples. `name` stands for the part.
@@ -12,7 +19,7 @@ class SetRelighter {
     virtual ~SetRelighter() = default;
 
     // Writes the tuples under the light recorded before.
-    virtual void record(vk::Commands& commands, const LightPass& light) const = 0;
+    void record(vk::Commands& commands, const LightPass& light, RelightMode mode);
 
     // Buffers that the transport is divided into, for what one binding holds.
     virtual size_t shards() const = 0;
@@ -21,8 +28,11 @@ class SetRelighter {
     const vk::Buffer& tuples() const { return mTuples; } // vec3 per row
 
   private:
+    virtual void recordLayout(vk::Commands& commands, const LightPass& light, RelightMode mode) const = 0;
+
     uint32_t mRows = 0;
     vk::Buffer mTuples;
+    uint64_t mRecording = 0; // of the light that the sums are of
 };
 
 } // namespace relume

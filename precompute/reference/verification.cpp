@@ -192,7 +192,7 @@ uint64_t countRelightDifferences(const vk::Device& device, const Asset& asset, c
                                  float rotation) {
     LightPass light(device, asset.faceSize);
     light.setEnvironment(prepared);
-    const Relighter relighter(device, asset);
+    Relighter relighter(device, asset);
     vk::Commands commands(device, "verify relighting");
     commands.begin();
     light.record(commands, rotation);

@@ -10,4 +10,9 @@ ivec3 unpackLight(PackedLight light) {
     return ivec3(bitfieldExtract(redGreen, 0, 16), redGreen >> 16, light.blue);
 }
 
+// Whether sums of the light before are to be dropped rather than changed.
+bool replacesSums(LightStats light, uint mode) {
+    return light.changed >= (mode == kRelightFull ? 0 : mode == kRelightAuto ? light.kept : kUnknownChange);
+}
+
 #endif

@@ -45,8 +45,16 @@ struct LightStats {
     float energy; // Σ c², in units of scale², of the light before,
     float lost;   // and of what selection and rounding took
     uint kept;    // entries that are not zero
+    uint changed; // entries that are not those of the light recorded before, or kUnknownChange
 };
-RELUME_SHARED_SIZE(LightStats, 16)
+RELUME_SHARED_SIZE(LightStats, 20)
+
+// The light before had another scale, or an entry differs by more than 16 bits hold.
+const uint kUnknownChange = 0xffffffffu;
+
+// How sums of products with the light are brought up to date: anew; from the changes of the light, where
+// these are known; or whichever reads less.
+const uint kRelightFull = 0, kRelightIncremental = 1, kRelightAuto = 2;
 
 struct RelightRowsPush {
     uint firstRow; // of the shard in its part
@@ -58,8 +66,9 @@ struct RelightClustersPush {
     uint firstGroup; // of the shard in its part
     uint terms;
     uint vertices; // of the part
+    uint mode;     // kRelightFull and so on
 };
-RELUME_SHARED_SIZE(RelightClustersPush, 12)
+RELUME_SHARED_SIZE(RelightClustersPush, 16)
 
 // What a group of relight_project works on: 16 words, of four components each, of a cluster's columns.
 struct BasisGroup {
@@ -67,8 +76,15 @@ struct BasisGroup {
     uint firstBasisWord, wordsPerColumn; // of the cluster
     uint firstWord;                      // of the group, in each column
     uint firstComponent;                 // of the cluster
+    uint cluster;                        // in the shard
 };
-RELUME_SHARED_SIZE(BasisGroup, 24)
+RELUME_SHARED_SIZE(BasisGroup, 28)
+
+struct RelightProjectPush {
+    uint mode;  // kRelightFull and so on
+    uint stamp; // of this recording
+};
+RELUME_SHARED_SIZE(RelightProjectPush, 8)
 
 // A cluster as relight_combine sees it.
 struct BasisVertices {
@@ -93,8 +109,9 @@ RELUME_SHARED_SIZE(BasisWeighting, 12)
 struct RelightCombinePush {
     uint terms, kinds;
     uint groupsPerTerm; // of invocations, in a cluster
+    uint mode, stamp;   // as relight_project's
 };
-RELUME_SHARED_SIZE(RelightCombinePush, 12)
+RELUME_SHARED_SIZE(RelightCombinePush, 20)
 
 struct ViewVertex {
     vec3 position;

@@ -34,8 +34,7 @@ LightCube makeNoise(int size, float low, float high) {
     return cube;
 }
 
-void submit(const vk::Device& device, const LightPass& pass, float rotation,
-            const LightSelection& selection) {
+void submit(const vk::Device& device, LightPass& pass, float rotation, const LightSelection& selection) {
     vk::Commands commands(device, "light test");
     commands.begin();
     pass.record(commands, rotation, selection);

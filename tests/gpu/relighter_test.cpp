@@ -43,7 +43,7 @@ LightCube makeNoise(int size) {
 
 void checkBits(const vk::Device& device, const Asset& asset, const RelighterOptions& options,
                const std::vector<size_t>& shards = {}) {
-    const Relighter relighter(device, asset, options);
+    Relighter relighter(device, asset, options);
     REQUIRE_EQ(relighter.parts(), asset.parts.size());
     LightPass light(device, asset.faceSize);
     light.setCube(makeNoise(asset.faceSize));
@@ -94,7 +94,7 @@ TEST_CASE("relighter: shards give the reference's bits") {
     const SparseTransport& transport = rowsOf(asset.parts[0].sets[0].transport);
     for (size_t row = 0; row < transport.rows(); row++)
         groups += (transport.rowStarts[row + 1] - transport.rowStarts[row] + 7) / 8;
-    const Relighter relighter(device, asset, {.largestShard = 48 * groups / 4});
+    Relighter relighter(device, asset, {.largestShard = 48 * groups / 4});
     CHECK_LE(4, relighter.shards(0));
     CHECK_LE(relighter.shards(0), 6);
     checkBits(device, asset, {.largestShard = 48 * groups / 4});
@@ -128,7 +128,7 @@ TEST_CASE("relighter: tuples of sums that reach the limits of 32 bits are exact"
         expected += 1023 * int64_t(std::abs(vector.values[e][0]));
     }
     rowsOf(part.sets[0].transport).rowStarts = {0, rowsOf(part.sets[0].transport).values.size()};
-    const Relighter relighter(device, asset);
+    Relighter relighter(device, asset);
     commands.begin();
     relighter.record(commands, light);
     commands.submitAndWait();

@@ -44,7 +44,7 @@ TimingTrace captureFrames(const vk::Device& device, int frames, ClockMatch clock
     const Asset asset = makeAsset();
     LightPass light(device, asset.faceSize);
     light.setEnvironment(prepareForSampling(makeSky(64)));
-    const Relighter relighter(device, asset);
+    Relighter relighter(device, asset);
     ViewPass view(device, asset, {.width = 320, .height = 240});
     vk::Commands commands(device, "timing test");
     commands.setCapture(&capture);

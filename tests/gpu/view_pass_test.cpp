@@ -321,7 +321,7 @@ TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
     LightCube cube{64, std::vector<vec3>(6 * 4096, vec3(0))};
     std::fill_n(cube.radiance.begin() + 2 * 4096, 4096, vec3(3));
     light.setCube(cube);
-    const Relighter relighter(device, asset);
+    Relighter relighter(device, asset);
     ViewPass view(device, asset, {.width = 16, .height = 8});
     vk::Commands commands(device, "view test");
     commands.begin();

@@ -31,7 +31,7 @@ Camera viewOf(const Asset& asset) {
 Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube, int threshold) {
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
-    const Relighter relighter(device, asset);
+    Relighter relighter(device, asset);
     const ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
     vk::Commands commands(device, "render test");
     commands.begin();

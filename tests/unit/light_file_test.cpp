@@ -28,7 +28,7 @@ TEST_CASE("light file: everything that the format has") {
     Image image(8, 4);
     for (vec4& pixel : image.pixels) pixel = vec4(1, 2, 3, 1);
     writeExr(folder.path() / "a.exr", image);
-    const Light light = readLight(folder.write("light.json", R"({
+    MovingLight file = readLight(folder.write("light.json", R"({
         "environment": {"file": "a.exr", "rotate": 90, "gain": 2},
         "blend": {"file": "a.exr", "weight": 0.25},
         "sky": {"time": "2026-06-21T12:00:00+02:00", "latitude": 48, "longitude": 11, "north": 90, "turbidity": 4,
@@ -39,6 +39,8 @@ TEST_CASE("light file: everything that the format has") {
                   {"azimuth": 0, "elevation": 0, "radius": 180, "radiance": [0, 0, 0]}],
         "distant": [{"azimuth": 180, "elevation": 30, "irradiance": [7, 8, 9]}]
     })"));
+    CHECK_FALSE(file.moves());
+    const Light light = file.at(0);
     REQUIRE(light.environments.size() == 2);
     CHECK(light.environments[0].gain == 1.5f);
     CHECK(light.environments[0].rotation == doctest::Approx(kPi / 2));
@@ -69,10 +71,10 @@ TEST_CASE("light file: everything that the format has") {
 TEST_CASE("light file: a sky by its sun, and nothing at all") {
     const TemporaryFolder folder;
     const Light light =
-        readLight(folder.write("light.json", R"({"sky": {"sun": {"azimuth": 90, "elevation": 30}}})"));
+        readLight(folder.write("light.json", R"({"sky": {"sun": {"azimuth": 90, "elevation": 30}}})")).at(0);
     CHECK(glm::distance(light.sky->sun, vec3(std::sqrt(0.75f), 0.5f, 0)) < 1e-6f);
     CHECK(light.sky->hasDisc);
-    for (const vec3& radiance : sampleLight(readLight(folder.write("dark.json", "{}")), 16).radiance)
+    for (const vec3& radiance : sampleLight(readLight(folder.write("dark.json", "{}")).at(0), 16).radiance)
         CHECK(radiance == vec3(0));
 }
 
@@ -110,8 +112,18 @@ TEST_CASE("light file: errors name file, place and field") {
     check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "turbidity": 1}})",
           {"\"turbidity\"", "2 to 10"});
     check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "disc": 1}})", {"\"disc\"", "true or false"});
+    check(R"({"sky": {"sun": {"azimuth": 0, "elevation": 0}, "hours_per_second": 1}})",
+          {"\"hours_per_second\"", "beside \"sun\""});
+    check(R"({"environment": {"file": "a.exr", "sequence": "#.exr"}})", {"environment", "\"sequence\""});
+    check(R"({"environment": {"file": "a.exr", "rate": 3}})", {"environment", "\"rate\""});
     std::string many = R"({"distant": [)";
     for (int i = 0; i <= 512; i++) many += i ? ",{}" : "{}";
     check(many + "]}", {"at most 512"});
-    CHECK(failureOf(R"({"environment": {"file": "none.exr"}})").find("none.exr") != std::string::npos);
+    // Of other files, that file.
+    const auto names = [](const char* text, const char* part) {
+        return failureOf(text).find(part) != std::string::npos;
+    };
+    CHECK(names(R"({"environment": {"file": "none.exr"}})", "none.exr"));
+    CHECK(names(R"({"environment": {"sequence": "a_##.exr"}})", "a_##.exr: expected files with a number"));
+    CHECK(names(R"({"environment": {"sequence": "a.exr"}})", "a.exr: expected one run of #"));
 }

@@ -1,0 +1,69 @@
+#include "engine/light/environment_files.h"
+
+#include "engine/base/error.h"
+
+#include <algorithm>
+#include <map>
+
+namespace relume {
+
+namespace {
+
+constexpr size_t kMostMaps = 64; // of at most 1.5 MiB
+constexpr size_t kMostDigits = 9;
+
+std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pattern) {
+    const std::string name = pattern.filename();
+    const size_t start = name.find('#'), end = name.find_first_not_of('#', start);
+    const std::string prefix = name.substr(0, start), suffix = end < name.size() ? name.substr(end) : "";
+    if (start == std::string::npos || suffix.find('#') != std::string::npos)
+        throw Error("{}: expected one run of # in the file's name, where its number is", pattern.string());
+    const std::filesystem::path folder = pattern.has_parent_path() ? pattern.parent_path() : ".";
+    std::error_code failure;
+    std::map<long, std::filesystem::path> files;
+    for (std::filesystem::directory_iterator entry(folder, failure), none; !failure && entry != none;
+         entry.increment(failure)) {
+        const std::string candidate = entry->path().filename();
+        if (candidate.size() <= prefix.size() + suffix.size() || !candidate.starts_with(prefix) ||
+            !candidate.ends_with(suffix))
+            continue;
+        const std::string digits =
+            candidate.substr(prefix.size(), candidate.size() - prefix.size() - suffix.size());
+        if (digits.size() > kMostDigits || digits.find_first_not_of("0123456789") != std::string::npos)
+            continue;
+        const auto [place, isNew] = files.emplace(std::stol(digits), folder / candidate);
+        if (!isNew)
+            throw Error("{}: expected one file of each number, found {} and {}", pattern.string(),
+                        place->second.filename().string(), candidate);
+    }
+    if (failure) throw Error("{}: {}", folder.string(), failure.message());
+    if (files.empty())
+        throw Error("{}: expected files with a number in place of #, found none", pattern.string());
+    std::vector<std::filesystem::path> sorted;
+    for (auto& [number, file] : files) sorted.push_back(file);
+    return sorted;
+}
+
+} // namespace
+
+std::shared_ptr<const Environment> EnvironmentFiles::map(const std::filesystem::path& file) {
+    const auto found = std::ranges::find(mMaps, file, [](const auto& entry) { return entry.first; });
+    if (found != mMaps.end()) {
+        mMaps.splice(mMaps.begin(), mMaps, found);
+    } else {
+        mMaps.emplace_front(file,
+                            std::make_shared<const Environment>(prepareForSampling(readEnvironment(file))));
+        if (mMaps.size() > kMostMaps) mMaps.pop_back();
+    }
+    return mMaps.front().second;
+}
+
+const std::vector<std::filesystem::path>& EnvironmentFiles::sequence(const std::filesystem::path& pattern) {
+    const auto found = mSequences.find(pattern);
+    return found != mSequences.end() ? found->second
+                                     : mSequences.emplace(pattern, sequenceFiles(pattern)).first->second;
+}
+
+bool isSequence(const std::string& name) { return name.find('#') != std::string::npos; }
+
+} // namespace relume

@@ -1,0 +1,123 @@
+#include "engine/base/error.h"
+#include "engine/image/image_file.h"
+#include "engine/light/light_file.h"
+#include "engine/light/sun_position.h"
+#include "tests/support/temporary_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+using relume::test::TemporaryFolder;
+
+namespace {
+
+MovingLight lightOf(const std::string& text) {
+    const TemporaryFolder folder;
+    return readLight(folder.write("light.json", text));
+}
+
+MovingLight lampOf(const std::string& radius) {
+    return lightOf(R"({"lamps": [{"azimuth": 0, "elevation": 0, "radiance": [1, 1, 1], "radius": )" + radius +
+                   "}]}");
+}
+
+std::string failureOf(const std::string& radius) {
+    try {
+        lampOf(radius);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+double degrees(float angle) { return double(glm::degrees(angle)); }
+
+void writeMap(const std::filesystem::path& path, float value) {
+    Image image(8, 4);
+    for (vec4& pixel : image.pixels) pixel = vec4(value, value, value, 1);
+    writeExr(path, image);
+}
+
+// The radiance of an environment whose maps are each of one.
+float radianceOf(const Light& light) {
+    float sum = 0;
+    for (const EnvironmentLight& environment : light.environments)
+        sum += environment.gain * environment.map->radiance[5].x;
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("moving light: tracks change evenly between their keys and stay outside") {
+    MovingLight light = lampOf(R"({"keys": [[1, 10], [3, 20], [4, 40]]})");
+    CHECK(light.moves());
+    for (const auto& [seconds, radius] : std::vector<std::pair<double, double>>{
+             {0, 10}, {1, 10}, {2, 15}, {3, 20}, {3.25, 25}, {4, 40}, {1000, 40}})
+        CHECK(degrees(light.at(seconds).lamps[0].angularRadius) == doctest::Approx(radius));
+
+    MovingLight repeated = lampOf(R"({"keys": [[0, 10], [2, 20]], "repeat": true})");
+    for (const auto& [seconds, radius] :
+         std::vector<std::pair<double, double>>{{0, 10}, {1, 15}, {1.999, 19.995}, {2, 10}, {7, 15}})
+        CHECK(degrees(repeated.at(seconds).lamps[0].angularRadius) == doctest::Approx(radius));
+
+    CHECK_FALSE(lampOf(R"({"keys": [[0, 10]]})").moves());
+}
+
+TEST_CASE("moving light: colours are tracks too, and a gain is of all") {
+    MovingLight light = lightOf(
+        R"({"distant": [{"azimuth": 0, "elevation": 0, "irradiance": {"keys": [[0, [1, 2, 3]], [1, [3, 2, 1]]]}}]})");
+    light.setGain(2);
+    CHECK(light.at(0.5).distant[0].irradiance == vec3(4));
+}
+
+TEST_CASE("moving light: what is wrong at any time is found when it is read") {
+    const auto check = [](const std::string& radius, std::initializer_list<const char*> parts) {
+        const std::string failure = failureOf(radius);
+        CAPTURE(failure);
+        for (const char* part : parts) CHECK(failure.find(part) != std::string::npos);
+    };
+    check(R"({"keys": [[0, 10], [1, 20], [2, 200]]})", {"light.json", "lamps[0]", "\"radius\"", "200"});
+    check(R"({"keys": []})", {"light.json", "lamps", "radius", "1 to 4096"});
+    check(R"({"keys": [[0, 10]], "loop": true})", {"\"loop\""});
+    check(R"({"keys": [[0, 10]], "repeat": 1})", {"true or false"});
+    check(R"({"keys": [[1, 10], [1, 20]]})", {"rising", "1 after 1"});
+    check(R"({"keys": [[-1, 10]]})", {"rising"});
+    check(R"({"keys": [[0, 10], [1, [1, 2, 3]]]})", {"all of"});
+    check(R"({"keys": [[0, "10"]]})", {"[seconds, value]"});
+    check(R"({"keys": [[0, [1, 2, 3]]]})", {"\"radius\""});
+    std::string many = R"({"keys": [)";
+    for (int i = 0; i <= 4096; i++) many += fmt::format("{}[{}, 1]", i ? "," : "", i);
+    check(many + "]}", {"1 to 4096"});
+    std::string deep(100000, '[');
+    CHECK_THROWS_AS(lampOf(deep + std::string(100000, ']')), Error);
+}
+
+TEST_CASE("moving light: the sky's hours pass") {
+    MovingLight light = lightOf(
+        R"({"sky": {"time": "2026-06-21T12:00Z", "latitude": 48, "longitude": 11, "hours_per_second": 2}})");
+    CHECK(light.moves());
+    const SunPosition sun = sunPosition(parseMoment("2026-06-21T15:00Z"), 48, 11);
+    CHECK(double(light.at(1.5).sky->sun.y) == doctest::Approx(std::sin(glm::radians(sun.elevation))));
+    CHECK_NOTHROW(light.at(30)); // past midnight
+}
+
+TEST_CASE("moving light: sequences go from file to file in the order of their numbers") {
+    const TemporaryFolder folder;
+    writeMap(folder.path() / "a_9.exr", 1);
+    writeMap(folder.path() / "a_10.exr", 3);
+    writeMap(folder.path() / "a_0011.exr", 7);
+    writeMap(folder.path() / "a_x.exr", 100);
+    writeMap(folder.path() / "a_.exr", 100);
+    MovingLight light =
+        readLight(folder.write("light.json", R"({"environment": {"sequence": "a_####.exr", "rate": 2}})"));
+    CHECK(light.moves());
+    for (const auto& [seconds, radiance] :
+         std::vector<std::pair<double, float>>{{0, 1}, {0.25, 2}, {0.5, 3}, {0.75, 5}, {1, 7}, {9, 7}})
+        CHECK(radianceOf(light.at(seconds)) == doctest::Approx(radiance));
+    // A map that is shown again is not read again.
+    CHECK(light.at(0).environments[0].map == light.at(0.25).environments[0].map);
+
+    writeMap(folder.path() / "a_09.exr", 1);
+    CHECK_THROWS_AS(readLight(folder.write("light.json", R"({"environment": {"sequence": "a_####.exr"}})")),
+                    Error);
+}
