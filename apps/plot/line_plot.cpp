@@ -18,7 +18,8 @@ constexpr double kGapX = 22, kGapY = 30, kLetterWidth = 6.2; // of text of 11 pi
 constexpr Stroke kGrid{"#e4e4e4", 1}, kFrame{"#888888", 1};
 
 bool isDrawn(const LinePlot& plot, dvec2 point) {
-    return std::isfinite(point.x) && std::isfinite(point.y) && (!plot.logarithmic || point.y > 0);
+    return std::isfinite(point.x) && std::isfinite(point.y) && (!plot.logarithmic || point.y > 0) &&
+           (!plot.logarithmicX || point.x > 0);
 }
 
 // The y axis: its ends, its labelled ticks, and where a value lies between the ends.
@@ -107,9 +108,11 @@ class Panel {
   private:
     dvec2 place(dvec2 point) const {
         const double first = mPlot.xTicks.front(), last = mPlot.xTicks.back();
+        const double right = mPlot.logarithmicX ? std::log(point.x / first) / std::log(last / first)
+                                                : (point.x - first) / (last - first);
         // A rare value below a logarithmic axis lies on its end.
         const double up = std::clamp(mAxis.fraction(point.y), 0.0, 1.0);
-        return mCorner + dvec2((point.x - first) / (last - first) * mSize.x, (1 - up) * mSize.y);
+        return mCorner + dvec2(right * mSize.x, (1 - up) * mSize.y);
     }
 
     void drawCurve(Svg& svg, const PlotCurve& curve) const {

@@ -26,6 +26,7 @@ struct LinePlot {
     bool logarithmic = false;   // y; else from 0
     int columns = 1;            // of panels
     std::vector<PlotPanel> panels;
+    bool logarithmicX = false; // x, whose ticks are then above 0
 };
 
 // Panels of one range of y, so that they compare.

@@ -46,6 +46,23 @@ TEST_CASE("line plot: a name stands once in the legend, ticks cover the values")
     for (const char* tick : {">0<", ">0.1<", ">0.5<"}) CHECK(says(drawLinePlot(samplePlot(false)), tick));
 }
 
+TEST_CASE("line plot: decades are as wide as each other on a logarithmic x axis") {
+    LinePlot plot{
+        "", "x", "y", {1, 10, 100}, false, 1, {{"", {{"curve", 0, false, {{1, 1}, {10, 1}, {100, 1}}}}}}};
+    const auto ends = [&] {
+        const std::string svg = drawLinePlot(plot);
+        const size_t start = svg.find("<polyline points=\"", svg.find("<polyline") + 1);
+        REQUIRE(start != std::string::npos);
+        double x[3], y;
+        REQUIRE(std::sscanf(svg.c_str() + start, "<polyline points=\"%lf,%lf %lf,%lf %lf", &x[0], &y, &x[1],
+                            &y, &x[2]) == 5);
+        return (x[1] - x[0]) / (x[2] - x[0]);
+    };
+    CHECK(ends() == doctest::Approx(0.0909).epsilon(0.01));
+    plot.logarithmicX = true;
+    CHECK(ends() == doctest::Approx(0.5).epsilon(0.01));
+}
+
 TEST_CASE("line plot: nothing to draw is drawn") {
     LinePlot empty{"none", "x", "y", {0, 1}, true, 1, {{"", {{"curve", 0, false, {}}}}}};
     CHECK(drawLinePlot(empty).ends_with("</svg>\n"));
