@@ -1,11 +1,10 @@
 #version 460
 // Tuples of a cluster's vertices in one term: the projections of its basis vectors times the vertices' weights, summed
 // in the order of the components, kind after kind. Eight vertices an invocation, so that a projection serves several.
-// Clusters whose projections are as before are left out.
+// Clusters whose projections are as before, or that have none and stay zero, are left out.
 // C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/render/bases_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shaders/lib/light_packing.glsl"
 #include "shaders/shared/render.h"
 
 layout(local_size_x_id = 0) in;
@@ -18,8 +17,7 @@ layout(binding = 4, std430) readonly buffer Weights { uvec2 weights[]; };       
 layout(binding = 5, scalar) readonly buffer Scales { float scales[]; };
 layout(binding = 6, scalar) readonly buffer Projections { vec3 projections[]; };
 layout(binding = 7, scalar) writeonly buffer Tuples { vec3 tuples[]; };
-layout(binding = 8, scalar) readonly buffer Light { LightStats light; };
-layout(binding = 9, std430) readonly buffer Stamps { uint stamps[]; }; // of relight_project
+layout(binding = 8, std430) readonly buffer Stamps { uint stamps[]; }; // of relight_project
 
 const uint kVertices = 8;
 
@@ -34,7 +32,7 @@ vec4 unpackWeights(uint word) {
 void main() {
     const uint perCluster = push.terms * push.groupsPerTerm;
     const uint number = gl_WorkGroupID.x / perCluster, term = gl_WorkGroupID.x % perCluster / push.groupsPerTerm;
-    if (stamps[number] != push.stamp && !replacesSums(light, push.mode)) return;
+    if (stamps[number] != push.stamp) return;
     const BasisVertices cluster = clusters[number];
     const uint octet = gl_WorkGroupID.x % push.groupsPerTerm * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (octet * kVertices >= cluster.vertices) return;

@@ -18,9 +18,9 @@ struct Arguments {
     StudyOptions options{.rows = {24, 48, 96, 192}, .budgets = {50, 100, 200, 400, 800, 1600}};
 };
 
-// From "NAME=FILE", or "FILE", named after itself.
+// From "NAME=FILE", or "FILE", named after itself. Names may have a = of their own.
 std::pair<std::string, std::filesystem::path> namedFile(const std::string& text) {
-    const size_t equals = text.find('=');
+    const size_t equals = text.rfind('=');
     const std::filesystem::path file = equals == std::string::npos ? text : text.substr(equals + 1);
     return {equals == std::string::npos ? file.stem().string() : text.substr(0, equals), file};
 }

@@ -152,8 +152,8 @@ void BasesRelighter::recordLayout(vk::Commands& commands, const LightPass& light
         commands.dispatch(
             mPrograms.combine,
             {shard.clusterList, mTermKinds, mColors, shard.weightings, shard.weights, shard.scales,
-             shard.projections, tuples(), light.stats(), shard.stamps},
-            shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, pushed(mode), stamp},
+             shard.projections, tuples(), shard.stamps},
+            shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, stamp},
             {shard.clusters * mTerms * mGroupsPerTerm * mPrograms.combine.groupSize()[0], 1, 1});
 }
 

@@ -1,6 +1,7 @@
 #include "engine/render/set_relighter.h"
 
 #include "engine/base/error.h"
+#include "engine/vk/upload.h"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, const std::s
             "into several parts",
             name, rows, bytes, device.name(), device.largestStorageBuffer());
     mRows = uint32_t(rows);
-    mTuples = vk::Buffer(device, bytes, vk::BufferUse::Device, name + " tuples");
+    mTuples = vk::uploadBytes(device, std::vector<std::byte>(bytes), name + " tuples");
 }
 
 void SetRelighter::record(vk::Commands& commands, const LightPass& light, RelightMode mode) {

@@ -25,7 +25,7 @@ class SetRelighter {
     virtual size_t shards() const = 0;
 
     uint32_t rows() const { return mRows; }
-    const vk::Buffer& tuples() const { return mTuples; } // vec3 per row
+    const vk::Buffer& tuples() const { return mTuples; } // vec3 per row; zero before the first record()
 
   private:
     virtual void recordLayout(vk::Commands& commands, const LightPass& light, RelightMode mode) const = 0;

@@ -109,9 +109,9 @@ RELUME_SHARED_SIZE(BasisWeighting, 12)
 struct RelightCombinePush {
     uint terms, kinds;
     uint groupsPerTerm; // of invocations, in a cluster
-    uint mode, stamp;   // as relight_project's
+    uint stamp;         // of this recording
 };
-RELUME_SHARED_SIZE(RelightCombinePush, 20)
+RELUME_SHARED_SIZE(RelightCombinePush, 16)
 
 struct ViewVertex {
     vec3 position;
