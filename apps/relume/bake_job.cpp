@@ -53,6 +53,7 @@ BakeSummary BakeJob::bakeStoppably(const vk::Device& opened, const Bake& bake) c
         spdlog::info("{}: {:.1f} MB, {} vertices in {:.1f} s ({:.2f} ms each) on {}", output.string(),
                      double(bytes) * 1e-6, baked, summary.times.total,
                      1e3 * summary.times.total / double(std::max<uint64_t>(baked, 1)), opened.name());
+        if (summary.bytes > 0) tellLayout(summary);
         return summary;
     } catch (const BakeStopped&) {
         report.close();
@@ -64,6 +65,15 @@ BakeSummary BakeJob::bakeStoppably(const vk::Device& opened, const Bake& bake) c
                      report.done(), report.vertices(), checkpointPath(output).string());
         throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
     }
+}
+
+void BakeJob::tellLayout(const BakeSummary& summary) {
+    const double bytes = double(summary.bytes) / double(std::max<uint64_t>(1, summary.vertices));
+    const auto error =
+        summary.layout ? fmt::format(", error {:.2f} %", 100 * summary.layout->error) : std::string();
+    spdlog::info("transport in {}: {:.0f} bytes a vertex in memory{}", layoutName(summary.kept), bytes,
+                 error);
+    if (summary.layout) warnOfMisses(*summary.layout, bytes);
 }
 
 void BakeJob::run(const vk::Device& opened, const Bake& bake) const {

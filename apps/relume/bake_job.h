@@ -26,6 +26,7 @@ struct BakeJob {
     void run(const vk::Device& opened, const Bake& bake) const;
 
   private:
+    static void tellLayout(const BakeSummary& summary);
     BakeSummary bakeStoppably(const vk::Device& opened, const Bake& bake) const;
 
     std::filesystem::path mTimings;

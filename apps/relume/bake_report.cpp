@@ -18,6 +18,8 @@ const char* stageName(BakeStage stage) {
         return "occluder";
     case BakeStage::Factorisation:
         return "factorisation";
+    case BakeStage::Sample:
+        return "sample";
     case BakeStage::Preview:
         return "preview";
     case BakeStage::Baking:
@@ -39,7 +41,7 @@ void BakeReport::event(const char* name, nlohmann::ordered_json fields) const {
 }
 
 void BakeReport::stage(BakeStage stage, const std::string& part) {
-    mInPreview = stage == BakeStage::Preview;
+    mIsAside = stage == BakeStage::Sample || stage == BakeStage::Preview;
     mStage = stageName(stage);
     event("stage", {{"stage", mStage}, {"part", part}});
     if (!part.empty()) mStage += " " + part;
@@ -62,7 +64,7 @@ void BakeReport::showBar(uint64_t vertices) {
 }
 
 void BakeReport::progress(const BakeStatus& status) {
-    if (!mInPreview) mDone = status.done;
+    if (!mIsAside) mDone = status.done;
     if (status.vertices != mBarVertices) showBar(status.vertices);
     if (mBar) mBar->update({status.done, status.fraction, status.verticesPerSecond, status.secondsLeft});
     const auto now = std::chrono::steady_clock::now();

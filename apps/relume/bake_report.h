@@ -39,7 +39,7 @@ class BakeReport : public BakeObserver {
     ReportStyle mStyle;
     bool mStoppable;
     uint64_t mDone = 0, mVertices = 0;
-    bool mInPreview = false, mHasPreview = false;
+    bool mIsAside = false, mHasPreview = false;
     std::string mStage;
     std::optional<Progress> mBar;
     uint64_t mBarVertices = 0;

@@ -224,7 +224,7 @@ void addBenchBakeCommand(CLI::App& bench) {
         "bake", "Bake a sample of vertices on the CPU and in each of the device's ways, in alternation");
     const auto arguments = std::make_shared<Arguments>();
     arguments->scene.add(*command);
-    arguments->bake.add(*command);
+    arguments->bake.add(*command, false);
     arguments->device.add(*command);
     command->add_option("--vertices", arguments->vertices, "Vertices to bake, about: runs of 64 neighbours")
         ->type_name("COUNT")

@@ -44,11 +44,13 @@ RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
         options.layout = layout;
         options.bytesPerVertex = arguments.budget;
         options.error = arguments.error;
-        if (layout == TransportLayout::Rows) options.coefficients = arguments.coefficients;
+        std::optional<int> coefficients;
+        if (layout == TransportLayout::Rows) coefficients = arguments.coefficients;
         Asset asset = source;
         Progress progress(fmt::format("converting to {}", layoutName(layout)), verticesOf(source), "vertices",
                           arguments.json);
-        convertLayout(asset, options, [&](uint64_t done, uint64_t) { progress.update(done); });
+        convertLayout(
+            asset, options, [&](uint64_t done, uint64_t) { progress.update(done); }, coefficients);
         input.variants.emplace_back(layoutName(layout), std::move(asset));
     }
     return input;

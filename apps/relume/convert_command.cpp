@@ -1,4 +1,5 @@
 #include "apps/relume/commands.h"
+#include "apps/relume/layout_arguments.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -15,28 +16,17 @@ namespace relume {
 
 namespace {
 
-constexpr double kMostBytes = 1e6; // per vertex
-
 struct Arguments {
     std::filesystem::path input, output;
-    std::string layout = layoutName(TransportLayout::Bases);
-    std::optional<double> budget, error;
+    LayoutArguments layout;
     std::optional<int> coefficients;
     bool quiet = false;
 };
 
 LayoutOptions optionsOf(const Arguments& arguments) {
-    LayoutOptions options;
-    options.layout = layoutFromName(arguments.layout).value();
-    if (options.layout == TransportLayout::Rows && (arguments.budget || arguments.error))
-        throw UsageError(
-            "--layout rows: --budget and --error are for clusters and bases; rows are shortened by "
-            "--coefficients");
+    const LayoutOptions options = arguments.layout.resolve();
     if (options.layout != TransportLayout::Rows && arguments.coefficients)
         throw UsageError("--coefficients: shortens rows; clusters and bases have --budget and --error");
-    options.coefficients = arguments.coefficients;
-    options.bytesPerVertex = arguments.budget;
-    options.error = arguments.error.value_or(options.error);
     return options;
 }
 
@@ -50,28 +40,15 @@ void checkOutput(const Arguments& arguments) {
     expectWritable(arguments.output);
 }
 
-Conversion convert(Asset& asset, const LayoutOptions& options, bool quiet) {
+Conversion convert(Asset& asset, const LayoutOptions& options, const Arguments& arguments) {
     std::unique_ptr<Progress> progress; // once the work is known
     const auto report = [&](uint64_t done, uint64_t total) {
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
-        if (!progress) progress = std::make_unique<Progress>("converting", total, "vertices", quiet);
+        if (!progress)
+            progress = std::make_unique<Progress>("converting", total, "vertices", arguments.quiet);
         progress->update(done);
     };
-    return convertLayout(asset, options, report);
-}
-
-// What was asked for may be beyond what a layout can do.
-void warnOfMisses(const LayoutOptions& options, const Conversion& conversion, double bytesPerVertex) {
-    constexpr double kHardlyMore = 1.05;
-    if (options.bytesPerVertex && bytesPerVertex > *options.bytesPerVertex)
-        spdlog::warn("a budget of {} bytes a vertex is less than scales alone take; it has {:.0f}",
-                     *options.bytesPerVertex, bytesPerVertex);
-    if (conversion.error && !options.bytesPerVertex && *conversion.error > kHardlyMore * options.error)
-        spdlog::warn(
-            "an error of {:.2f} % is beyond this layout's precision; rows of many coefficients keep more",
-            100 * options.error);
-    if (conversion.error && *conversion.error > 0.5)
-        spdlog::warn("more than half of what tells vertices apart is lost; ask for more bytes");
+    return convertLayout(asset, options, report, arguments.coefficients);
 }
 
 void run(const Arguments& arguments) {
@@ -83,7 +60,7 @@ void run(const Arguments& arguments) {
         if (!KeptVisibility(arguments.input).key().empty())
             spdlog::warn("{}: its visibility is not copied; rebake from the file that has it",
                          arguments.input.string());
-        const Conversion conversion = convert(asset, options, arguments.quiet);
+        const Conversion conversion = convert(asset, options, arguments);
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
         writeAsset(arguments.output, asset);
         const double vertices = double(std::max<uint64_t>(1, verticesOf(asset)));
@@ -91,9 +68,9 @@ void run(const Arguments& arguments) {
             conversion.error ? fmt::format(", error {:.2f} %", 100 * *conversion.error) : std::string();
         spdlog::info("{}: {:.1f} MB; transport in {}: {:.0f} bytes a vertex in memory, {:.0f} before{}",
                      arguments.output.string(), double(std::filesystem::file_size(arguments.output)) * 1e-6,
-                     arguments.layout, double(conversion.bytesAfter) / vertices,
+                     layoutName(options.layout), double(conversion.bytesAfter) / vertices,
                      double(conversion.bytesBefore) / vertices, error);
-        warnOfMisses(options, conversion, double(conversion.bytesAfter) / vertices);
+        if (asset.layout) warnOfMisses(*asset.layout, double(conversion.bytesAfter) / vertices);
     } catch (const BakeStopped&) {
         spdlog::warn("stopped; {} is as it was", arguments.output.string());
         throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
@@ -109,31 +86,7 @@ void addConvertCommand(CLI::App& program) {
     command->add_option("-o,--output", arguments->output, "Bake to write (.relume)")
         ->type_name("FILE")
         ->required();
-    std::vector<std::string> names;
-    for (size_t i = 0; i < std::variant_size_v<Transport>; i++)
-        names.push_back(layoutName(TransportLayout(i)));
-    command
-        ->add_option("--layout", arguments->layout,
-                     "rows: each vertex its own coefficients; clusters: 32 vertices share which; bases: 256 "
-                     "vertices share basis vectors, smallest and fastest")
-        ->check(CLI::IsMember(names))
-        ->type_name("LAYOUT")
-        ->capture_default_str();
-    CLI::Option* budget =
-        command
-            ->add_option("--budget", arguments->budget,
-                         "Bytes of transport per vertex, in memory, that the least error is "
-                         "sought within")
-            ->check(between(1, float(kMostBytes)))
-            ->type_name("BYTES");
-    command
-        ->add_option(
-            "--error", arguments->error,
-            "Error of transport that the fewest bytes are sought for, as light weighs it: 0.05 is 5 %")
-        ->check(between(1e-6f, 1))
-        ->type_name("ERROR")
-        ->default_str(fmt::format("{}", kDefaultLayoutError))
-        ->excludes(budget);
+    arguments->layout.add(*command, true);
     command
         ->add_option("-N,--coefficients", arguments->coefficients,
                      "Most coefficients of a row, in rows; as FILE if it has fewer")

@@ -19,6 +19,7 @@ struct Arguments {
     std::vector<std::string> materials;
     bool separate = false;
     FactorizationArguments factorization;
+    LayoutArguments layout;
     std::optional<int> coefficients, mapSize, faceSize, transportSamples;
     BakeJob job;
 };
@@ -81,6 +82,7 @@ BakeOptions optionsFor(const Asset& asset, Arguments& arguments) {
     arguments.factorization.resolve(options.factorization, options.mapping);
     options.factorization = arguments.factorization.options;
     options.mapping = arguments.factorization.mapping;
+    options.layout = arguments.layout.resolve(options.layout);
     options.coefficients = arguments.coefficients.value_or(options.coefficients);
     options.mapSize = arguments.mapSize.value_or(options.mapSize);
     options.faceSize = arguments.faceSize.value_or(options.faceSize);
@@ -136,9 +138,10 @@ void addRebakeCommand(CLI::App& program) {
     command->add_flag("--separate", arguments->separate,
                       "Bake several materials each on its own: larger, more exact, swapped but not blended");
     arguments->factorization.add(*command, std::nullopt);
+    arguments->layout.add(*command, false);
     command
         ->add_option("-N,--coefficients", arguments->coefficients,
-                     "Wavelet coefficients kept per vertex and term")
+                     "Wavelet coefficients found per vertex and term")
         ->type_name("N");
     command->add_option("--map-size", arguments->mapSize, "Side of a light or view map")->type_name("S");
     command->add_option("--face-size", arguments->faceSize, "Side of a face of the lighting cube: 32 or 64")

@@ -96,13 +96,22 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
     }
 }
 
-void BakeArguments::add(CLI::App& command) {
+void BakeArguments::add(CLI::App& command, bool takesLayout) {
     mFactorization.add(command, options.factorization.terms);
+    const int ofRows = defaultCoefficients(TransportLayout::Rows);
+    if (takesLayout)
+        mLayout.add(command, true);
+    else
+        options.layout = {.layout = TransportLayout::Rows};
     command
-        .add_option("-N,--coefficients", options.coefficients,
-                    "Wavelet coefficients kept per vertex and term")
+        .add_option("-N,--coefficients", mCoefficients,
+                    takesLayout
+                        ? "Wavelet coefficients found per vertex and term: what rows keep, and what other "
+                          "layouts are made from"
+                        : "Wavelet coefficients kept per vertex and term")
         ->type_name("N")
-        ->capture_default_str();
+        ->default_str(takesLayout ? fmt::format("{}, of rows {}", options.coefficients, ofRows)
+                                  : fmt::format("{}", ofRows));
     command.add_option("--map-size", options.mapSize, "Side of a light or view map")
         ->type_name("S")
         ->capture_default_str();
@@ -134,6 +143,8 @@ void BakeArguments::add(CLI::App& command) {
 
 void BakeArguments::resolve() {
     mFactorization.resolve();
+    options.layout = mLayout.resolve(options.layout);
+    options.coefficients = mCoefficients.value_or(defaultCoefficients(options.layout.layout));
     options.factorization = mFactorization.options;
     options.mapping = mFactorization.mapping;
     options.visibilityMethod.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/relume/factorization_arguments.h"
+#include "apps/relume/layout_arguments.h"
 #include "engine/scene/ground.h"
 #include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
@@ -46,12 +47,15 @@ struct SceneArguments {
 struct BakeArguments {
     BakeOptions options;
 
-    void add(CLI::App& command);
+    // `takesLayout`: without, all is kept in rows.
+    void add(CLI::App& command, bool takesLayout = true);
     // Fills what needs parsing and validates. Throws UsageError.
     void resolve();
 
   private:
     FactorizationArguments mFactorization;
+    LayoutArguments mLayout;
+    std::optional<int> mCoefficients;
     std::string mOccluder = "full", mVisibility = "traced";
 };
 

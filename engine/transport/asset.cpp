@@ -13,10 +13,19 @@ Bounds boundsOf(const Asset& asset) {
 }
 
 uint32_t blockVertices(const Asset& asset) {
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets) {
+            if (layoutOf(set.transport) == TransportLayout::Bases) return kBasisVertices;
+            if (layoutOf(set.transport) == TransportLayout::Clusters) return kClusterVertices;
+        }
     int terms = 1;
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets) terms = std::max(terms, set.brdf.terms);
     return blockVertices(asset.coefficients, terms);
+}
+
+uint32_t visibilityRunVertices(const Asset& asset) {
+    return std::min(blockVertices(asset), kMostBlockVertices);
 }
 
 } // namespace relume

@@ -56,6 +56,15 @@ struct Provenance {
     std::optional<float> bakedShare = std::nullopt;
 };
 
+// How transport that is not in rows was cut down to its layout: what was asked for, one of both, and what
+// came of it. Errors are as light weighs them, root mean square, relative to how far a set's vertices are
+// from their mean (precompute/layout/cluster_matrix.h).
+struct LayoutRecord {
+    std::optional<double> wantedBytes; // per vertex, in memory
+    std::optional<double> wantedError;
+    double error = 0; // against the rows that it was made from
+};
+
 struct Asset {
     int faceSize = 64;           // F: side of a face of the lighting cube
     int visibilitySize = 256;    // side of a face of the visibility cube
@@ -64,15 +73,20 @@ struct Asset {
     float visibilityOffset = 0;  // distance a vertex was lifted along its normal
     float quantisationError = 0; // relative L2 over all rows, as measured during the bake
     float truncationError = 0;   // relative L2 over all rows lost by keeping N, as measured during the bake
-    Mesh occluder;               // Positions and triangles that cast the shadows
+    std::optional<LayoutRecord> layout = std::nullopt; // none: rows, or it was made before this was recorded
+    Mesh occluder;                                     // Positions and triangles that cast the shadows
     std::vector<AssetPart> parts;
     Provenance provenance;
 };
 
 Bounds boundsOf(const Asset& asset);
 
-// Vertices of a block of this asset (transport_chunk.h).
+// Vertices of a block of this asset: what is baked, kept in a checkpoint and written as a run. A cluster,
+// where there are any; of rows as transport_chunk.h says.
 uint32_t blockVertices(const Asset& asset);
+
+// Vertices of a run of kept visibility: a block, or a part of it.
+uint32_t visibilityRunVertices(const Asset& asset);
 
 // Bytes of the file. The same asset gives the same bytes.
 std::vector<std::byte> encodeAsset(const Asset& asset);

@@ -13,8 +13,9 @@ constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), k
 constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
-constexpr ChunkTag kTransport = chunkTag("TRAN"), kClusters = chunkTag("TRCL"),
-                   kBases = chunkTag("TRBS"); // by layout
+constexpr ChunkTag kTransport = chunkTag("TRAN"), kClusters = chunkTag("TRCL"), kBases = chunkTag("TRBS");
+constexpr ChunkTag kLayoutTags[] = {kTransport, kClusters, kBases}; // in the order of TransportLayout
+static_assert(std::size(kLayoutTags) == std::variant_size_v<Transport>);
 constexpr ChunkTag kVisibility = chunkTag("visb");
 // In a shard of a bake only.
 constexpr ChunkTag kShard = chunkTag("SHRD"), kBlockLosses = chunkTag("LOSS");

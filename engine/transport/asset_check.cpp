@@ -46,6 +46,13 @@ void checkSettings(const Asset& asset, const std::string& name) {
     expect(isMagnitude(asset.visibilityOffset) && isMagnitude(asset.quantisationError) &&
                isMagnitude(asset.truncationError),
            name, "an offset and errors that are finite and not negative");
+    if (asset.layout) {
+        const auto isPositive = [](double value) { return std::isfinite(value) && value > 0; };
+        expect(isPositive(asset.layout->wantedBytes.value_or(1)) &&
+                   isPositive(asset.layout->wantedError.value_or(1)) && std::isfinite(asset.layout->error) &&
+                   asset.layout->error >= 0,
+               name, "a layout's error and what was asked of it that are finite and not negative");
+    }
     const float share = asset.provenance.bakedShare.value_or(1);
     expect(share >= 0 && share <= 1, name, "a share of baked vertices of 0 to 1");
 }

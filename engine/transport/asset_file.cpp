@@ -128,13 +128,21 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint
 
 void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t) {
     for (size_t cluster = 0; cluster < transport.clusters.size(); cluster++)
-        file.add(kBases, owner, uint32_t(cluster), encodeBasisCluster(transport, cluster));
+        file.add(kBases, owner, uint32_t(cluster),
+                 encodeBasisCluster(transport.clusters[cluster], uint32_t(cluster),
+                                    transport.verticesOf(cluster)));
 }
 
 void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,
                    BasisTransport& transport) {
-    for (const ChunkEntry& run : file.find(kBases, owner))
-        decodeBasisCluster(file.load(run), coefficients, whereOf(file, run), transport);
+    for (const ChunkEntry& run : file.find(kBases, owner)) {
+        const size_t next = transport.clusters.size();
+        if (next >= transport.clusterCount())
+            throw Error("{}: expected {} clusters, found more", whereOf(file, run), transport.clusterCount());
+        transport.clusters.push_back(decodeBasisCluster(file.load(run), uint32_t(next),
+                                                        transport.verticesOf(next), transport.kinds.size(),
+                                                        coefficients, whereOf(file, run)));
+    }
     uint64_t found = 0;
     for (const BasisCluster& cluster : transport.clusters) found += cluster.columns();
     if (transport.clusters.size() != transport.clusterCount() || found != columns)
@@ -163,10 +171,6 @@ void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {
     set.brdf.eigenvalues =
         readArray<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(set.brdf.terms));
 }
-
-// In the order of TransportLayout.
-constexpr ChunkTag kLayoutTags[] = {kTransport, kClusters, kBases};
-static_assert(std::size(kLayoutTags) == std::variant_size_v<Transport>);
 
 // A set has transport in its own layout alone.
 void expectNoOtherLayout(const ChunkFile& file, uint32_t set, TransportLayout own) {

@@ -12,7 +12,8 @@ namespace relume {
 
 // Adds all chunks of a valid asset in file order. Its transport may be missing: `addTransport(set)` adds that
 // of a set, counted over all parts, as runs of blockVertices(asset) vertices with `setEntries[set]` entries
-// in all. With a `visibilityKey` the caller adds the chunks of visibility behind these.
+// (entriesOf() of transport.h) in all. With a `visibilityKey` the caller adds the chunks of visibility behind
+// these.
 void addChunks(ChunkWriter& file, const Asset& asset, std::span<const uint64_t> setEntries,
                const std::function<void(uint32_t set)>& addTransport, const std::string& visibilityKey = {});
 

@@ -90,6 +90,12 @@ Json describeApproximations(const Asset& asset) {
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             list.push_back(fmt::format("layout of {}: {}", part.name, describeLayout(set.transport)));
+    if (asset.layout)
+        list.push_back(fmt::format(
+            "error of the layout: {:.2f} % of what tells vertices apart, {}", 100 * asset.layout->error,
+            asset.layout->wantedBytes
+                ? fmt::format("{:g} bytes a vertex being asked for", *asset.layout->wantedBytes)
+                : fmt::format("{:g} % being asked for", 100 * asset.layout->wantedError.value_or(0))));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}{}", part.name, set.brdf.terms,
@@ -101,6 +107,14 @@ Json describeApproximations(const Asset& asset) {
     if (asset.visibilityOffset > 0)
         list.push_back(fmt::format("visibility: taken {} above each vertex", asset.visibilityOffset));
     return list;
+}
+
+Json describeLayout(const LayoutRecord& layout) {
+    Json json = Json::object();
+    if (layout.wantedBytes) json["wanted_bytes_per_vertex"] = *layout.wantedBytes;
+    if (layout.wantedError) json["wanted_error"] = *layout.wantedError;
+    json["error"] = layout.error;
+    return json;
 }
 
 Json describeTotal(const Asset& asset) {
@@ -131,6 +145,7 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t v
                  {"visibility_offset", asset.visibilityOffset},
                  {"truncation_error", asset.truncationError},
                  {"quantization_error", asset.quantisationError},
+                 {"layout_error", asset.layout ? describeLayout(*asset.layout) : Json()},
                  {"approximations", describeApproximations(asset)},
                  {"occluder_triangles", asset.occluder.triangleCount()},
                  {"total", total},

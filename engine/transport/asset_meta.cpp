@@ -34,13 +34,14 @@ class Reader {
         return int(whole(key, uint64_t(low), uint64_t(high)));
     }
 
-    float real(const char* key) const {
+    double number(const char* key) const {
         const Json& value = member(key);
         if (!value.is_number() ||
             !(std::abs(value.get<double>()) <= double(std::numeric_limits<float>::max())))
             throw Error("{}: \"{}\": expected a number", mWhere, key);
-        return value.get<float>();
+        return value.get<double>();
     }
+    float real(const char* key) const { return float(number(key)); }
 
     std::string text(const char* key) const {
         const Json& value = member(key);
@@ -98,6 +99,22 @@ Json setJson(const MaterialSet& set, uint64_t entries) {
                 {{"term", term}, {"red", color.x}, {"green", color.y}, {"blue", color.z}});
     }
     return json;
+}
+
+Json layoutJson(const LayoutRecord& layout) {
+    Json json = Json::object();
+    if (layout.wantedBytes) json["wantedBytes"] = *layout.wantedBytes;
+    if (layout.wantedError) json["wantedError"] = *layout.wantedError;
+    json["error"] = layout.error;
+    return json;
+}
+
+LayoutRecord readLayout(const Reader& in) {
+    LayoutRecord layout;
+    if (in.has("wantedBytes")) layout.wantedBytes = in.number("wantedBytes");
+    if (in.has("wantedError")) layout.wantedError = in.number("wantedError");
+    layout.error = in.number("error");
+    return layout;
 }
 
 Json textureJson(const Texture& texture) {
@@ -210,6 +227,7 @@ std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries,
           {"device", asset.provenance.device},
           {"options", asset.provenance.options},
           {"inputs", asset.provenance.inputs}}}};
+    if (asset.layout) meta["layout"] = layoutJson(*asset.layout);
     if (!visibilityKey.empty()) meta["visibilityKey"] = visibilityKey;
     const std::optional<float> share = asset.provenance.bakedShare;
     if (share) meta["provenance"]["bakedShare"] = *share;
@@ -234,6 +252,7 @@ AssetMeta decodeMeta(std::string_view text, const std::string& name) {
     meta.asset.visibilityOffset = in.real("visibilityOffset");
     meta.asset.quantisationError = in.real("quantisationError");
     meta.asset.truncationError = in.real("truncationError");
+    if (in.has("layout")) meta.asset.layout = readLayout(in.object("layout"));
     const Reader occluder = in.object("occluder");
     meta.occluderVertices = occluder.whole("vertices", 0, kAnyCount);
     meta.occluderTriangles = occluder.whole("triangles", 0, kAnyCount);

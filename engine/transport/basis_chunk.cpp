@@ -25,9 +25,7 @@ void appendSigned(std::span<const std::byte> bytes, std::vector<int8_t>& values)
 
 } // namespace
 
-std::vector<std::byte> encodeBasisCluster(const BasisTransport& transport, size_t number) {
-    const BasisCluster& cluster = transport.clusters[number];
-    const size_t vertices = transport.verticesOf(number);
+std::vector<std::byte> encodeBasisCluster(const BasisCluster& cluster, uint32_t number, uint32_t vertices) {
     std::vector<uint16_t> gaps;
     uint32_t next = 0; // the smallest index that may come
     for (const uint32_t index : cluster.indices) {
@@ -37,8 +35,8 @@ std::vector<std::byte> encodeBasisCluster(const BasisTransport& transport, size_
     std::vector<uint32_t> scales;
     for (const float scale : cluster.scales) scales.push_back(std::bit_cast<uint32_t>(scale));
     ByteWriter out;
-    out.put(uint32_t(number));
-    out.put(uint32_t(vertices));
+    out.put(number);
+    out.put(vertices);
     out.put(uint32_t(cluster.columns()));
     out.put(cluster.components);
     out.putPlanes<uint16_t>(cluster.counts);
@@ -54,19 +52,26 @@ std::vector<std::byte> encodeBasisCluster(const BasisTransport& transport, size_
     return out.take();
 }
 
-void decodeBasisCluster(std::span<const std::byte> raw, uint32_t coefficients, const std::string& where,
-                        BasisTransport& transport) {
+uint32_t basisColumns(std::span<const std::byte> raw, const std::string& where) {
     ByteReader in(raw, where);
-    const auto number = in.get<uint32_t>(), vertices = in.get<uint32_t>(), columns = in.get<uint32_t>();
+    in.take(2 * sizeof(uint32_t));
+    return in.get<uint32_t>();
+}
+
+BasisCluster decodeBasisCluster(std::span<const std::byte> raw, uint32_t number, uint32_t vertices,
+                                size_t kinds, uint32_t coefficients, const std::string& where) {
+    ByteReader in(raw, where);
+    const auto foundNumber = in.get<uint32_t>(), foundVertices = in.get<uint32_t>();
+    const auto columns = in.get<uint32_t>();
     BasisCluster cluster;
     cluster.components = in.get<uint32_t>();
-    const size_t next = transport.clusters.size();
-    if (next >= transport.clusterCount() || number != next || vertices != transport.verticesOf(next))
-        throw Error("{}: cluster {} of {} vertices does not follow those before it", where, number, vertices);
+    if (foundNumber != number || foundVertices != vertices)
+        throw Error("{}: expected cluster {} of {} vertices, found {} of {}", where, number, vertices,
+                    foundNumber, foundVertices);
     if (columns > kMostBasisColumns || cluster.components > kMostBasisComponents)
         throw Error("{}: expected at most {} columns and {} components, found {} and {}", where,
                     kMostBasisColumns, kMostBasisComponents, columns, cluster.components);
-    cluster.counts = in.getPlanes<uint16_t>(transport.kinds.size());
+    cluster.counts = in.getPlanes<uint16_t>(kinds);
     size_t scales = 0;
     for (const size_t count : cluster.counts) scales += count;
     const size_t basis = size_t(columns) * cluster.components;
@@ -79,8 +84,8 @@ void decodeBasisCluster(std::span<const std::byte> raw, uint32_t coefficients, c
     appendSigned(transposed(in.take(basis), cluster.components, columns), cluster.basis);
     for (const size_t count : cluster.counts)
         appendSigned(transposed(in.take(count * vertices), count, vertices), cluster.weights);
-    checkCluster(cluster, vertices, transport.kinds.size(), coefficients, where);
-    transport.clusters.push_back(std::move(cluster));
+    checkCluster(cluster, vertices, kinds, coefficients, where);
+    return cluster;
 }
 
 } // namespace relume

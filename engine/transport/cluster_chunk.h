@@ -20,10 +20,10 @@ constexpr uint32_t kMostClusterColumns = 48 * 1024;
 std::vector<std::byte> encodeCluster(const ClusteredTransport& transport, uint32_t cluster,
                                      uint32_t offset = 0);
 
-// Appends a cluster to `transport`, whose vertices and terms are set and whose columnStarts hold one more
-// than the groups read so far. Columns must have indices below `coefficients`, and must not pass
-// `columnLimit` in all. `where` names the chunk in errors. Throws Error.
+// Appends a cluster to `transport`, whose vertices and terms are set, whose columnStarts hold one more than
+// the groups read so far, and whose cluster 0 is cluster `offset` of its set. Columns must have indices below
+// `coefficients`, and must not pass `columnLimit` in all. `where` names the chunk in errors. Throws Error.
 void decodeCluster(std::span<const std::byte> raw, uint32_t coefficients, size_t columnLimit,
-                   const std::string& where, ClusteredTransport& transport);
+                   const std::string& where, ClusteredTransport& transport, uint32_t offset = 0);
 
 } // namespace relume

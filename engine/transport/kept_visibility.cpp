@@ -25,7 +25,7 @@ KeptVisibility::KeptVisibility(const std::filesystem::path& path)
 
 KeptVisibility::KeptVisibility(ByteSource source, const std::string& name)
     : mFile(std::move(source), name), mMeta(readMeta(mFile, AssetFileKind::Bake)),
-      mBlock(blockVertices(mMeta.asset)) {
+      mRun(visibilityRunVertices(mMeta.asset)) {
     for (uint32_t part = 0; part < mMeta.sizes.size(); part++) mRuns.push_back(mFile.find(kVisibility, part));
 }
 
@@ -37,7 +37,7 @@ Asset KeptVisibility::skeleton() const {
 }
 
 uint32_t KeptVisibility::runVertices(uint32_t part, uint32_t run) const {
-    return uint32_t(std::min<uint64_t>(mBlock, mMeta.sizes[part].vertices - uint64_t(run) * mBlock));
+    return uint32_t(std::min<uint64_t>(mRun, mMeta.sizes[part].vertices - uint64_t(run) * mRun));
 }
 
 void KeptVisibility::verify(const Asset& asset) const {
@@ -49,7 +49,7 @@ void KeptVisibility::verify(const Asset& asset) const {
     if (size() % kSmallestKeptVisibility != 0)
         throw Error("{}: visibility of {} texels a side cannot be kept", mFile.name(), size());
     for (uint32_t part = 0; part < mRuns.size(); part++) {
-        const uint64_t expected = (mMeta.sizes[part].vertices + mBlock - 1) / mBlock;
+        const uint64_t expected = (mMeta.sizes[part].vertices + mRun - 1) / mRun;
         if (mRuns[part].size() != expected)
             throw Error("{}: visibility of part {}: expected {} chunks, found {}; the file is damaged",
                         mFile.name(), part, expected, mRuns[part].size());
@@ -81,7 +81,7 @@ std::vector<uint32_t> KeptVisibility::bits(uint32_t part, uint32_t first, uint32
     std::vector<uint32_t> found;
     found.reserve((end - first) * words);
     while (first < end) {
-        const uint32_t number = first / mBlock, start = first - number * mBlock;
+        const uint32_t number = first / mRun, start = first - number * mRun;
         const std::vector<uint32_t>& bits = run(part, number);
         const uint32_t count = std::min(end - first, runVertices(part, number) - start);
         const auto from = bits.begin() + ptrdiff_t(start * words);

@@ -39,7 +39,7 @@ class KeptVisibility {
 
     ChunkFile mFile;
     AssetMeta mMeta;
-    uint32_t mBlock;                            // vertices
+    uint32_t mRun;                              // vertices
     std::vector<std::vector<ChunkEntry>> mRuns; // per part
     struct Run {
         uint32_t part, run;

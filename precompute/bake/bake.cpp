@@ -3,11 +3,14 @@
 #include "engine/base/check.h"
 #include "engine/base/file.h"
 #include "precompute/bake/checkpoint.h"
+#include "precompute/bake/layout_sample.h"
 #include "precompute/bake/preview.h"
 #include "precompute/bake/shard_file.h"
+#include "precompute/bake/storing_sink.h"
 #include "precompute/visibility/faster_visibility.h"
 
 #include <chrono>
+#include <map>
 #include <numeric>
 #include <spdlog/spdlog.h>
 
@@ -24,52 +27,30 @@ BakeTimes timesOf(const BakePlan& plan) {
     return times;
 }
 
-// Rows at the end of those before: takes the blocks in order.
-class MemorySink : public BakeSink {
+// Stored blocks in memory.
+class MemoryBlocks : public StoredBlocks {
   public:
-    explicit MemorySink(const BakePlan& plan) : mPlan(plan) {
-        for (const AssetPart& part : plan.asset.parts)
-            for (const MaterialSet& set : part.sets) {
-                mTransports.push_back(rowsOf(set.transport));
-                mTransports.back().vertices = 0;
-                mTransports.back().rowStarts = {0};
-            }
+    void keep(uint32_t block, StoredBlock stored) {
+        std::vector<ChunkEntry>& entries = mEntries[block];
+        for (size_t i = 0; i < stored.chunks.size(); i++) {
+            entries.push_back(stored.chunks[i].entry);
+            entries.back().offset = i; // there
+        }
+        mBlocks[block] = std::move(stored);
     }
 
-    void take(uint32_t block, BakedBlock baked) override {
-        mLosses.add(baked.losses());
-        const uint32_t firstSet = mPlan.firstSet[mPlan.blocks[block].part];
-        for (size_t set = 0; set < baked.sets.size(); set++)
-            append(mTransports[firstSet + set], baked.sets[set].transport);
-    }
-
-    // The plan's asset, complete.
-    Asset finish(Asset asset) {
-        auto next = mTransports.begin();
-        for (AssetPart& part : asset.parts)
-            for (MaterialSet& set : part.sets) set.transport = std::move(*next++);
-        setErrors(mLosses, asset);
-        return asset;
+    const std::vector<ChunkEntry>& chunks(uint32_t block) const override { return mEntries.at(block); }
+    const TransportLosses& losses(uint32_t block) const override { return mBlocks.at(block).losses; }
+    std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override {
+        return mBlocks.at(block).chunks[entry.offset].bytes;
     }
 
   private:
-    const BakePlan& mPlan;
-    std::vector<SparseTransport> mTransports; // over all parts
-    TransportLosses mLosses;
+    std::map<uint32_t, StoredBlock> mBlocks;
+    std::map<uint32_t, std::vector<ChunkEntry>> mEntries;
 };
 
-class CheckpointSink : public BakeSink {
-  public:
-    CheckpointSink(const BakePlan& plan, Checkpoint& checkpoint) : mPlan(plan), mCheckpoint(checkpoint) {}
-
-    void take(uint32_t block, BakedBlock baked) override {
-        mCheckpoint.append(block, storeBlock(mPlan, block, baked));
-    }
-
-  private:
-    const BakePlan& mPlan;
-    Checkpoint& mCheckpoint;
-};
+bool needsScale(const BakePlan& plan) { return plan.options.layout.layout != TransportLayout::Rows; }
 
 // Visibility in a file that may hold any, or not even be one.
 std::unique_ptr<KeptVisibility> findKept(const std::filesystem::path& path) {
@@ -120,10 +101,13 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     if (outputOptions.previews || std::filesystem::exists(interpolatedPath(output)))
         interpolated.emplace(interpolatedPath(output));
     checkpoint.resume(plan);
-    BakeSummary summary{0, 0, timesOf(plan)};
+    plan.scale = checkpoint.scale();
+    BakeSummary summary;
+    summary.times = timesOf(plan);
+    const auto isOwn = [&](uint32_t block) { return !shard || shard->has(block); };
     std::vector<uint32_t> own, missing;
     for (uint32_t block = 0; block < plan.blocks.size(); block++) {
-        if (shard && !shard->has(block)) continue;
+        if (!isOwn(block)) continue;
         own.push_back(block);
         summary.vertices += plan.blocks[block].count();
         if (checkpoint.has(block))
@@ -145,9 +129,21 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
         file.commit();
     };
     const auto writeWhole = [&](const StoredBlocks& blocks) {
-        writeFile([&](const ChunkWriter::Output& write) { writeBake(plan, blocks, write); });
+        writeFile([&](const ChunkWriter::Output& write) { summary.bytes = writeBake(plan, blocks, write); });
     };
-    CheckpointSink sink(plan, checkpoint);
+    StoringSink sink(plan, [&](uint32_t block, StoredBlock stored) { checkpoint.append(block, stored); });
+    if (needsScale(plan) && !plan.scale && !missing.empty()) {
+        std::vector<SampledBlock> sample = bakeSample(device, plan, limits, observer, summary.times, kept);
+        checkpoint.append(*plan.scale);
+        for (SampledBlock& sampled : sample)
+            if (isOwn(sampled.block)) sink.take(sampled.block, std::move(sampled.baked));
+        sink.finish();
+        std::erase_if(missing, [&](uint32_t block) { return checkpoint.has(block); });
+        if (missing.empty()) {
+            observer.stage(BakeStage::Baking, "");
+            observer.progress({.vertices = summary.vertices, .done = summary.vertices, .fraction = 1});
+        }
+    }
     if (outputOptions.previews && !missing.empty()) {
         interpolated->resume(plan);
         bakeWithPreviews(device, plan, missing, limits, checkpoint, *interpolated, sink, writeWhole, observer,
@@ -159,6 +155,8 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
         writeFile([&](const ChunkWriter::Output& write) { writeShard(plan, *shard, checkpoint, write); });
     else
         writeWhole(checkpoint);
+    summary.kept = plan.options.layout.layout;
+    summary.layout = plan.asset.layout;
     checkpoint.remove();
     if (interpolated) interpolated->remove();
     return summary;
@@ -179,13 +177,30 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     BakePlan plan = planBake(device, std::move(scene), inMemory, observer);
     if (!options.visibilityMethod) setVisibility(plan, fasterVisibility(device, plan.asset));
     BakeTimes times = timesOf(plan);
-    std::vector<uint32_t> blocks(plan.blocks.size());
-    std::iota(blocks.begin(), blocks.end(), 0u);
-    MemorySink sink(plan);
-    bakeBlocks(device, plan, blocks, blocks, {}, sink, observer, times);
+    std::vector<uint32_t> all(plan.blocks.size());
+    std::iota(all.begin(), all.end(), 0u);
+    std::vector<uint32_t> missing = all;
+    MemoryBlocks blocks;
+    StoringSink sink(plan,
+                     [&](uint32_t block, StoredBlock stored) { blocks.keep(block, std::move(stored)); });
+    if (needsScale(plan))
+        for (SampledBlock& sampled : bakeSample(device, plan, {}, observer, times, nullptr)) {
+            std::erase(missing, sampled.block);
+            sink.take(sampled.block, std::move(sampled.baked));
+        }
+    sink.finish();
+    if (missing.empty()) {
+        observer.stage(BakeStage::Baking, "");
+        observer.progress({.vertices = plan.vertices(), .done = plan.vertices(), .fraction = 1});
+    }
+    bakeBlocks(device, plan, missing, all, {}, sink, observer, times);
+    std::vector<std::byte> file;
+    writeBake(plan, blocks,
+              [&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+    Asset asset = decodeAsset(file, "the bake");
     times.total = std::chrono::duration<double>(Clock::now() - start).count();
     if (timesOut) *timesOut = times;
-    return sink.finish(std::move(plan.asset));
+    return asset;
 }
 
 std::filesystem::path checkpointPath(const std::filesystem::path& output) {

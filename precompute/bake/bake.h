@@ -24,6 +24,9 @@ struct OutputOptions {
 struct BakeSummary {
     uint64_t vertices = 0, resumed = 0; // of the shard, if any; resumed: found in the checkpoint
     BakeTimes times;                    // of this run
+    uint64_t bytes = 0;                 // of transport in memory; 0 of a shard
+    TransportLayout kept{};
+    std::optional<LayoutRecord> layout; // as the asset has it
 };
 
 // The checkpoint of a bake to `output`.

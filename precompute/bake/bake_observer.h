@@ -8,7 +8,7 @@
 
 namespace relume {
 
-enum class BakeStage { Occluder, Factorisation, Preview, Baking, Writing };
+enum class BakeStage { Occluder, Factorisation, Sample, Preview, Baking, Writing };
 
 // Where a bake stands.
 struct BakeStatus {
@@ -28,12 +28,26 @@ class BakeObserver {
     // Before the first block: vertices that a checkpoint holds already, of how many.
     virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
     // After every few tenths of a second of baking; the last time with done == vertices. In
-    // the stage Preview of the vertices that it takes alone.
+    // the stages Sample and Preview of the vertices that these take alone.
     virtual void progress(const BakeStatus&) {}
     // A preview was written to the output, with such a share of the vertices baked.
     virtual void preview(double /*bakedShare*/) {}
     // Asked between submissions. If true, the bake ends with BakeStopped.
     virtual bool wantsStop() { return false; }
+};
+
+// Tells of a bake within a bake as of a stage of its own.
+class StageObserver : public BakeObserver {
+  public:
+    StageObserver(BakeObserver& observer, BakeStage stage) : mObserver(observer), mStage(stage) {}
+
+    void stage(BakeStage, const std::string& part) override { mObserver.stage(mStage, part); }
+    void progress(const BakeStatus& status) override { mObserver.progress(status); }
+    bool wantsStop() override { return mObserver.wantsStop(); }
+
+  private:
+    BakeObserver& mObserver;
+    BakeStage mStage;
 };
 
 // The bake was asked to stop. What was finished is in the checkpoint, where there is one.

@@ -18,6 +18,8 @@ static void expectOneOf(const char* option, int value, const char* names, std::i
         throw UsageError("{}: expected {}, found {}", option, names, value);
 }
 
+int defaultCoefficients(TransportLayout layout) { return layout == TransportLayout::Rows ? 96 : 384; }
+
 void BakeOptions::validate() const {
     expectRange("--terms", factorization.terms, 1, kMaxTerms);
     expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);

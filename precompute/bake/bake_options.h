@@ -2,6 +2,7 @@
 #pragma once
 
 #include "precompute/brdf/factorization.h"
+#include "precompute/layout/layout_options.h"
 #include "precompute/visibility/visibility.h"
 
 #include <cstddef>
@@ -9,11 +10,15 @@
 
 namespace relume {
 
+// N where none is named: what rows of the paper have; what others are made from may be as good as it can.
+int defaultCoefficients(TransportLayout layout);
+
 struct BakeOptions {
+    LayoutOptions layout;
     // K, 1 to 32, and how they are found. At most so many: a diffuse part needs a single one.
     FactorizationOptions factorization;
-    int coefficients = 96; // N, 1 to 6 F²
-    int mapSize = 48;      // S, 4 to 64
+    int coefficients = defaultCoefficients(TransportLayout::Bases); // N, 1 to 6 F²
+    int mapSize = 48;                                               // S, 4 to 64
     DiskMapping mapping = DiskMapping::EqualArea;
     int faceSize = 64;        // F: 32 or 64
     int visibilitySize = 256; // 64, 128 or 256

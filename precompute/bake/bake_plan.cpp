@@ -10,6 +10,8 @@
 #include "precompute/bake/vertex_order.h"
 #include "precompute/bake/visibility_key.h"
 #include "precompute/brdf/material_factory.h"
+#include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/same_sums.h"
 #include "precompute/visibility/occluder.h"
 
 #include <chrono>
@@ -52,13 +54,18 @@ nlohmann::json describeInputs(const Scene& scene) {
     return inputs;
 }
 
-// With transport that has no rows yet.
-void setMaterials(AssetPart& part, std::vector<MaterialSet> sets) {
-    for (MaterialSet& set : sets) {
-        rowsOf(set.transport).vertices = uint32_t(part.mesh.vertexCount());
-        rowsOf(set.transport).terms = uint32_t(set.brdf.terms);
-    }
-    part.sets = std::move(sets);
+// Transport that is yet to be baked, in the layout that it will have.
+void prepareTransport(BakePlan& plan) {
+    const LayoutOptions& options = plan.options.layout;
+    plan.asset.layout.reset();
+    if (options.layout != TransportLayout::Rows) plan.asset.layout = recordOf(options, 0);
+    for (AssetPart& part : plan.asset.parts)
+        for (MaterialSet& set : part.sets) {
+            set.transport =
+                emptyTransport(options.layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
+            if (auto* bases = std::get_if<BasisTransport>(&set.transport))
+                bases->kinds = basisKinds(set.brdf);
+        }
 }
 
 void makeParts(std::vector<Part> parts, BakePlan& plan) {
@@ -67,19 +74,16 @@ void makeParts(std::vector<Part> parts, BakePlan& plan) {
     for (Part& part : parts) {
         std::vector<MaterialSet> sets =
             materials.make(part.material, part.materialFolder, part.baseColor.has_value());
-        plan.asset.parts.push_back({part.name,
-                                    std::move(part.mesh),
-                                    {},
-                                    std::move(part.baseColor),
-                                    std::move(part.materialMap),
+        plan.asset.parts.push_back({part.name, std::move(part.mesh), std::move(sets),
+                                    std::move(part.baseColor), std::move(part.materialMap),
                                     part.paintedByColors});
-        setMaterials(plan.asset.parts.back(), std::move(sets));
         checkPaint(plan.asset.parts.back());
     }
 }
 
 void cutBlocks(BakePlan& plan) {
     plan.blockVertices = blockVertices(plan.asset);
+    plan.visibilityRun = visibilityRunVertices(plan.asset);
     uint32_t sets = 0;
     for (uint32_t number = 0; number < plan.asset.parts.size(); number++) {
         const AssetPart& part = plan.asset.parts[number];
@@ -118,6 +122,7 @@ void describeTo(const vk::Device& device, const BakeOptions& options, Asset& ass
 }
 
 void finish(BakePlan& plan) {
+    prepareTransport(plan);
     checkSkeleton(plan.asset, "the bake");
     cutBlocks(plan);
     setVisibility(plan, plan.options.visibilityMethod.value_or(VisibilityMethod::Traced));
@@ -149,6 +154,7 @@ void setVisibility(BakePlan& plan, VisibilityMethod method) {
 }
 
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer) {
+    sumAlikeEverywhere();
     options.validate();
     RELUME_CHECK(!scene.parts.empty());
     BakePlan plan{options};
@@ -176,6 +182,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
 
 BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<std::string>& materials,
                     const BakeOptions& options, BakeObserver& observer) {
+    sumAlikeEverywhere();
     options.validate();
     RELUME_CHECK_EQ(materials.size(), skeleton.parts.size());
     const BakeOptions own = optionsOf(skeleton);
@@ -193,7 +200,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
         AssetPart& part = plan.asset.parts[number];
         if (materials[number].empty() && isFactoredSo) continue;
         const std::string text = materials[number].empty() ? materialsOf(part) : materials[number];
-        setMaterials(part, factory.make(text, {}, part.baseColor.has_value()));
+        part.sets = factory.make(text, {}, part.baseColor.has_value());
         checkPaint(part);
     }
     plan.factorisationSeconds = secondsSince(stage);

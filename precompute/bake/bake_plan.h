@@ -6,6 +6,7 @@
 #include "engine/vk/device.h"
 #include "precompute/bake/bake_observer.h"
 #include "precompute/bake/bake_options.h"
+#include "precompute/layout/layout_scale.h"
 
 namespace relume {
 
@@ -19,10 +20,12 @@ struct BakeBlock {
 struct BakePlan {
     BakeOptions options;
     Asset asset; // all but the rows, whose numbers are set, and the measured errors
-    uint32_t blockVertices = 0;
-    std::vector<BakeBlock> blocks;  // part after part, in vertex order
-    std::vector<uint32_t> firstSet; // per part: its first set's number, counted over all parts
-    std::string visibilityKey;      // visibility_key.h
+    // What encodes blocks that are not kept in rows: known once a sample of them is baked (layout_sample.h).
+    std::optional<LayoutScale> scale;
+    uint32_t blockVertices = 0, visibilityRun = 0; // vertices; the second divides the first
+    std::vector<BakeBlock> blocks;                 // part after part, in vertex order
+    std::vector<uint32_t> firstSet;                // per part: its first set's number, counted over all parts
+    std::string visibilityKey;                     // visibility_key.h
     // Content hash of everything that decides the file's bytes: program and kernels, device and driver,
     // options, and all of the asset. Results of plans with equal identities can be joined.
     std::string identity;

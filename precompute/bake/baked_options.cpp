@@ -32,12 +32,12 @@ class OptionReader {
     }
     int integer(const char* key) { return int(whole(key, 1u << 20)); }
 
-    std::optional<float> error() {
-        const json& value = take("error");
+    std::optional<double> amount(const char* key, double most) {
+        const json& value = take(key);
         if (value.is_null()) return std::nullopt;
-        if (!value.is_number() || !(value.get<double>() > 0 && value.get<double>() <= 1))
-            fail("\"error\": expected null, or a number above 0 and up to 1");
-        return value.get<float>();
+        if (!value.is_number() || !(value.get<double>() > 0 && value.get<double>() <= most))
+            fail(fmt::format("\"{}\": expected null, or a number above 0 and up to {}", key, most));
+        return value.get<double>();
     }
 
     // `parse` gives an std::optional, empty for a name it does not know.
@@ -75,22 +75,30 @@ std::optional<VisibilityMethod> methodFromName(const std::string& name) {
     return std::nullopt;
 }
 
+bool isByError(const LayoutOptions& layout) {
+    return layout.layout != TransportLayout::Rows && !layout.bytesPerVertex;
+}
+
 } // namespace
 
 std::string describeOptions(const BakeOptions& options) {
     const FactorizationOptions& factorization = options.factorization;
-    return json{{"terms", factorization.terms},
-                {"error", factorization.wantedError ? json(*factorization.wantedError) : nullptr},
-                {"factorization", factorizationName(factorization.method)},
-                {"coefficients", options.coefficients},
-                {"map_size", options.mapSize},
-                {"map", diskMappingName(options.mapping)},
-                {"face_size", options.faceSize},
-                {"visibility_size", options.visibilitySize},
-                {"transport_samples", options.transportSamples},
-                {"occluder_triangles", options.occluderTriangles},
-                {"visibility", visibilityMethodName(*options.visibilityMethod)},
-                {"vertex_order", kVertexOrder}}
+    return json{
+        {"terms", factorization.terms},
+        {"error", factorization.wantedError ? json(*factorization.wantedError) : nullptr},
+        {"factorization", factorizationName(factorization.method)},
+        {"coefficients", options.coefficients},
+        {"layout", layoutName(options.layout.layout)},
+        {"layout_bytes", options.layout.bytesPerVertex ? json(*options.layout.bytesPerVertex) : nullptr},
+        {"layout_error", isByError(options.layout) ? json(options.layout.error) : nullptr},
+        {"map_size", options.mapSize},
+        {"map", diskMappingName(options.mapping)},
+        {"face_size", options.faceSize},
+        {"visibility_size", options.visibilitySize},
+        {"transport_samples", options.transportSamples},
+        {"occluder_triangles", options.occluderTriangles},
+        {"visibility", visibilityMethodName(*options.visibilityMethod)},
+        {"vertex_order", kVertexOrder}}
         .dump();
 }
 
@@ -98,10 +106,13 @@ BakeOptions optionsOf(const Asset& asset) {
     OptionReader in(asset.provenance.options);
     BakeOptions options;
     options.factorization.terms = in.integer("terms");
-    options.factorization.wantedError = in.error();
+    if (const auto error = in.amount("error", 1)) options.factorization.wantedError = float(*error);
     options.factorization.method =
         in.name("factorization", [](const std::string& name) { return factorizationFromName(name); });
     options.coefficients = in.integer("coefficients");
+    options.layout.layout = in.name("layout", [](const std::string& name) { return layoutFromName(name); });
+    options.layout.bytesPerVertex = in.amount("layout_bytes", kMostLayoutBytes);
+    options.layout.error = in.amount("layout_error", 1).value_or(options.layout.error);
     options.mapSize = in.integer("map_size");
     options.mapping = in.name("map", [](const std::string& name) { return diskMappingFromName(name); });
     options.faceSize = in.integer("face_size");

@@ -1,8 +1,9 @@
 #include "precompute/bake/baked_rows.h"
 
-#include <cmath>
-
 #include "engine/base/check.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace relume {
 
@@ -59,6 +60,10 @@ static float relative(double lost, double total) { return total > 0 ? float(std:
 void setErrors(const TransportLosses& losses, Asset& asset) {
     asset.truncationError = relative(losses.dropped, losses.total);
     asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
+    if (!asset.layout) return;
+    uint64_t vertices = 0; // each set's are of its own unit
+    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount() * part.sets.size();
+    asset.layout->error = std::sqrt(losses.layout / double(std::max<uint64_t>(1, vertices)));
 }
 
 } // namespace relume

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/transport/asset.h"
+#include "engine/transport/chunk_file.h"
 #include "precompute/bake/transport_pass.h"
 
 #include <vector>
@@ -26,7 +27,8 @@ void append(SparseTransport& all, const SparseTransport& more);
 // A block: its rows, a BakedRows per set of its part, and its visibility.
 struct BakedBlock {
     std::vector<BakedRows> sets;
-    std::vector<uint32_t> visibility; // bits, vertex after vertex, where the plan keeps them
+    std::vector<uint32_t> visibility;          // bits, vertex after vertex, where the plan keeps them
+    std::vector<StoredChunk> packedVisibility; // in their place, once packed (stored_blocks.h)
 
     // Summed set after set, row by row: the same however it was baked.
     TransportLosses losses() const;

@@ -237,14 +237,20 @@ void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const 
                 BakeObserver& observer, BakeTimes& times, KeptVisibility* kept) {
     if (blocks.empty()) return;
     BlockBaker baker(device, plan, blocks, all, limits, sink, observer, kept);
-    while (!blocks.empty()) {
-        const uint32_t part = plan.blocks[blocks.front()].part;
-        const auto next =
-            std::ranges::find_if(blocks, [&](uint32_t block) { return plan.blocks[block].part != part; });
-        const auto own = blocks.first(size_t(next - blocks.begin()));
-        baker.bakePart(own, times);
-        blocks = blocks.subspan(own.size());
+    try {
+        while (!blocks.empty()) {
+            const uint32_t part = plan.blocks[blocks.front()].part;
+            const auto next =
+                std::ranges::find_if(blocks, [&](uint32_t block) { return plan.blocks[block].part != part; });
+            const auto own = blocks.first(size_t(next - blocks.begin()));
+            baker.bakePart(own, times);
+            blocks = blocks.subspan(own.size());
+        }
+    } catch (const BakeStopped&) {
+        sink.finish();
+        throw;
     }
+    sink.finish();
 }
 
 } // namespace relume

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
@@ -20,10 +21,11 @@ namespace relume {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'L', 'U', 'M', 'E', 'C', 'P'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr size_t kIdentityBytes = 32;
 constexpr size_t kHeaderBytes = kMagic.size() + 4 + kIdentityBytes + 8;
-constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kLossBytes = 3 * 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
+constexpr uint32_t kScale = 0xffffffff; // in place of a block's number
+constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kLossBytes = 4 * 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
 
 // What a crash of the machine may cost, as a crash of the program costs nothing that was appended.
 constexpr std::chrono::seconds kSyncInterval{5};
@@ -46,13 +48,14 @@ uint64_t recordChecksum(std::span<const std::byte> header, std::span<const std::
 }
 
 void putLosses(ByteWriter& out, const TransportLosses& losses) {
-    for (double sum : {losses.total, losses.dropped, losses.quantised}) out.put(std::bit_cast<uint64_t>(sum));
+    for (double sum : {losses.total, losses.dropped, losses.quantised, losses.layout})
+        out.put(std::bit_cast<uint64_t>(sum));
 }
 
 TransportLosses getLosses(ByteReader& in) {
     const auto next = [&] { return std::bit_cast<double>(in.get<uint64_t>()); };
-    const double total = next(), dropped = next();
-    return {total, dropped, next()};
+    const double total = next(), dropped = next(), quantised = next();
+    return {total, dropped, quantised, next()};
 }
 
 void putChunk(ByteWriter& out, const ChunkEntry& entry) {
@@ -63,6 +66,10 @@ void putChunk(ByteWriter& out, const ChunkEntry& entry) {
     out.put(entry.rawSize);
     out.put(entry.checksum);
 }
+
+size_t setsOf(const BakePlan& plan) { return plan.firstSet.back() + plan.asset.parts.back().sets.size(); }
+
+uint64_t scaleBytes(const BakePlan& plan) { return sizeof(double) + setsOf(plan) * sizeof(float); }
 
 ChunkEntry getChunk(ByteReader& in) {
     ChunkEntry entry;
@@ -144,6 +151,7 @@ bool Checkpoint::matches(const BakePlan& plan) const {
 
 void Checkpoint::resume(const BakePlan& plan) {
     mBlocks.assign(plan.blocks.size(), std::nullopt);
+    mScale.reset();
     const uint64_t fileBytes = mBytes;
     mBytes = 0;
     if (matches(plan)) {
@@ -167,16 +175,24 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     ByteReader in(header, "");
     const auto block = in.get<uint32_t>(), chunkCount = in.get<uint32_t>();
     const auto bodyBytes = in.get<uint64_t>(), checksum = in.get<uint64_t>();
-    if (block >= plan.blocks.size() || mBlocks[block]) return false;
-    const size_t chunks = chunksOf(plan, block);
-    uint64_t most = kLossBytes;
-    for (size_t chunk = 0; chunk < chunks; chunk++) most += kChunkBytes + mostRawBytes(plan, block, chunk);
-    if (chunkCount != chunks || bodyBytes < kLossBytes + chunkCount * kChunkBytes || bodyBytes > most)
-        return false;
+    uint64_t least = scaleBytes(plan), most = least;
+    size_t chunks = 0;
+    if (block != kScale) {
+        if (block >= plan.blocks.size() || mBlocks[block]) return false;
+        chunks = chunksOf(plan, block);
+        least = most = kLossBytes + chunks * kChunkBytes;
+        for (size_t chunk = 0; chunk < chunks; chunk++) most += mostRawBytes(plan, block, chunk);
+    }
+    if (chunkCount != chunks || bodyBytes < least || bodyBytes > most) return false;
     std::vector<std::byte> body(bodyBytes);
     if (!read(mBytes + header.size(), body) ||
         recordChecksum(std::span(header).first(kRecordHeaderBytes - 8), body) != checksum)
         return false;
+    if (block == kScale) {
+        if (!readScale(plan, body)) return false;
+        mBytes += header.size() + bodyBytes;
+        return true;
+    }
 
     ByteReader rest(body, "");
     Kept kept{getLosses(rest), {}};
@@ -194,6 +210,29 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     return true;
 }
 
+bool Checkpoint::readScale(const BakePlan& plan, std::span<const std::byte> body) {
+    ByteReader in(body, "");
+    LayoutScale scale;
+    scale.price = std::bit_cast<double>(in.get<uint64_t>());
+    for (size_t set = 0; set < setsOf(plan); set++)
+        scale.units.push_back(std::bit_cast<float>(in.get<uint32_t>()));
+    const auto isPositive = [](float unit) { return std::isfinite(unit) && unit > 0; };
+    if (mScale || !std::isfinite(scale.price) || scale.price < 0 ||
+        !std::ranges::all_of(scale.units, isPositive))
+        return false;
+    mScale = std::move(scale);
+    return true;
+}
+
+void Checkpoint::append(const LayoutScale& scale) {
+    RELUME_CHECK(!mScale);
+    ByteWriter body;
+    body.put(std::bit_cast<uint64_t>(scale.price));
+    for (const float unit : scale.units) body.put(std::bit_cast<uint32_t>(unit));
+    writeRecord(kScale, 0, body.bytes());
+    mScale = scale;
+}
+
 void Checkpoint::append(uint32_t block, const StoredBlock& stored) {
     RELUME_CHECK(!has(block));
     ByteWriter body;
@@ -205,14 +244,18 @@ void Checkpoint::append(uint32_t block, const StoredBlock& stored) {
         kept.chunks.back().offset = mBytes + kRecordHeaderBytes + body.bytes().size();
         body.put(chunk.bytes);
     }
+    writeRecord(block, uint32_t(stored.chunks.size()), body.bytes());
+    mBlocks[block] = std::move(kept);
+}
+
+void Checkpoint::writeRecord(uint32_t block, uint32_t count, std::span<const std::byte> body) {
     ByteWriter record;
     record.put(block);
-    record.put(uint32_t(stored.chunks.size()));
-    record.put(uint64_t(body.bytes().size()));
-    record.put(recordChecksum(record.bytes(), body.bytes()));
-    record.put(body.bytes());
+    record.put(count);
+    record.put(uint64_t(body.size()));
+    record.put(recordChecksum(record.bytes(), body));
+    record.put(body);
     write(record.bytes());
-    mBlocks[block] = std::move(kept);
 }
 
 void Checkpoint::write(std::span<const std::byte> bytes) {

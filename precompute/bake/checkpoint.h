@@ -33,6 +33,10 @@ class Checkpoint : public StoredBlocks {
     const TransportLosses& losses(uint32_t block) const override { return mBlocks[block]->losses; }
     std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override;
 
+    // What the blocks that are not in rows are encoded with, once it is kept: before them.
+    const std::optional<LayoutScale>& scale() const { return mScale; }
+    void append(const LayoutScale& scale);
+
     // On failure, a full disk say, throws Error and leaves the file as it was before.
     void append(uint32_t block, const StoredBlock& stored);
 
@@ -48,6 +52,8 @@ class Checkpoint : public StoredBlocks {
     };
     void lock();
     bool readRecord(const BakePlan& plan);
+    bool readScale(const BakePlan& plan, std::span<const std::byte> body);
+    void writeRecord(uint32_t block, uint32_t count, std::span<const std::byte> body);
     void write(std::span<const std::byte> bytes);
     bool read(uint64_t offset, std::span<std::byte> bytes) const;
 
@@ -55,6 +61,7 @@ class Checkpoint : public StoredBlocks {
     int mFile = -1;
     uint64_t mBytes = 0; // of the valid file
     std::vector<std::optional<Kept>> mBlocks;
+    std::optional<LayoutScale> mScale;
     std::chrono::steady_clock::time_point mSynced;
 };
 

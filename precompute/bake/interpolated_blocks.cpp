@@ -3,9 +3,9 @@
 #include "precompute/bake/coarse_neighbours.h"
 #include "precompute/bake/coarse_vertices.h"
 #include "precompute/bake/row_interpolation.h"
+#include "precompute/bake/vertex_rows.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <tbb/parallel_for.h>
 
@@ -15,6 +15,7 @@ namespace {
 
 constexpr uint64_t kVerticesPerCoarse = 12;
 constexpr uint64_t kCoarseRowBytes = uint64_t(256) << 20;
+constexpr int kMostInterpolated = 96;  // coefficients of a row: more do not show
 constexpr size_t kBlocksTogether = 64; // interpolated between two looks at whether to stop
 
 // Of rows in memory, with what they lost.
@@ -49,77 +50,6 @@ std::vector<CoarsePart> chooseVertices(const BakePlan& plan, std::span<const uin
     return coarse;
 }
 
-// A plan of the coarse vertices alone, without an occluder yet.
-BakePlan coarsePlan(const BakePlan& plan, const std::vector<CoarsePart>& coarse) {
-    BakePlan result{plan.options};
-    result.asset.faceSize = plan.asset.faceSize;
-    result.asset.coefficients = plan.asset.coefficients;
-    result.asset.visibilityOffset = plan.asset.visibilityOffset;
-    result.blockVertices = plan.blockVertices;
-    result.firstSet = plan.firstSet;
-    for (uint32_t number = 0; number < coarse.size(); number++) {
-        const AssetPart& part = plan.asset.parts[number];
-        AssetPart& fewer = result.asset.parts.emplace_back();
-        fewer.name = part.name;
-        fewer.sets = part.sets;
-        for (const uint32_t vertex : coarse[number].vertices) {
-            fewer.mesh.positions.push_back(part.mesh.positions[vertex]);
-            fewer.mesh.normals.push_back(part.mesh.normals[vertex]);
-        }
-        const auto vertices = uint32_t(fewer.mesh.vertexCount());
-        for (uint32_t first = 0; first < vertices; first += plan.blockVertices)
-            result.blocks.push_back({number, first, std::min(first + plan.blockVertices, vertices)});
-    }
-    return result;
-}
-
-// Rows of all vertices of a plan, a BakedRows per set over all parts: takes the blocks in order.
-class RowsSink : public BakeSink {
-  public:
-    explicit RowsSink(const BakePlan& plan) : mPlan(plan) {
-        for (const AssetPart& part : plan.asset.parts)
-            for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
-    }
-
-    void take(uint32_t block, BakedBlock baked) override {
-        const uint32_t firstSet = mPlan.firstSet[mPlan.blocks[block].part];
-        for (size_t set = 0; set < baked.sets.size(); set++) rows[firstSet + set].append(baked.sets[set]);
-    }
-
-    std::vector<BakedRows> rows;
-
-  private:
-    const BakePlan& mPlan;
-};
-
-// Tells of the coarse bake as of a stage of its own.
-class CoarseObserver : public BakeObserver {
-  public:
-    explicit CoarseObserver(BakeObserver& observer) : mObserver(observer) {}
-
-    void stage(BakeStage, const std::string& part) override { mObserver.stage(BakeStage::Preview, part); }
-    void progress(const BakeStatus& status) override { mObserver.progress(status); }
-    bool wantsStop() override { return mObserver.wantsStop(); }
-
-  private:
-    BakeObserver& mObserver;
-};
-
-std::vector<BakedRows> bakeCoarse(const vk::Device& device, BakePlan& plan,
-                                  const std::vector<CoarsePart>& coarse, const BakeLimits& limits,
-                                  BakeObserver& observer) {
-    BakePlan fewer = coarsePlan(plan, coarse);
-    std::swap(fewer.asset.occluder, plan.asset.occluder); // large: never twice
-    std::vector<uint32_t> blocks(fewer.blocks.size());
-    std::iota(blocks.begin(), blocks.end(), 0u);
-    RowsSink sink(fewer);
-    CoarseObserver coarseObserver(observer);
-    BakeTimes times;
-    bakeBlocks(device, fewer, blocks, blocks, limits, sink, coarseObserver, times);
-    std::swap(fewer.asset.occluder, plan.asset.occluder);
-    return std::move(sink.rows);
-}
-
 } // namespace
 
 void interpolateBlocks(const vk::Device& device, BakePlan& plan, std::span<const uint32_t> blocks,
@@ -129,7 +59,10 @@ void interpolateBlocks(const vk::Device& device, BakePlan& plan, std::span<const
                          [&](uint32_t block) { return !interpolated.has(block); });
     if (lacking.empty()) return;
     const std::vector<CoarsePart> coarse = chooseVertices(plan, lacking);
-    const std::vector<BakedRows> rows = bakeCoarse(device, plan, coarse, limits, observer);
+    std::vector<std::vector<uint32_t>> chosen;
+    for (const CoarsePart& part : coarse) chosen.push_back(part.vertices);
+    StageObserver coarseObserver(observer, BakeStage::Preview);
+    const std::vector<BakedRows> rows = bakeVertices(device, plan, chosen, limits, coarseObserver);
 
     std::vector<std::optional<CoarseNeighbours>> neighbours(coarse.size());
     for (size_t part = 0; part < coarse.size(); part++)
@@ -145,11 +78,11 @@ void interpolateBlocks(const vk::Device& device, BakePlan& plan, std::span<const
         for (size_t set = 0; set < plan.asset.parts[place.part].sets.size(); set++) {
             const BakedRows& from = rows[plan.firstSet[place.part] + set];
             RowInterpolator interpolator(from, 6 * plan.asset.faceSize * plan.asset.faceSize,
-                                         plan.asset.coefficients);
+                                         std::min(plan.asset.coefficients, kMostInterpolated));
             BakedRows& to = made.sets.emplace_back(from.transport.terms);
             for (const auto& own : of) interpolator.append(own, to);
         }
-        return storeBlock(plan, block, made);
+        return storeBlock(plan, block, std::move(made));
     };
     for (std::span<const uint32_t> left(lacking); !left.empty();) {
         if (observer.wantsStop()) throw BakeStopped("stopped");

@@ -1,6 +1,8 @@
 #include "precompute/bake/merge.h"
 
 #include "engine/transport/asset_arrays.h"
+#include "engine/transport/basis_chunk.h"
+#include "engine/transport/cluster_chunk.h"
 #include "engine/transport/transport_check.h"
 #include "engine/transport/transport_chunk.h"
 #include "engine/transport/visibility_chunk.h"
@@ -84,7 +86,7 @@ void ShardBlocks::addShard(const ShardFile& file) {
         mLosses[block] = losses[block / file.shard().count];
         for (size_t chunk = 0; chunk < chunksOf(mPlan, block); chunk++) {
             const ChunkEntry expected = expectedChunk(mPlan, block, chunk);
-            used += expected.tag == kTransport;
+            used += expected.tag != kVisibility;
             const ChunkEntry* entry = file.chunks().findRun(expected.tag, expected.owner, expected.run);
             if (!entry || !isPlausible(mPlan, block, chunk, *entry))
                 throw Error("{}: chunk {} of {} {}, run {}, is missing or of a wrong size; bake the "
@@ -94,12 +96,47 @@ void ShardBlocks::addShard(const ShardFile& file) {
             mChunks[block].push_back(*entry);
         }
     }
-    const auto found = size_t(std::ranges::count(file.chunks().entries(), kTransport, &ChunkEntry::tag));
+    const auto found = size_t(std::ranges::count_if(file.chunks().entries(), [](const ChunkEntry& entry) {
+        return std::ranges::find(kLayoutTags, entry.tag) != std::end(kLayoutTags);
+    }));
     if (found != used)
         throw Error(
-            "{}: holds {} chunks TRAN, and shard {}/{} has {}: others' blocks are in it; bake the shard "
-            "again",
+            "{}: holds {} chunks of transport, and shard {}/{} has {}: others' blocks are in it; bake "
+            "the shard again",
             file.name(), found, file.shard().index, file.shard().count, used);
+}
+
+// A block's transport of a set. Throws Error.
+void checkChunk(const Asset& asset, const MaterialSet& set, const BakeBlock& place, const ChunkEntry& entry,
+                const std::vector<std::byte>& raw, const std::string& where) {
+    const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
+    const auto terms = uint32_t(set.brdf.terms);
+    switch (layoutOf(set.transport)) {
+    case TransportLayout::Bases:
+        decodeBasisCluster(raw, entry.run, place.count(),
+                           std::get<BasisTransport>(set.transport).kinds.size(), coefficients, where);
+        return;
+    case TransportLayout::Clusters: {
+        ClusteredTransport columns;
+        columns.vertices = place.count();
+        columns.terms = terms;
+        columns.columnStarts = {0};
+        decodeCluster(raw, coefficients, kMostClusterColumns, where, columns, entry.run);
+        checkTransport(columns, coefficients, where);
+        return;
+    }
+    case TransportLayout::Rows:
+        break;
+    }
+    SparseTransport rows;
+    rows.vertices = place.count();
+    rows.terms = terms;
+    rows.rowStarts = {0};
+    // No more than its size allows.
+    decodeRun(raw, coefficients, raw.size() / kRunEntryBytes, where, rows, place.first);
+    if (rows.rowStarts.size() != rows.rows() + 1)
+        throw Error("{}: expected {} vertices, found fewer", where, rows.vertices);
+    checkTransport(rows, coefficients, uint64_t(asset.coefficients), where);
 }
 
 // Nothing is passed on that a reader of the whole would refuse.
@@ -109,23 +146,16 @@ std::vector<std::byte> ShardBlocks::load(uint32_t block, const ChunkEntry& entry
     const BakeBlock& place = mPlan.blocks[block];
     if (entry.tag == kVisibility) {
         decodeVisibility(
-            unpackChunk(entry, stored, file.name()), place.count(), uint32_t(mPlan.asset.visibilitySize),
+            unpackChunk(entry, stored, file.name()),
+            std::min(mPlan.visibilityRun, place.end - entry.run * mPlan.visibilityRun),
+            uint32_t(mPlan.asset.visibilitySize),
             fmt::format("{}: chunk visb of part {}, run {}", file.name(), entry.owner, entry.run));
         return stored;
     }
-    const uint32_t set = entry.owner - mPlan.firstSet[place.part];
-    const std::string where =
-        fmt::format("{}: chunk TRAN of set {}, run {}", file.name(), entry.owner, entry.run);
-    const auto coefficients = uint32_t(6 * mPlan.asset.faceSize * mPlan.asset.faceSize);
-    SparseTransport rows;
-    rows.vertices = place.count();
-    rows.terms = uint32_t(mPlan.asset.parts[place.part].sets[set].brdf.terms);
-    rows.rowStarts = {0};
-    decodeRun(unpackChunk(entry, stored, file.name()), coefficients, entriesOf(mPlan, block, entry), where,
-              rows, place.first);
-    if (rows.rowStarts.size() != rows.rows() + 1)
-        throw Error("{}: expected {} vertices, found fewer", where, rows.vertices);
-    checkTransport(rows, coefficients, uint64_t(mPlan.asset.coefficients), where);
+    const MaterialSet& set = mPlan.asset.parts[place.part].sets[entry.owner - mPlan.firstSet[place.part]];
+    checkChunk(mPlan.asset, set, place, entry, unpackChunk(entry, stored, file.name()),
+               fmt::format("{}: chunk {} of set {}, run {}", file.name(), tagText(entry.tag), entry.owner,
+                           entry.run));
     return stored;
 }
 

@@ -52,8 +52,11 @@ class PreviewSink : public BakeSink {
     void take(uint32_t block, BakedBlock baked) override {
         mSink.take(block, std::move(baked));
         if (std::ranges::find(mLasts, block) == mLasts.end()) return;
-        if (mWriteSeconds <= kWritingShare * secondsSince(mWritten)) writePreview();
+        if (mWriteSeconds > kWritingShare * secondsSince(mWritten)) return;
+        finish();
+        writePreview();
     }
+    void finish() override { mSink.finish(); }
 
     void writePreview() {
         const Clock::time_point start = Clock::now();

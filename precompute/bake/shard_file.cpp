@@ -15,7 +15,7 @@ namespace relume {
 namespace {
 
 constexpr size_t kIdentityBytes = 32, kShardBytes = 4 + 4 + kIdentityBytes;
-constexpr size_t kLossBytes = 3 * 8, kLossesPerChunk = size_t(1) << 18;
+constexpr size_t kLossBytes = 4 * 8, kLossesPerChunk = size_t(1) << 18;
 static_assert(kLossesPerChunk * kLossBytes <= kLargestChunk);
 
 void addShard(ChunkWriter& file, const BakePlan& plan, const Shard& shard) {
@@ -32,7 +32,7 @@ void addLosses(ChunkWriter& file, std::span<const TransportLosses> losses) {
         const auto own = losses.first(std::min(losses.size(), kLossesPerChunk));
         ByteWriter out;
         for (const TransportLosses& loss : own)
-            for (double sum : {loss.total, loss.dropped, loss.quantised})
+            for (double sum : {loss.total, loss.dropped, loss.quantised, loss.layout})
                 out.put(std::bit_cast<uint64_t>(sum));
         file.add(kBlockLosses, kWholeFile, run, out.bytes());
         losses = losses.subspan(own.size());
@@ -137,6 +137,7 @@ std::vector<TransportLosses> ShardFile::losses(uint32_t blocks) const {
             loss.total = next();
             loss.dropped = next();
             loss.quantised = next();
+            loss.layout = next();
         }
     }
     return losses;

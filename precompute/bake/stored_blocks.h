@@ -7,14 +7,19 @@
 
 namespace relume {
 
-// A finished block: a TRAN chunk per set of its part, then a visb chunk where visibility is kept.
+// A finished block: a chunk of transport per set of its part, in its layout, then visb chunks where
+// visibility is kept.
 struct StoredBlock {
     TransportLosses losses;
     std::vector<StoredChunk> chunks;
 };
 
-// Checks the rows, encodes and compresses them. Throws Error for rows that make no valid asset.
-StoredBlock storeBlock(const BakePlan& plan, uint32_t block, const BakedBlock& baked);
+// Checks the rows, encodes them in the plan's layout, for which its scale is known, and compresses them.
+// Blocks may be stored at the same time. Throws Error for rows that make no valid asset.
+StoredBlock storeBlock(const BakePlan& plan, uint32_t block, BakedBlock baked);
+
+// Makes of a block's visibility the chunks that it will be stored as, some hundredth of its bits.
+void packVisibility(const BakePlan& plan, uint32_t block, BakedBlock& baked);
 
 // How many chunks a block has.
 size_t chunksOf(const BakePlan& plan, uint32_t block);
@@ -28,8 +33,8 @@ uint64_t mostRawBytes(const BakePlan& plan, uint32_t block, size_t chunk);
 // Whether an entry can be it.
 bool isPlausible(const BakePlan& plan, uint32_t block, size_t chunk, const ChunkEntry& entry);
 
-// Transport entries that a plausible TRAN chunk of a block stands for.
-uint64_t entriesOf(const BakePlan& plan, uint32_t block, const ChunkEntry& entry);
+// Bytes that transport takes in memory, of a plausible chunk of it.
+uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& entry);
 
 // All blocks of a plan, or some, that are kept on disk.
 class StoredBlocks {
@@ -45,7 +50,8 @@ class StoredBlocks {
 };
 
 // Puts the asset's file together, holding one chunk of transport at a time: each block is copied to where it
-// belongs. Sets the plan's measured errors from the blocks' losses. Throws Error.
-void writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output);
+// belongs. Sets the plan's measured errors from the blocks' losses. Returns the bytes that its transport
+// takes in memory. Throws Error.
+uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output);
 
 } // namespace relume

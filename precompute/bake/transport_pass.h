@@ -14,11 +14,13 @@ struct TransportLosses {
     double total = 0;     // of all coefficients
     double dropped = 0;   // lost by keeping N
     double quantised = 0; // lost by quantisation
+    double layout = 0;    // lost by the layout, weighed and in units as ClusterMatrix has them
 
     void add(const TransportLosses& other) {
         total += other.total;
         dropped += other.dropped;
         quantised += other.quantised;
+        layout += other.layout;
     }
 };
 

@@ -19,6 +19,7 @@ struct BasisAnalysis {
     Eigen::MatrixXf vectors;      // columns × vectors, orthonormal
     Eigen::MatrixXd vectorEnergy; // kinds × vectors: of the matrix along each
     Eigen::VectorXd energy;       // per kind, of the whole matrix
+    double weight = 1;            // how many clusters it stands for
 
     uint32_t components() const;
 };

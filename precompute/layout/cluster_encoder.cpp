@@ -1,10 +1,9 @@
 #include "precompute/layout/cluster_encoder.h"
 
+#include "engine/base/check.h"
 #include "engine/transport/cluster_chunk.h"
 
 #include <algorithm>
-#include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace relume {
 
@@ -40,81 +39,72 @@ std::vector<Column> columnsOf(const SparseTransport& rows, size_t cluster, std::
     return columns;
 }
 
-struct ClusterColumns {
-    std::vector<Column> kept;
-    std::vector<float> scales;    // per row
-    std::vector<uint32_t> values; // kClusterVertices per column
-    double error = 0;
-};
-
-void pack(const SparseTransport& rows, size_t cluster, ClusterColumns& columns) {
-    const auto first = uint32_t(cluster * kClusterVertices);
-    const uint32_t count = std::min(rows.vertices - first, kClusterVertices);
-    // A row keeps the scale that it has: what stays is then exact.
-    columns.scales.assign(rows.scales.begin() + ptrdiff_t(size_t(first) * rows.terms),
-                          rows.scales.begin() + ptrdiff_t(size_t(first + count) * rows.terms));
-    columns.values.assign(columns.kept.size() * kClusterVertices, 0);
-    for (size_t column = 0; column < columns.kept.size(); column++)
-        for (uint32_t vertex = 0; vertex < count; vertex++) {
-            const size_t row = size_t(first + vertex) * rows.terms + columns.kept[column].term;
-            const auto begin = rows.indices.begin() + ptrdiff_t(rows.rowStarts[row]);
-            const auto end = rows.indices.begin() + ptrdiff_t(rows.rowStarts[row + 1]);
-            const auto found = std::lower_bound(begin, end, columns.kept[column].index);
-            if (found != end && *found == columns.kept[column].index)
-                columns.values[column * kClusterVertices + vertex] =
-                    rows.values[size_t(found - rows.indices.begin())];
-        }
-}
-
 } // namespace
 
-std::vector<float> columnEnergies(const SparseTransport& rows, std::span<const float> spectrum, float unit) {
-    const size_t clusters = (size_t(rows.vertices) + kClusterVertices - 1) / kClusterVertices;
-    std::vector<std::vector<float>> each(clusters);
-    tbb::parallel_for(size_t(0), clusters, [&](size_t cluster) {
-        for (const Column& column : columnsOf(rows, cluster, spectrum, unit))
-            each[cluster].push_back(column.energy);
-    });
+std::vector<float> columnEnergies(const SparseTransport& rows, size_t cluster,
+                                  std::span<const float> spectrum, float unit) {
     std::vector<float> energies;
-    for (const auto& own : each) energies.insert(energies.end(), own.begin(), own.end());
+    for (const Column& column : columnsOf(rows, cluster, spectrum, unit)) energies.push_back(column.energy);
     return energies;
 }
 
-EncodedClusters encodeClusters(const SparseTransport& rows, std::span<const float> spectrum, float unit,
-                               float threshold) {
-    EncodedClusters encoded;
-    ClusteredTransport& transport = encoded.transport;
-    transport.vertices = rows.vertices;
-    transport.terms = rows.terms;
-    std::vector<ClusterColumns> clusters(transport.clusters());
-    tbb::parallel_for(size_t(0), clusters.size(), [&](size_t number) {
-        ClusterColumns& cluster = clusters[number];
-        std::vector<Column> columns = columnsOf(rows, number, spectrum, unit);
-        const auto isStronger = [](const Column& a, const Column& b) { return a.energy > b.energy; };
-        std::ranges::stable_sort(columns, isStronger);
-        for (const Column& column : columns)
-            if (column.energy >= threshold && cluster.kept.size() < kMostClusterColumns)
-                cluster.kept.push_back(column);
-            else
-                cluster.error += double(column.energy);
-        std::ranges::sort(cluster.kept, [](const Column& a, const Column& b) {
-            return a.term != b.term ? a.term < b.term : a.index < b.index;
-        });
-        pack(rows, number, cluster);
+KeptColumns keepColumns(const SparseTransport& rows, size_t cluster, std::span<const float> spectrum,
+                        float unit, float threshold) {
+    KeptColumns result;
+    std::vector<Column> columns = columnsOf(rows, cluster, spectrum, unit), kept;
+    const auto isStronger = [](const Column& a, const Column& b) { return a.energy > b.energy; };
+    std::ranges::stable_sort(columns, isStronger);
+    for (const Column& column : columns)
+        if (column.energy >= threshold && kept.size() < kMostClusterColumns)
+            kept.push_back(column);
+        else
+            result.error += double(column.energy);
+    std::ranges::sort(kept, [](const Column& a, const Column& b) {
+        return a.term != b.term ? a.term < b.term : a.index < b.index;
     });
+
+    ClusteredTransport& transport = result.transport;
+    const auto first = uint32_t(cluster * kClusterVertices);
+    transport.vertices = std::min(rows.vertices - first, kClusterVertices);
+    transport.terms = rows.terms;
+    // A row keeps the scale that it has: what stays is then exact.
+    const size_t firstRow = size_t(first) * rows.terms;
+    transport.scales.assign(rows.scales.begin() + ptrdiff_t(firstRow),
+                            rows.scales.begin() + ptrdiff_t(firstRow + transport.rows()));
     transport.columnStarts.push_back(0);
-    for (const ClusterColumns& cluster : clusters) {
-        auto column = cluster.kept.begin();
-        for (uint32_t term = 0; term < rows.terms; term++) {
-            for (; column != cluster.kept.end() && column->term == term; column++)
-                transport.indices.push_back(column->index);
-            transport.columnStarts.push_back(transport.indices.size());
-        }
-        transport.scales.insert(transport.scales.end(), cluster.scales.begin(), cluster.scales.end());
-        transport.values.insert(transport.values.end(), cluster.values.begin(), cluster.values.end());
-        encoded.error += cluster.error;
+    auto column = kept.begin();
+    for (uint32_t term = 0; term < rows.terms; term++) {
+        for (; column != kept.end() && column->term == term; column++)
+            transport.indices.push_back(column->index);
+        transport.columnStarts.push_back(transport.indices.size());
     }
-    return encoded;
+    transport.values.assign(kept.size() * kClusterVertices, 0);
+    for (size_t number = 0; number < kept.size(); number++)
+        for (uint32_t vertex = 0; vertex < transport.vertices; vertex++) {
+            const size_t row = firstRow + size_t(vertex) * rows.terms + kept[number].term;
+            const auto begin = rows.indices.begin() + ptrdiff_t(rows.rowStarts[row]);
+            const auto end = rows.indices.begin() + ptrdiff_t(rows.rowStarts[row + 1]);
+            const auto found = std::lower_bound(begin, end, kept[number].index);
+            if (found != end && *found == kept[number].index)
+                transport.values[number * kClusterVertices + vertex] =
+                    rows.values[size_t(found - rows.indices.begin())];
+        }
+    return result;
+}
+
+void append(ClusteredTransport& all, const ClusteredTransport& more) {
+    RELUME_CHECK(all.terms == more.terms && all.vertices % kClusterVertices == 0);
+    const auto join = [](auto& values, const auto& others) {
+        values.insert(values.end(), others.begin(), others.end());
+    };
+    if (all.columnStarts.empty()) all.columnStarts.push_back(0);
+    const uint64_t before = all.columns();
+    for (size_t group = 0; group < more.groups(); group++)
+        all.columnStarts.push_back(before + more.columnStarts[group + 1]);
+    join(all.scales, more.scales);
+    join(all.indices, more.indices);
+    join(all.values, more.values);
+    all.vertices += more.vertices;
 }
 
 } // namespace relume

@@ -4,11 +4,12 @@
 #include "precompute/layout/basis_encoder.h"
 #include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/cluster_encoder.h"
+#include "precompute/layout/layout_scale.h"
 #include "precompute/layout/light_spectrum.h"
+#include "precompute/layout/same_sums.h"
 #include "precompute/layout/slope.h"
 #include "precompute/reference/transport_stages.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
@@ -17,8 +18,7 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kBatch = 32; // clusters between two reports of progress
-constexpr ptrdiff_t kFirstCache = 32 << 10, kSecondCache = 256 << 10, kThirdCache = 2 << 20; // bytes
+constexpr uint64_t kBatchVertices = 8192; // between two reports of progress
 
 using Report = std::function<void(uint64_t done, uint64_t total)>;
 
@@ -35,24 +35,79 @@ uint64_t bytesOf(const std::vector<MaterialSet*>& sets) {
     return bytes;
 }
 
-SparseTransport makeRows(const Transport& transport, const Asset& asset) {
-    SparseTransport rows;
-    rows.vertices = verticesOf(transport);
-    rows.terms = termsOf(transport);
-    std::vector<PackedRow> packed(rows.rows());
-    tbb::parallel_for(size_t(0), packed.size(), [&](size_t row) {
-        const std::vector<vec3> coefficients =
-            coefficientsOf(transport, row, size_t(6 * asset.faceSize * asset.faceSize));
-        packed[row] = packRow(coefficients, selectLargest(coefficients, asset.coefficients));
-    });
-    rows.rowStarts.push_back(0);
-    for (const PackedRow& row : packed) {
-        rows.scales.push_back(row.scale);
-        rows.indices.insert(rows.indices.end(), row.indices.begin(), row.indices.end());
-        rows.values.insert(rows.values.end(), row.values.begin(), row.values.end());
-        rows.rowStarts.push_back(rows.values.size());
+// Vertices of a set.
+struct Place {
+    uint32_t set, first, count;
+};
+
+std::vector<Place> placesOf(const std::vector<MaterialSet*>& sets, uint32_t vertices) {
+    std::vector<Place> places;
+    for (uint32_t set = 0; set < sets.size(); set++) {
+        const uint32_t all = verticesOf(sets[set]->transport);
+        for (uint32_t first = 0; first < all; first += vertices)
+            places.push_back({set, first, std::min(vertices, all - first)});
     }
-    return rows;
+    return places;
+}
+
+// Tells how far passes over all places are.
+class Passes {
+  public:
+    Passes(const std::vector<MaterialSet*>& sets, uint64_t passes, const Report& report)
+        : mPasses(passes), mReport(report) {
+        for (const MaterialSet* set : sets) mVertices += verticesOf(set->transport);
+    }
+
+    // Runs work(i) for all places, in parallel.
+    template <typename Work>
+    void run(std::span<const Place> places, const Work& work) {
+        uint64_t vertices = 0; // in a batch
+        for (size_t start = 0; start < places.size();) {
+            size_t end = start;
+            for (vertices = 0; end < places.size() && vertices < kBatchVertices; end++)
+                vertices += places[end].count;
+            tbb::parallel_for(start, end, work);
+            mDone += vertices;
+            if (mReport) mReport(mDone / mPasses, mVertices);
+            start = end;
+        }
+    }
+
+  private:
+    uint64_t mPasses, mVertices = 0, mDone = 0;
+    const Report& mReport;
+};
+
+void makeRows(const std::vector<MaterialSet*>& sets, const Asset& asset, const Report& report) {
+    constexpr uint32_t kTogether = 64;
+    const std::vector<Place> places = placesOf(sets, kTogether);
+    std::vector<std::vector<PackedRow>> packed(places.size());
+    Passes(sets, 1, report).run(places, [&](size_t i) {
+        const Transport& transport = sets[places[i].set]->transport;
+        const size_t terms = termsOf(transport), first = places[i].first * terms;
+        for (size_t row = first; row < first + places[i].count * terms; row++) {
+            const std::vector<vec3> coefficients =
+                coefficientsOf(transport, row, size_t(6 * asset.faceSize * asset.faceSize));
+            packed[i].push_back(packRow(coefficients, selectLargest(coefficients, asset.coefficients)));
+        }
+    });
+    std::vector<SparseTransport> made(sets.size());
+    for (size_t set = 0; set < sets.size(); set++) {
+        made[set].vertices = verticesOf(sets[set]->transport);
+        made[set].terms = termsOf(sets[set]->transport);
+        made[set].rowStarts.push_back(0);
+    }
+    for (size_t i = 0; i < places.size(); i++) {
+        SparseTransport& rows = made[places[i].set];
+        for (const PackedRow& row : packed[i]) {
+            rows.scales.push_back(row.scale);
+            rows.indices.insert(rows.indices.end(), row.indices.begin(), row.indices.end());
+            rows.values.insert(rows.values.end(), row.values.begin(), row.values.end());
+            rows.rowStarts.push_back(rows.values.size());
+        }
+        packed[i] = {};
+    }
+    for (size_t set = 0; set < sets.size(); set++) sets[set]->transport = std::move(made[set]);
 }
 
 // Sets in rows, and what weighs their errors.
@@ -76,69 +131,58 @@ struct Source {
     double squared(double relative) const { return relative * relative * double(vertices); }
 };
 
-double convertToClusters(const Source& source, const LayoutOptions& options, double budget) {
-    std::vector<float> energies;
+double convertToClusters(const Source& source, const LayoutOptions& options, double budget,
+                         const Report& report) {
+    const std::vector<Place> places = placesOf(source.sets, kClusterVertices);
+    const auto rowsAt = [&](const Place& place) -> const SparseTransport& {
+        return rowsOf(source.sets[place.set]->transport);
+    };
+    Passes passes(source.sets, 2, report);
+    std::vector<std::vector<float>> each(places.size());
+    passes.run(places, [&](size_t i) {
+        const Place& place = places[i];
+        each[i] = columnEnergies(rowsAt(place), place.first / kClusterVertices, source.spectrum,
+                                 source.units[place.set]);
+    });
+    std::vector<ColumnEnergy> energies;
+    for (std::vector<float>& own : each) {
+        for (const float energy : own) energies.push_back({energy, 1});
+        own = {};
+    }
     double rowBytes = 0;
-    for (size_t number = 0; number < source.sets.size(); number++) {
-        const SparseTransport& rows = rowsOf(source.sets[number]->transport);
-        const std::vector<float> own = columnEnergies(rows, source.spectrum, source.units[number]);
-        energies.insert(energies.end(), own.begin(), own.end());
-        rowBytes += double(rows.rows() * sizeof(float));
-    }
-    std::ranges::sort(energies, std::greater());
-    constexpr double kColumnBytes = sizeof(uint16_t) + sizeof(uint32_t) * kClusterVertices;
-    size_t kept = 0;
-    if (options.bytesPerVertex)
-        kept = size_t(std::clamp((budget - rowBytes) / kColumnBytes, 0.0, double(energies.size())));
-    else {
-        double left = 0;
-        kept = energies.size();
-        while (kept > 0 && left + double(energies[kept - 1]) <= source.squared(options.error))
-            left += double(energies[--kept]);
-    }
-    // Of equal columns at the edge all are dropped, to stay within a budget.
-    const float threshold = kept < energies.size()
-                                ? std::nextafter(energies[kept], std::numeric_limits<float>::infinity())
-                                : 0.0f;
+    for (const MaterialSet* set : source.sets)
+        rowBytes += double(rowsOf(set->transport).rows() * sizeof(float));
+    const float threshold = options.bytesPerVertex
+                                ? thresholdForBytes(std::move(energies), budget - rowBytes)
+                                : thresholdForError(std::move(energies), source.squared(options.error));
+    std::vector<KeptColumns> kept(places.size());
+    passes.run(places, [&](size_t i) {
+        const Place& place = places[i];
+        kept[i] = keepColumns(rowsAt(place), place.first / kClusterVertices, source.spectrum,
+                              source.units[place.set], threshold);
+    });
+    std::vector<ClusteredTransport> made(source.sets.size());
     double error = 0;
-    for (size_t number = 0; number < source.sets.size(); number++) {
-        MaterialSet& set = *source.sets[number];
-        EncodedClusters encoded =
-            encodeClusters(rowsOf(set.transport), source.spectrum, source.units[number], threshold);
-        error += encoded.error;
-        set.transport = std::move(encoded.transport);
+    for (size_t i = 0; i < places.size(); i++) {
+        made[places[i].set].terms = kept[i].transport.terms;
+        append(made[places[i].set], kept[i].transport);
+        error += kept[i].error;
+        kept[i] = {};
     }
+    for (size_t number = 0; number < made.size(); number++)
+        source.sets[number]->transport = std::move(made[number]);
     return source.relative(error);
-}
-
-// A cluster of all sets'.
-struct Place {
-    uint32_t set, first, count;
-};
-
-// Runs work(i) for all places, in parallel, and reports every so often.
-template <typename Work>
-void forEachPlace(std::span<const Place> places, uint64_t& done, uint64_t total, const Report& report,
-                  const Work& work) {
-    for (size_t start = 0; start < places.size(); start += kBatch) {
-        const size_t end = std::min(start + kBatch, places.size());
-        tbb::parallel_for(start, end, work);
-        for (size_t i = start; i < end; i++) done += places[i].count;
-        if (report) report(done / 2, total);
-    }
 }
 
 double convertToBases(const Source& source, const LayoutOptions& options, double budget,
                       const Report& report) {
     std::vector<BasisTransport> made;
-    std::vector<Place> places;
     for (const MaterialSet* set : source.sets) {
         const SparseTransport& rows = rowsOf(set->transport);
-        for (uint32_t first = 0; first < rows.vertices; first += kBasisVertices)
-            places.push_back({uint32_t(made.size()), first, std::min(kBasisVertices, rows.vertices - first)});
         made.push_back({rows.vertices, rows.terms, basisKinds(set->brdf), {}});
         made.back().clusters.resize(made.back().clusterCount());
     }
+    const std::vector<Place> places = placesOf(source.sets, kBasisVertices);
     const auto matrixOf = [&](const Place& place) {
         return clusterMatrix(rowsOf(source.sets[place.set]->transport), place.first, place.count,
                              made[place.set].kinds, source.spectrum, source.units[place.set],
@@ -146,14 +190,13 @@ double convertToBases(const Source& source, const LayoutOptions& options, double
     };
 
     // The rows are read twice: once for what each cluster asks for, once for what it gets.
-    uint64_t done = 0;
+    Passes passes(source.sets, 2, report);
     std::vector<BasisAnalysis> analyses(places.size());
-    forEachPlace(places, done, source.vertices, report,
-                 [&](size_t i) { analyses[i] = analyse(matrixOf(places[i])); });
+    passes.run(places, [&](size_t i) { analyses[i] = analyse(matrixOf(places[i])); });
     const double price = options.bytesPerVertex ? priceForBytes(analyses, budget)
                                                 : priceForError(analyses, source.squared(options.error));
     std::vector<double> errors(places.size());
-    forEachPlace(places, done, source.vertices, report, [&](size_t i) {
+    passes.run(places, [&](size_t i) {
         const Place& place = places[i];
         EncodedCluster encoded = encodeBases(matrixOf(place), analyses[i], cutFor(analyses[i], price),
                                              made[place.set].kinds, source.spectrum);
@@ -176,27 +219,28 @@ uint64_t verticesOf(const Asset& asset) {
     return vertices;
 }
 
-Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Report& progress) {
-    // Eigen cuts products by the caches it finds, and sums would differ from one machine to another.
-    Eigen::setCpuCacheSizes(kFirstCache, kSecondCache, kThirdCache);
+Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Report& progress,
+                         std::optional<int> coefficients) {
+    sumAlikeEverywhere();
     const std::vector<MaterialSet*> sets = setsOf(asset);
+    const bool areRows = std::ranges::all_of(
+        sets, [](const MaterialSet* set) { return layoutOf(set->transport) == TransportLayout::Rows; });
+    const bool areShorter = coefficients && *coefficients < asset.coefficients;
+    const bool isLast = options.layout == TransportLayout::Rows;
     Conversion conversion;
     conversion.bytesBefore = bytesOf(sets);
-    const bool areShorter = options.coefficients && *options.coefficients < asset.coefficients;
-    if (areShorter) asset.coefficients = *options.coefficients;
-    for (MaterialSet* set : sets)
-        if (areShorter || layoutOf(set->transport) != TransportLayout::Rows)
-            set->transport = makeRows(set->transport, asset);
-    if (options.layout != TransportLayout::Rows) {
+    if (areShorter) asset.coefficients = *coefficients;
+    if (areShorter || !areRows) makeRows(sets, asset, isLast ? progress : Report());
+    asset.layout.reset();
+    if (!isLast) {
         const Source source(sets, asset.faceSize);
         const double budget = options.bytesPerVertex.value_or(0) * double(verticesOf(asset));
         conversion.error = options.layout == TransportLayout::Clusters
-                               ? convertToClusters(source, options, budget)
+                               ? convertToClusters(source, options, budget, progress)
                                : convertToBases(source, options, budget, progress);
+        if (!std::isfinite(*conversion.error)) throw Error(kTooLarge);
+        asset.layout = recordOf(options, *conversion.error);
     }
-    if (conversion.error && !std::isfinite(*conversion.error))
-        throw Error(
-            "transport is too large for numbers of 32 bits; bake it again, with a material of less gain");
     conversion.bytesAfter = bytesOf(sets);
     return conversion;
 }

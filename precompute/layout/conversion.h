@@ -16,9 +16,11 @@ struct Conversion {
 
 uint64_t verticesOf(const Asset& asset);
 
-// By way of rows of at most asset.coefficients entries. Calls progress(vertices done, of how many) from the
-// calling thread, and does nothing more once that throws. The same asset and options give the same bytes.
+// By way of rows of at most asset.coefficients entries, or `coefficients` if that is less. Calls
+// progress(vertices of all sets that are done, of how many) from the calling thread, and does nothing more
+// once that throws. The same asset and options give the same bytes.
 Conversion convertLayout(Asset& asset, const LayoutOptions& options,
-                         const std::function<void(uint64_t done, uint64_t total)>& progress = {});
+                         const std::function<void(uint64_t done, uint64_t total)>& progress = {},
+                         std::optional<int> coefficients = {});
 
 } // namespace relume

@@ -10,6 +10,8 @@ namespace relume {
 // The error at which bases relight about as well as rows of 96 coefficients do.
 constexpr double kDefaultLayoutError = 0.058;
 
+constexpr double kMostLayoutBytes = 1e6; // per vertex, that may be asked for
+
 struct LayoutOptions {
     TransportLayout layout = TransportLayout::Bases;
     // Of clusters and bases, one of both. Bytes of transport in memory per vertex of the asset, or the error
@@ -17,7 +19,8 @@ struct LayoutOptions {
     // (transportUnit() in cluster_matrix.h).
     std::optional<double> bytesPerVertex;
     double error = kDefaultLayoutError;
-    std::optional<int> coefficients; // of rows alone: most of a row; none: as many as the asset's have
+
+    bool operator==(const LayoutOptions&) const = default;
 };
 
 } // namespace relume

@@ -19,13 +19,15 @@ constexpr double kPower = 0.7;
 } // namespace
 
 std::vector<float> lightSpectrum(int faceSize) {
+    std::array<float, kAmplitudes.size()> weights;
+    for (size_t level = 0; level < weights.size(); level++)
+        weights[level] = float(std::pow(kAmplitudes[level], kPower));
     std::vector<float> spectrum;
     for (int face = 0; face < kCubeFaces; face++)
         for (int y = 0; y < faceSize; y++)
             for (int x = 0; x < faceSize; x++) {
                 const size_t level = std::bit_width(unsigned(std::max(x, y)));
-                const double amplitude = kAmplitudes[std::min(level, kAmplitudes.size() - 1)];
-                spectrum.push_back(float(std::pow(amplitude, kPower)));
+                spectrum.push_back(weights[std::min(level, weights.size() - 1)]);
             }
     return spectrum;
 }

@@ -1,6 +1,10 @@
 #include "precompute/layout/slope.h"
 
+#include "engine/transport/clustered_transport.h"
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tbb/parallel_for.h>
 
 namespace relume {
@@ -23,13 +27,47 @@ Prices pricesAround(const IsHigh& isHigh) {
     return {std::exp2(low), std::exp2(high)};
 }
 
+void sortByEnergy(std::vector<ColumnEnergy>& columns) {
+    std::ranges::sort(columns, [](const ColumnEnergy& a, const ColumnEnergy& b) {
+        return a.energy != b.energy ? a.energy > b.energy : a.weight > b.weight;
+    });
+}
+
+// What keeps the first `kept`: of equal ones at the edge all are dropped, to stay within a budget.
+float thresholdOf(const std::vector<ColumnEnergy>& columns, size_t kept) {
+    return kept < columns.size()
+               ? std::nextafter(columns[kept].energy, std::numeric_limits<float>::infinity())
+               : 0.0f;
+}
+
 } // namespace
+
+float thresholdForBytes(std::vector<ColumnEnergy> columns, double bytes) {
+    constexpr double kColumnBytes = sizeof(uint16_t) + sizeof(uint32_t) * kClusterVertices;
+    sortByEnergy(columns);
+    size_t kept = 0;
+    for (double taken = 0; kept < columns.size(); kept++) {
+        taken += double(columns[kept].weight) * kColumnBytes;
+        if (taken > bytes) break;
+    }
+    return thresholdOf(columns, kept);
+}
+
+float thresholdForError(std::vector<ColumnEnergy> columns, double error) {
+    sortByEnergy(columns);
+    size_t kept = columns.size();
+    for (double left = 0; kept > 0; kept--) {
+        left += double(columns[kept - 1].weight) * double(columns[kept - 1].energy);
+        if (left > error) break;
+    }
+    return thresholdOf(columns, kept);
+}
 
 CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price) {
     std::vector<CutTotals> each(clusters.size());
     tbb::parallel_for(size_t(0), clusters.size(), [&](size_t i) {
         const BasisCut cut = cutFor(clusters[i], price);
-        each[i] = {cut.bytes, cut.error};
+        each[i] = {clusters[i].weight * cut.bytes, clusters[i].weight * cut.error};
     });
     CutTotals sum;
     for (const CutTotals& one : each) sum.bytes += one.bytes, sum.error += one.error;

@@ -17,7 +17,7 @@ Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
 
 void bakeSphere(const TemporaryFolder& folder) {
     run(folder, "bake sphere --ground --ground-tessellation 10 -m gold -K 2 -N 200 --visibility-size 64 "
-                "--face-size 32 --map-size 16 -q -o rows.relume");
+                "--face-size 32 --map-size 16 --layout rows -q -o rows.relume");
 }
 
 } // namespace
@@ -36,6 +36,8 @@ TEST_CASE(
         CHECK(says(convert.err, "bytes"));
         const Json info = Json::parse(run(folder, "info " + file + " --json").out);
         CHECK_EQ(info["parts"][0]["sets"][0]["layout"], layout);
+        CHECK_EQ(info["layout_error"]["wanted_error"], 0.03);
+        CHECK_LE(info["layout_error"]["error"], 0.031);
         CHECK_LT(info["total"]["bytes_per_vertex"], rows["total"]["bytes_per_vertex"]);
         const Json verify = Json::parse(run(folder, "verify " + file + " --samples 20 --json").out);
         CHECK_EQ(verify["relight_bits"], 0);
@@ -74,6 +76,43 @@ TEST_CASE("convert: the same bytes every time, within the budget, and errors tha
     fails("rows.relume -o rows.relume", "itself");
     fails("rows.relume --budget 60 --error 0.1 -o c.relume", "--budget");
     CHECK_FALSE(std::filesystem::exists(folder.path() / "c.relume"));
+}
+
+TEST_CASE("bake: bases unless another layout is asked for, about as small and as exact as it says") {
+    const TemporaryFolder folder;
+    const auto bake = [&](const std::string& options) {
+        const Outcome outcome =
+            run(folder, "bake sphere --ground --ground-tessellation 60 -m gold -K 1 --face-size 32 "
+                        "--visibility-size 64 --map-size 16 -q -o a.relume " +
+                            options);
+        CHECK(says(outcome.err, "bytes a vertex"));
+        Json info = Json::parse(run(folder, "info a.relume --json").out);
+        info["layout"] = info["parts"][0]["sets"][0]["layout"];
+        return info;
+    };
+    const Json usual = bake("-N 100");
+    CHECK_EQ(usual["layout"], "bases");
+    CHECK_EQ(usual["layout_error"]["wanted_error"], 0.058);
+    CHECK(usual["layout_error"]["error"].get<double>() == doctest::Approx(0.058).epsilon(0.15));
+    CHECK(says(usual["approximations"].dump(), "5.8 % being asked for"));
+    CHECK_EQ(usual["provenance"]["options"]["layout"], "bases");
+    const Json few = bake("-N 100 --budget 30");
+    CHECK_EQ(few["layout_error"]["wanted_bytes_per_vertex"], 30);
+    CHECK(few["total"]["bytes_per_vertex"].get<double>() == doctest::Approx(30).epsilon(0.15));
+    const Json clusters = bake("-N 100 --layout clusters --error 0.1");
+    CHECK_EQ(clusters["layout"], "clusters");
+    CHECK(clusters["layout_error"]["error"].get<double>() == doctest::Approx(0.1).epsilon(0.15));
+    const Json rows = bake("--layout rows");
+    CHECK_EQ(rows["coefficients"], 96);
+    CHECK(rows["layout_error"].is_null());
+
+    for (const char* wrong : {"--layout rows --error 0.1", "--layout rows --budget 60", "--layout cells",
+                              "--error 0.1 --budget 60", "--error 0", "--budget 0.5"}) {
+        const Outcome outcome = runRelume(folder, std::string("bake sphere -o b.relume ") + wrong);
+        CAPTURE(outcome.err);
+        CHECK_EQ(outcome.exitCode, 2);
+        CHECK(says(outcome.err, "--"));
+    }
 }
 
 TEST_CASE("cli: bench relight prints every layout's figures as JSON") {

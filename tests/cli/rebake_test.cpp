@@ -51,7 +51,8 @@ std::string baked(const RebakeFolder& folder, const std::string& arguments) {
     return bytes;
 }
 
-constexpr const char* kKept = "-K 2 -N 8 --keep-visibility";
+constexpr const char* kRows = "-K 2 -N 8 --layout rows";
+constexpr const char* kKept = "-K 2 -N 8 --layout rows --keep-visibility";
 
 } // namespace
 
@@ -62,21 +63,26 @@ TEST_CASE("rebake: the bytes are those of a bake of the new materials, terms and
         std::string a, b, bake, rebake;
     };
     for (const Case& c : std::vector<Case>{
-             {"\"clay\"", "\"gold\"", "-K 2 -N 8", ""},
+             {"\"clay\"", "\"gold\"", kRows, ""},
              {"\"clay\"", "\"gold\"", kKept, "--keep-visibility"},
-             {"\"copper\"", "\"copper\"", "-K 2 -N 8", "-m copper"},
-             {"\"copper\"", "\"gold\"", "-K 2 -N 8", "-m a=copper"},
-             {"\"copper\"", "\"clay\"", "-K 3 -N 40 --ground-material gold",
+             {"\"copper\"", "\"copper\"", kRows, "-m copper"},
+             {"\"copper\"", "\"gold\"", kRows, "-m a=copper"},
+             {"\"copper\"", "\"clay\"", "-K 3 -N 40 --layout rows --ground-material gold",
               "-K 3 -N 40 -m copper -m b=2=clay -m ground=gold"},
-             {"{\"set\": [\"clay\", \"gold\"]}", "\"gold\"", "-K 4 -N 8 --keep-visibility",
+             {"{\"set\": [\"clay\", \"gold\"]}", "\"gold\"", "-K 4 -N 8 --layout rows --keep-visibility",
               "-K 4 -m a=clay -m a=gold --keep-visibility"},
-             {"{\"separate\": [\"clay\", \"gold\"]}", "\"gold\"", "-K 2 -N 8",
-              "-m a=clay -m a=gold --separate"},
-             {"\"clay\"", "\"gold\"", "-K auto:0.2 -N 8 --factorization paper --transport-samples 4",
+             {"{\"separate\": [\"clay\", \"gold\"]}", "\"gold\"", kRows, "-m a=clay -m a=gold --separate"},
+             {"\"clay\"", "\"gold\"",
+              "-K auto:0.2 -N 8 --layout rows --factorization paper --transport-samples 4",
               "-K auto:0.2 --factorization paper --transport-samples 4"},
              // Blocks of 16 vertices and of 64.
-             {"\"clay\"", "\"gold\"", "-K 11 -N 6144 --keep-visibility",
-              "-K 11 -N 6144 --keep-visibility"}}) {
+             {"\"clay\"", "\"gold\"", "-K 11 -N 6144 --layout rows --keep-visibility",
+              "-K 11 -N 6144 --keep-visibility"},
+             // Blocks of 256 vertices and of 32, and back.
+             {"\"copper\"", "\"gold\"", "-K 2 -N 50 --error 0.1 --keep-visibility",
+              "-m a=copper -N 50 --layout bases --error 0.1 --keep-visibility"},
+             {"\"clay\"", "\"gold\"", "-K 2 -N 50 --layout clusters --budget 500 --keep-visibility",
+              "-N 50 --layout clusters --budget 500 --keep-visibility"}}) {
         CAPTURE(c.rebake);
         folder.describe(c.a, c.b);
         const Outcome rebake = folder.rebake("kept.relume " + c.rebake, "new.relume");
@@ -84,9 +90,12 @@ TEST_CASE("rebake: the bytes are those of a bake of the new materials, terms and
         CHECK(says(rebake.err, "visibility of 175 vertices reused"));
         CHECK(folder.bytes("new.relume") == baked(folder, c.bake));
     }
-    // The last one's blocks are of another size than the first one's.
+    // The last one's blocks are of another size than the first one's; what is not said is its own.
     folder.describe("\"clay\"", "\"gold\"");
-    const Outcome back = folder.rebake("new.relume -K 2 -N 8 --keep-visibility", "new.relume");
+    const Outcome same = folder.rebake("new.relume -K 2", "same.relume");
+    REQUIRE_MESSAGE(same.exitCode == 0, same.err);
+    CHECK(folder.bytes("same.relume") == baked(folder, "-K 2 -N 50 --layout clusters --budget 500"));
+    const Outcome back = folder.rebake("new.relume -K 2 -N 8 --layout rows --keep-visibility", "new.relume");
     REQUIRE_MESSAGE(back.exitCode == 0, back.err);
     CHECK(folder.bytes("new.relume") == folder.bytes("kept.relume"));
 }
@@ -192,7 +201,7 @@ TEST_CASE("rebake: shards keep visibility, and their merge does") {
 TEST_CASE("rebake: says what is wrong and what to do") {
     const RebakeFolder folder;
     REQUIRE_EQ(folder.bake(kKept, "kept.relume").exitCode, 0);
-    REQUIRE_EQ(folder.bake("-K 2 -N 8", "plain.relume").exitCode, 0);
+    REQUIRE_EQ(folder.bake(kRows, "plain.relume").exitCode, 0);
     const auto fails = [&](const std::string& arguments, int code, const std::string& words) {
         CAPTURE(arguments);
         const Outcome rebake = folder.rebake(arguments, "new.relume");
@@ -220,7 +229,7 @@ TEST_CASE("rebake: says what is wrong and what to do") {
     edited.pop_back();
     writeFileAtomically(folder.path() / "incomplete.relume", fileOf(edited));
     fails("incomplete.relume", 1, "expected 3 chunks, found 2");
-    const Outcome bake = folder.bake("-K 2 -N 8", "incomplete.relume");
+    const Outcome bake = folder.bake(kRows, "incomplete.relume");
     CHECK_EQ(bake.exitCode, 0);
     CHECK(says(bake.err, "visibility is found anew"));
     CHECK(folder.bytes("incomplete.relume") == folder.bytes("plain.relume"));
@@ -233,7 +242,7 @@ TEST_CASE("rebake: says what is wrong and what to do") {
 TEST_CASE("rebake: info tells what is kept") {
     const RebakeFolder folder;
     REQUIRE_EQ(folder.bake(kKept, "kept.relume").exitCode, 0);
-    REQUIRE_EQ(folder.bake("-K 2 -N 8", "plain.relume").exitCode, 0);
+    REQUIRE_EQ(folder.bake(kRows, "plain.relume").exitCode, 0);
     const auto bytesOf = [&](const std::string& file) {
         return nlohmann::json::parse(runRelume(folder, "info --json " + file).out)["kept_visibility"]["bytes"]
             .get<size_t>();

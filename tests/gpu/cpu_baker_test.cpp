@@ -16,6 +16,7 @@ TEST_CASE("cpu baker: its rows are the device's, up to silhouettes and exchanges
     scene.parts.push_back({"knot", makeKnot(300), "ashikhmin-shirley", "built-in knot", ""});
     addGround(scene, {.tessellation = 5}, "white-diffuse");
     BakeOptions options;
+    options.layout = {.layout = TransportLayout::Rows};
     options.factorization.terms = 3;
     options.visibilitySize = 128;
     const Asset asset = bake(device, std::move(scene), options);

@@ -26,8 +26,9 @@ Scene knotOnGround() {
     return scene;
 }
 
-BakeOptions smallOptions() {
+BakeOptions smallOptions(TransportLayout layout = TransportLayout::Rows) {
     BakeOptions options;
+    options.layout = {.layout = layout};
     options.visibilitySize = 64;
     options.faceSize = 32;
     options.coefficients = 48;
@@ -42,13 +43,11 @@ std::vector<vec3> relit(const Asset& asset) {
     haarFaces(light, asset.faceSize);
     std::vector<vec3> sums;
     for (const AssetPart& part : asset.parts) {
-        const SparseTransport& transport = rowsOf(part.sets[0].transport);
-        for (size_t row = 0; row < transport.rows(); row++) {
-            const vec3 step = transport.scales[row] / vec3(kRedMaximum, kGreenMaximum, kBlueMaximum);
+        const Transport& transport = part.sets[0].transport;
+        for (size_t row = 0; row < size_t(verticesOf(transport)) * termsOf(transport); row++) {
+            const std::vector<vec3> coefficients = coefficientsOf(transport, row, light.size());
             vec3 sum(0);
-            for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++)
-                sum +=
-                    step * vec3(unpackCoefficient(transport.values[entry])) * light[transport.indices[entry]];
+            for (size_t i = 0; i < light.size(); i++) sum += coefficients[i] * light[i];
             sums.push_back(sum);
         }
     }
@@ -115,51 +114,67 @@ TEST_CASE("preview: the blocks' portions are all of them once, each over the who
 
 TEST_CASE("preview: near the finished bake, nearer each time, and without a trace in its bytes") {
     const TestDevice device;
-    const TemporaryFolder folder;
-    const auto path = folder.path() / "a.relume";
-    Previews previews(path);
-    const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), smallOptions()));
-    bakeToFile(device, knotOnGround(), smallOptions(), path, {}, previews, {.previews = true});
-    CHECK(readFile(path) == whole);
-    const Asset finished = readAsset(path);
-    CHECK_FALSE(finished.provenance.bakedShare);
-    const std::vector<vec3> right = relit(finished);
-    // A twelfth, rounded up.
-    CHECK_GE(previews.coarseVertices, (2500 + 625) / 12);
-    CHECK_LE(previews.coarseVertices, (2500 + 625) / 12 + 20);
-    REQUIRE_EQ(previews.shares.size(), 4);
-    for (size_t i = 0; i < 4; i++) {
-        CAPTURE(i);
-        CHECK(previews.shares[i] == doctest::Approx(0.25 * double(i)).epsilon(0.15));
-        const double error = errorOf(previews.sums[i], right);
-        CHECK_GT(error, 0);
-        CHECK_LT(error, i == 0 ? 0.16 : 0.95 * errorOf(previews.sums[i - 1], right));
+    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
+        CAPTURE(layoutName(layout));
+        const TemporaryFolder folder;
+        const auto path = folder.path() / "a.relume";
+        Previews previews(path);
+        const BakeOptions options = smallOptions(layout);
+        const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), options));
+        bakeToFile(device, knotOnGround(), options, path, {}, previews, {.previews = true});
+        CHECK(readFile(path) == whole);
+        const Asset finished = readAsset(path);
+        CHECK_FALSE(finished.provenance.bakedShare);
+        const std::vector<vec3> right = relit(finished);
+        // A twelfth, rounded up.
+        // The ground is in the sample as a whole.
+        const uint64_t lacking = layout == TransportLayout::Rows ? 2500 + 625 : 2500;
+        CHECK_GE(previews.coarseVertices, lacking / 12);
+        CHECK_LE(previews.coarseVertices, (2500 + 625) / 12 + 20);
+        REQUIRE_EQ(previews.shares.size(), 4);
+        for (size_t i = 0; i < 4; i++) {
+            CAPTURE(i);
+            if (layout == TransportLayout::Rows) // else the sample is there from the start
+                CHECK(previews.shares[i] == doctest::Approx(0.25 * double(i)).epsilon(0.15));
+            else
+                CHECK(previews.shares[i] > (i == 0 ? 0 : previews.shares[i - 1]));
+            const double error = errorOf(previews.sums[i], right);
+            CHECK_GT(error, 0);
+            CHECK_LT(error, i == 0 ? 0.16 : 0.95 * errorOf(previews.sums[i - 1], right));
+        }
+        for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+            CHECK_EQ(file.path().filename(), "a.relume");
     }
-    for (const auto& file : std::filesystem::directory_iterator(folder.path()))
-        CHECK_EQ(file.path().filename(), "a.relume");
 }
 
 TEST_CASE("preview: a bake that was stopped goes on from it, with previews or without") {
     const TestDevice device;
-    const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), smallOptions()));
-    for (const bool again : {true, false}) {
-        CAPTURE(again);
-        const TemporaryFolder folder;
-        const auto path = folder.path() / "a.relume";
-        Previews stopped(path);
-        stopped.stopAfter = 1;
-        CHECK_THROWS_AS(
-            bakeToFile(device, knotOnGround(), smallOptions(), path, {}, stopped, {.previews = true}),
-            BakeStopped);
-        CHECK_GT(stopped.coarseVertices, 0);
-        CHECK(readAsset(path).provenance.bakedShare == 0.0f);
-        CHECK(std::filesystem::exists(interpolatedPath(path)));
-        Previews resumed(path);
-        bakeToFile(device, knotOnGround(), smallOptions(), path, {}, resumed, {.previews = again});
-        CHECK_EQ(resumed.coarseVertices, 0);
-        CHECK_EQ(resumed.shares.empty(), !again);
-        CHECK(readFile(path) == whole);
-        for (const auto& file : std::filesystem::directory_iterator(folder.path()))
-            CHECK_EQ(file.path().filename(), "a.relume");
+    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
+        CAPTURE(layoutName(layout));
+        const BakeOptions options = smallOptions(layout);
+        const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), options));
+        for (const bool again : {true, false}) {
+            CAPTURE(again);
+            const TemporaryFolder folder;
+            const auto path = folder.path() / "a.relume";
+            Previews stopped(path);
+            stopped.stopAfter = 1;
+            CHECK_THROWS_AS(
+                bakeToFile(device, knotOnGround(), options, path, {}, stopped, {.previews = true}),
+                BakeStopped);
+            CHECK_GT(stopped.coarseVertices, 0);
+            const std::optional<float> share = readAsset(path).provenance.bakedShare;
+            REQUIRE(share);
+            CHECK((*share > 0) == (layout == TransportLayout::Bases)); // the sample's
+            CHECK(*share < 0.7f);
+            CHECK(std::filesystem::exists(interpolatedPath(path)));
+            Previews resumed(path);
+            bakeToFile(device, knotOnGround(), options, path, {}, resumed, {.previews = again});
+            CHECK_EQ(resumed.coarseVertices, 0);
+            CHECK_EQ(resumed.shares.empty(), !again);
+            CHECK(readFile(path) == whole);
+            for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+                CHECK_EQ(file.path().filename(), "a.relume");
+        }
     }
 }

@@ -43,7 +43,7 @@ inline std::vector<RawChunk> keptChunks() {
     const Asset asset = keptAsset();
     std::vector<RawChunk> chunks = chunksOf(encodeAsset(asset));
     setVisibilityKey(chunks, kVisibilityKey);
-    const uint32_t block = blockVertices(asset);
+    const uint32_t block = visibilityRunVertices(asset);
     for (uint32_t part = 0; part < asset.parts.size(); part++) {
         const size_t vertices = asset.parts[part].mesh.vertexCount();
         const std::vector<uint32_t> bits = bitsOf(part, vertices);

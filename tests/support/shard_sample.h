@@ -2,6 +2,7 @@
 #pragma once
 
 #include "precompute/bake/merge.h"
+#include "precompute/layout/basis_kinds.h"
 #include "tests/support/asset_sample.h"
 
 namespace relume::test {
@@ -18,7 +19,25 @@ inline Asset shardedAsset() {
     return asset;
 }
 
-// All blocks of an asset, with losses as a device might measure them.
+// The plan of such an asset's bake, its transport in this layout.
+inline BakePlan planIn(Asset asset, TransportLayout layout) {
+    size_t sets = 0;
+    for (AssetPart& part : asset.parts)
+        for (MaterialSet& set : part.sets) {
+            sets++;
+            if (layout == TransportLayout::Rows) continue;
+            asset.layout = recordOf({.layout = layout}, 0);
+            set.transport =
+                emptyTransport(layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
+            if (auto* bases = std::get_if<BasisTransport>(&set.transport))
+                bases->kinds = basisKinds(set.brdf);
+        }
+    BakePlan plan = planOf(std::move(asset));
+    if (layout != TransportLayout::Rows) plan.scale = LayoutScale{std::vector<float>(sets, 1.0f), 1e-4};
+    return plan;
+}
+
+// All blocks of an asset in rows, with losses as a device might measure them.
 class SampleBlocks : public StoredBlocks {
   public:
     SampleBlocks(const BakePlan& plan, const Asset& asset) {
@@ -58,8 +77,9 @@ inline ChunkWriter::Output appendTo(Bytes& bytes) {
     return [&bytes](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); };
 }
 
-inline std::vector<Bytes> shardsOf(const Asset& asset, uint32_t count) {
-    const BakePlan plan = planOf(asset);
+inline std::vector<Bytes> shardsOf(const Asset& asset, uint32_t count,
+                                   TransportLayout layout = TransportLayout::Rows) {
+    const BakePlan plan = planIn(asset, layout);
     const SampleBlocks blocks(plan, asset);
     std::vector<Bytes> files(count);
     for (uint32_t index = 0; index < count; index++)

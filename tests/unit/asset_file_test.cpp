@@ -102,6 +102,12 @@ void checkSame(const Asset& a, const Asset& b) {
     CHECK(a.visibilityOffset == b.visibilityOffset);
     CHECK(a.quantisationError == b.quantisationError);
     CHECK(a.truncationError == b.truncationError);
+    REQUIRE(a.layout.has_value() == b.layout.has_value());
+    if (a.layout) {
+        CHECK(a.layout->wantedBytes == b.layout->wantedBytes);
+        CHECK(a.layout->wantedError == b.layout->wantedError);
+        CHECK(a.layout->error == b.layout->error);
+    }
     checkSameMesh(a.occluder, b.occluder);
     CHECK(a.provenance.program == b.provenance.program);
     CHECK(a.provenance.device == b.provenance.device);
@@ -199,6 +205,27 @@ TEST_CASE("asset file: a block's size depends on coefficients and terms alone, a
             CHECK_LE(size_t(blockVertices(coefficients, terms)) * size_t(terms * coefficients), kRunEntries);
     Asset asset = sampleAsset();
     CHECK_EQ(blockVertices(asset), blockVertices(24, 3));
+    CHECK_EQ(visibilityRunVertices(asset), 64u);
+    for (const auto& [layout, block, run] :
+         {std::tuple(TransportLayout::Bases, 256u, 64u), std::tuple(TransportLayout::Clusters, 32u, 32u)}) {
+        for (AssetPart& part : asset.parts)
+            for (MaterialSet& set : part.sets) set.transport = emptyTransport(layout, 1, 1);
+        CHECK_EQ(blockVertices(asset), block);
+        CHECK_EQ(visibilityRunVertices(asset), run);
+    }
+}
+
+TEST_CASE("asset file: what was asked of a layout, and what came of it") {
+    Asset asset = sampleAsset();
+    for (const LayoutRecord& layout : {LayoutRecord{60.5, {}, 0.0123}, LayoutRecord{{}, 0.058, 0}}) {
+        asset.layout = layout;
+        checkSame(decodeAsset(encodeAsset(asset), "file"), asset);
+    }
+    for (const LayoutRecord& wrong :
+         {LayoutRecord{-1.0, {}, 0}, LayoutRecord{{}, 0.0, 0}, LayoutRecord{{}, {}, -1}}) {
+        asset.layout = wrong;
+        CHECK_THROWS_WITH_AS(encodeAsset(asset), doctest::Contains("layout"), Error);
+    }
 }
 
 TEST_CASE("asset file: chunks that are stored elsewhere are copied as they are") {

@@ -36,10 +36,15 @@ TEST_CASE("baked options: they come back") {
     options.visibilityMethod = VisibilityMethod::Raster;
     options.transportSamples = 4;
     options.occluderTriangles = 12345;
-    for (const BakeOptions& each : {options, BakeOptions()}) {
+    BakeOptions clusters = options, rows;
+    clusters.layout = {.layout = TransportLayout::Clusters, .bytesPerVertex = 123.5};
+    options.layout.error = 0.03;
+    rows.layout = {.layout = TransportLayout::Rows};
+    for (const BakeOptions& each : {options, clusters, rows, BakeOptions()}) {
         const BakeOptions back = optionsOf(assetOf(each));
         CHECK_EQ(describeOptions(back), describeOptions(each));
         CHECK(back.factorization == each.factorization);
+        CHECK(back.layout == each.layout);
     }
 }
 
@@ -58,6 +63,11 @@ TEST_CASE("baked options: others are refused") {
                                                              {"terms", 1e300},
                                                              {"terms", "4"},
                                                              {"terms", uint64_t(1) << 40},
+                                                             {"layout", "cells"},
+                                                             {"layout_bytes", -1},
+                                                             {"layout_bytes", 1e7},
+                                                             {"layout_error", 0},
+                                                             {"layout_error", "x"},
                                                              {"error", 0},
                                                              {"error", 2},
                                                              {"error", "0.1"},

@@ -3,6 +3,7 @@
 #include "engine/transport/asset_check.h"
 #include "precompute/layout/basis_encoder.h"
 #include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/layout_scale.h"
 #include "precompute/layout/light_spectrum.h"
 #include "precompute/layout/slope.h"
 #include "tests/support/asset_sample.h"
@@ -304,13 +305,48 @@ TEST_CASE("layout: clusters keep what a budget or an error allows, exactly") {
     }
 }
 
+TEST_CASE("layout: samples that stand for twice as many find about the price of all") {
+    const SparseTransport rows = smoothRows(4096, 2, 14);
+    const Asset asset = assetOf(rows);
+    const MaterialSet& set = asset.parts[0].sets[0];
+    const float unit = transportUnit(rows, lightSpectrum(kFace));
+    SparseTransport half = smoothRows(2048, 2, 14); // of the same patterns
+    for (const LayoutOptions& options :
+         {LayoutOptions{.error = 0.05}, LayoutOptions{.bytesPerVertex = 40},
+          LayoutOptions{.layout = TransportLayout::Clusters, .error = 0.1},
+          LayoutOptions{.layout = TransportLayout::Clusters, .bytesPerVertex = 200}}) {
+        const auto priceOf = [&](const SparseTransport& sample) {
+            const SetSample one{&set, &sample, 4096, unit};
+            const LayoutScale scale = findScale({&one, 1}, kFace, 4096, options);
+            CHECK(scale.units == std::vector(1, unit));
+            return scale.price;
+        };
+        const double all = priceOf(rows);
+        CHECK(all > 0);
+        CHECK(std::abs(std::log2(priceOf(half) / all)) < 0.5);
+    }
+}
+
 TEST_CASE("layout: there and back") {
     const Asset rows = assetOf(smoothRows(300, 2, 13));
     for (const TransportLayout layout : {TransportLayout::Clusters, TransportLayout::Bases}) {
         Asset asset = rows;
-        convertLayout(asset, {layout, {}, 1e-3});
-        const Conversion back = convertLayout(asset, {TransportLayout::Rows, {}, 0});
+        uint64_t last = 0;
+        const auto progress = [&](uint64_t done, uint64_t total) {
+            CHECK(total == 300);
+            last = done;
+        };
+        const Conversion there = convertLayout(asset, {layout, {}, 1e-3}, progress);
+        CHECK(last == 300);
+        REQUIRE(asset.layout);
+        CHECK(asset.layout->error == *there.error);
+        CHECK(asset.layout->wantedError == 1e-3);
+        CHECK(!asset.layout->wantedBytes);
+        last = 0;
+        const Conversion back = convertLayout(asset, {TransportLayout::Rows, {}, 0}, progress);
+        CHECK(last == 300);
         CHECK(!back.error);
+        CHECK(!asset.layout);
         checkAsset(asset, "back");
         REQUIRE(layoutOf(asset.parts[0].sets[0].transport) == TransportLayout::Rows);
         // Bytes leave an error of their own.
@@ -320,4 +356,7 @@ TEST_CASE("layout: there and back") {
     Asset same = rows;
     convertLayout(same, {TransportLayout::Rows, {}, 0});
     CHECK(encodeAsset(same) == encodeAsset(rows));
+    convertLayout(same, {TransportLayout::Rows, {}, 0}, {}, 20);
+    CHECK_EQ(same.coefficients, 20);
+    CHECK(entriesOf(same.parts[0].sets[0].transport) <= 20 * 600);
 }

@@ -24,8 +24,8 @@ std::string refusal(const std::vector<Bytes>& files) {
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-Bytes wholeBake(const Asset& asset) {
-    BakePlan plan = planOf(asset);
+Bytes wholeBake(const Asset& asset, TransportLayout layout = TransportLayout::Rows) {
+    BakePlan plan = planIn(asset, layout);
     const SampleBlocks blocks(plan, asset);
     Bytes whole;
     writeBake(plan, blocks, appendTo(whole));
@@ -95,6 +95,24 @@ TEST_CASE("merge: shards in any order give the bytes of the whole bake") {
         CHECK(merged(files) == whole);
         std::ranges::shuffle(files, random);
         CHECK(merged(files) == whole);
+    }
+}
+
+TEST_CASE("merge: of shards in clusters and bases too") {
+    const Asset asset = shardedAsset();
+    for (const auto& [layout, blocks] :
+         {std::pair(TransportLayout::Clusters, 13u), std::pair(TransportLayout::Bases, 3u)}) {
+        CAPTURE(layoutName(layout));
+        const Bytes whole = wholeBake(asset, layout);
+        REQUIRE_EQ(planIn(asset, layout).blocks.size(), blocks);
+        const Asset read = decodeAsset(whole, "whole");
+        CHECK(layoutOf(read.parts[0].sets[1].transport) == layout);
+        REQUIRE(read.layout);
+        CHECK_GT(read.layout->error, 0);
+        CHECK_LT(read.layout->error, 0.1);
+        for (uint32_t count : {1, 2, 4, 20}) CHECK(merged(shardsOf(asset, count, layout)) == whole);
+        const std::string other = refusal({shardsOf(asset, 2)[0], shardsOf(asset, 2, layout)[1]});
+        CHECK(says(other, "1: is a shard of another bake than 0: "));
     }
 }
 
@@ -173,23 +191,27 @@ TEST_CASE("merge: cut at any length and with any bit flipped, a shard is refused
 
 TEST_CASE("merge: damage under right checksums is refused or harmless") {
     const Asset asset = shardedAsset();
-    const std::vector<Bytes> files = shardsOf(asset, 3);
-    std::mt19937 random(6);
-    int refused = 0;
-    for (int i = 0; i < 200; i++) {
-        std::vector<Bytes> damaged = files;
-        std::vector<RawChunk> chunks = chunksOf(files[size_t(i % 3)]);
-        RawChunk& chunk = chunks[random() % chunks.size()];
-        chunk.raw[random() % chunk.raw.size()] ^= std::byte(1u << random() % 8);
-        damaged[size_t(i % 3)] = fileOf(chunks);
-        try {
-            decodeAsset(merged(damaged), "merged");
-        } catch (const Error& failure) {
-            CHECK_FALSE(says(failure.what(), "merged")); // else the merge passed on what readers refuse
-            refused++;
+    for (const TransportLayout layout :
+         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+        CAPTURE(layoutName(layout));
+        const std::vector<Bytes> files = shardsOf(asset, 3, layout);
+        std::mt19937 random(6);
+        int refused = 0;
+        for (int i = 0; i < 200; i++) {
+            std::vector<Bytes> damaged = files;
+            std::vector<RawChunk> chunks = chunksOf(files[size_t(i % 3)]);
+            RawChunk& chunk = chunks[random() % chunks.size()];
+            chunk.raw[random() % chunk.raw.size()] ^= std::byte(1u << random() % 8);
+            damaged[size_t(i % 3)] = fileOf(chunks);
+            try {
+                decodeAsset(merged(damaged), "merged");
+            } catch (const Error& failure) {
+                CHECK_FALSE(says(failure.what(), "merged")); // else the merge passed on what readers refuse
+                refused++;
+            }
         }
+        CHECK_GT(refused, 50);
     }
-    CHECK_GT(refused, 50);
 }
 
 TEST_CASE("merge: a shard must hold its own blocks and no others, and what each lost") {
@@ -201,7 +223,8 @@ TEST_CASE("merge: a shard must hold its own blocks and no others, and what each 
 
     std::vector<RawChunk> overlapping = own;
     overlapping.push_back(*std::ranges::find_if(others, isTransport));
-    CHECK(says(refusal({fileOf(overlapping), files[1]}), "0: holds 8 chunks TRAN, and shard 0/2 has 7"));
+    CHECK(says(refusal({fileOf(overlapping), files[1]}),
+               "0: holds 8 chunks of transport, and shard 0/2 has 7"));
     std::vector<RawChunk> lacking = own;
     lacking.erase(std::ranges::find_if(lacking, isTransport));
     CHECK(says(refusal({fileOf(lacking), files[1]}), "0: chunk TRAN of set 0, run 0, is missing"));
@@ -212,13 +235,13 @@ TEST_CASE("merge: a shard must hold its own blocks and no others, and what each 
     const auto refusalOf = [&](ChunkTag tag, const std::function<void(std::vector<std::byte>&)>& edit) {
         return refusal({edited(files[0], tag, edit), files[1]});
     };
-    CHECK(
-        says(refusalOf(kBlockLosses, [](auto& raw) { raw.resize(24); }), "0: chunk LOSS: expected 96 bytes"));
-    CHECK(
-        says(refusalOf(kBlockLosses, [](auto& raw) { raw.resize(97); }), "0: chunk LOSS: expected 96 bytes"));
+    CHECK(says(refusalOf(kBlockLosses, [](auto& raw) { raw.resize(24); }),
+               "0: chunk LOSS: expected 128 bytes"));
+    CHECK(says(refusalOf(kBlockLosses, [](auto& raw) { raw.resize(129); }),
+               "0: chunk LOSS: expected 128 bytes"));
     for (double wrong : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")})
         CHECK(says(
-            refusalOf(kBlockLosses, [&](auto& raw) { poke(raw, 24, std::bit_cast<uint64_t>(wrong), 8); }),
+            refusalOf(kBlockLosses, [&](auto& raw) { poke(raw, 32, std::bit_cast<uint64_t>(wrong), 8); }),
             "0: chunk LOSS: expected finite"));
     CHECK(says(refusalOf(kBlockLosses, [](auto& raw) { poke(raw, 8, std::bit_cast<uint64_t>(1e300), 8); }),
                "the bake"));

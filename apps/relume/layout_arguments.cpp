@@ -1,0 +1,69 @@
+#include "apps/relume/layout_arguments.h"
+
+#include "apps/relume/options.h"
+#include "engine/base/error.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < std::variant_size_v<Transport>; i++)
+        names.push_back(layoutName(TransportLayout(i)));
+    const LayoutOptions defaults;
+    command
+        .add_option("--layout", mLayout,
+                    "How transport is kept. bases: 256 vertices share basis vectors, smallest and fastest; "
+                    "clusters: 32 vertices share which coefficients they keep; rows: each vertex its own")
+        ->check(CLI::IsMember(names))
+        ->type_name("LAYOUT")
+        ->default_str(hasDefaults ? layoutName(defaults.layout) : "the bake's own");
+    CLI::Option* budget =
+        command
+            .add_option("--budget", mBudget,
+                        "Bytes of transport per vertex, in memory, that the least error is sought within")
+            ->check(between(1, float(kMostLayoutBytes)))
+            ->type_name("BYTES");
+    command
+        .add_option(
+            "--error", mError,
+            "Error of transport that the fewest bytes are sought for, as light weighs it: 0.05 is 5 %")
+        ->check(between(1e-6f, 1))
+        ->type_name("ERROR")
+        ->default_str(hasDefaults ? fmt::format("{}", defaults.error) : "the bake's own")
+        ->excludes(budget);
+}
+
+LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
+    LayoutOptions options = otherwise;
+    if (mLayout) options.layout = *layoutFromName(*mLayout);
+    if (options.layout == TransportLayout::Rows) {
+        if (mBudget || mError)
+            throw UsageError("--layout rows: --budget and --error are for clusters and bases; rows are "
+                             "shortened by --coefficients");
+        return {.layout = TransportLayout::Rows};
+    }
+    if (mBudget) options.bytesPerVertex = mBudget;
+    if (mError) {
+        options.error = *mError;
+        options.bytesPerVertex.reset();
+    }
+    return options;
+}
+
+void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex) {
+    constexpr double kHardlyMore = 1.05;
+    if (layout.wantedBytes && bytesPerVertex > kHardlyMore * *layout.wantedBytes)
+        spdlog::warn("a budget of {} bytes a vertex is less than this layout can do with; it has {:.0f}",
+                     *layout.wantedBytes, bytesPerVertex);
+    if (layout.wantedError && layout.error > kHardlyMore * *layout.wantedError)
+        spdlog::warn(
+            "an error of {:.2f} % is beyond this layout's precision; rows of many coefficients keep more",
+            100 * *layout.wantedError);
+    if (layout.error > 0.5)
+        spdlog::warn("more than half of what tells vertices apart is lost; ask for more bytes");
+}
+
+} // namespace relume

@@ -1,0 +1,27 @@
+// How transport is kept: options that several subcommands share.
+#pragma once
+
+#include "engine/transport/asset.h"
+#include "precompute/layout/layout_options.h"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+namespace relume {
+
+// --layout, --budget, --error
+struct LayoutArguments {
+    // Without `hasDefaults` nothing has a default but what resolve() is told.
+    void add(CLI::App& command, bool hasDefaults);
+    // What was given, else of these. Throws UsageError.
+    LayoutOptions resolve(const LayoutOptions& otherwise = {}) const;
+
+  private:
+    std::optional<std::string> mLayout;
+    std::optional<double> mBudget, mError;
+};
+
+// Says where what was asked for is beyond what a layout can do. `bytesPerVertex`: that it takes.
+void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex);
+
+} // namespace relume

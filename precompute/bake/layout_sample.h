@@ -1,0 +1,21 @@
+// A sample of a bake's blocks, which tells how all are encoded.
+#pragma once
+
+#include "precompute/bake/block_baker.h"
+
+namespace relume {
+
+// Blocks of every part, spread evenly over its surface. They depend on the plan's blocks alone.
+std::vector<uint32_t> sampleBlocks(const BakePlan& plan);
+
+struct SampledBlock {
+    uint32_t block;
+    BakedBlock baked; // visibility packed
+};
+
+// Bakes them, in a stage of its own, and sets the plan's scale. Throws BakeStopped, Error. `kept` as for
+// bakeBlocks().
+std::vector<SampledBlock> bakeSample(const vk::Device& device, BakePlan& plan, const BakeLimits& limits,
+                                     BakeObserver& observer, BakeTimes& times, KeptVisibility* kept);
+
+} // namespace relume

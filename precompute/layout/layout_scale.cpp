@@ -1,0 +1,86 @@
+#include "precompute/layout/layout_scale.h"
+
+#include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/cluster_encoder.h"
+#include "precompute/layout/light_spectrum.h"
+#include "precompute/layout/same_sums.h"
+#include "precompute/layout/slope.h"
+
+#include <algorithm>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+// A cluster of a sample, and how many it stands for.
+struct Place {
+    uint32_t sample, first, count;
+    double weight;
+};
+
+std::vector<Place> placesOf(std::span<const SetSample> samples, uint32_t clusterVertices) {
+    std::vector<Place> places;
+    for (uint32_t number = 0; number < samples.size(); number++) {
+        const uint32_t sampled = samples[number].rows->vertices;
+        const double weight = double(samples[number].vertices) / double(std::max(1u, sampled));
+        for (uint32_t first = 0; first < sampled; first += clusterVertices)
+            places.push_back({number, first, std::min(clusterVertices, sampled - first), weight});
+    }
+    return places;
+}
+
+} // namespace
+
+LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
+                      const LayoutOptions& options) {
+    sumAlikeEverywhere();
+    const std::vector<float> spectrum = lightSpectrum(faceSize);
+    LayoutScale scale;
+    double error = 0, rowBytes = 0; // wanted, squared; of clusters, whatever is kept
+    for (const SetSample& sample : samples) {
+        scale.units.push_back(sample.unit);
+        error += options.error * options.error * double(sample.vertices);
+        rowBytes += double(sample.vertices) * double(sample.rows->terms) * sizeof(float);
+    }
+    const double budget = options.bytesPerVertex.value_or(0) * double(vertices);
+    if (options.layout == TransportLayout::Clusters) {
+        const std::vector<Place> places = placesOf(samples, kClusterVertices);
+        std::vector<std::vector<ColumnEnergy>> each(places.size());
+        tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
+            const Place& place = places[i];
+            for (const float energy :
+                 columnEnergies(*samples[place.sample].rows, place.first / kClusterVertices, spectrum,
+                                scale.units[place.sample]))
+                each[i].push_back({energy, float(place.weight)});
+        });
+        std::vector<ColumnEnergy> energies;
+        for (const auto& own : each) energies.insert(energies.end(), own.begin(), own.end());
+        scale.price =
+            double(options.bytesPerVertex ? thresholdForBytes(std::move(energies), budget - rowBytes)
+                                          : thresholdForError(std::move(energies), error));
+        return scale;
+    }
+    const std::vector<Place> places = placesOf(samples, kBasisVertices);
+    std::vector<BasisAnalysis> analyses(places.size());
+    tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
+        const Place& place = places[i];
+        const SetSample& sample = samples[place.sample];
+        analyses[i] =
+            analyse(clusterMatrix(*sample.rows, place.first, place.count, basisKinds(sample.set->brdf),
+                                  spectrum, scale.units[place.sample], kAnalysedColumns));
+        analyses[i].weight = place.weight;
+    });
+    scale.price = options.bytesPerVertex ? priceForBytes(analyses, budget) : priceForError(analyses, error);
+    return scale;
+}
+
+LayoutRecord recordOf(const LayoutOptions& options, double error) {
+    LayoutRecord record;
+    record.wantedBytes = options.bytesPerVertex;
+    if (!options.bytesPerVertex) record.wantedError = options.error;
+    record.error = error;
+    return record;
+}
+
+} // namespace relume

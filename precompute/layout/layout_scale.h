@@ -1,0 +1,40 @@
+// What all clusters of a bake share, so that each can be encoded by itself.
+#pragma once
+
+#include "engine/transport/asset.h"
+#include "precompute/layout/layout_options.h"
+
+#include <span>
+#include <vector>
+
+namespace relume {
+
+struct LayoutScale {
+    std::vector<float> units; // per set, over all parts: transportUnit()
+    // What makes a cluster keep more or less: of bases the price of a byte (slope.h), of clusters the least
+    // energy of a column that is kept (cluster_encoder.h).
+    double price = 0;
+
+    bool operator==(const LayoutScale&) const = default;
+};
+
+// Clusters of a set that stand for all of them.
+struct SetSample {
+    const MaterialSet* set;
+    const SparseTransport* rows; // cluster after cluster; only the last may have fewer vertices
+    uint32_t vertices;           // of the whole set
+    float unit;                  // transportUnit() of the set
+};
+
+// For what `options` ask for of clusters or bases, as these samples tell it. `vertices`: of the asset, which
+// a budget is for. The same on every machine.
+LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
+                      const LayoutOptions& options);
+
+// As an asset keeps it.
+LayoutRecord recordOf(const LayoutOptions& options, double error);
+
+constexpr const char* kTooLarge =
+    "transport is too large for numbers of 32 bits; bake it again, with a material of less gain";
+
+} // namespace relume
