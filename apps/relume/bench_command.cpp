@@ -1,12 +1,12 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/median.h"
+#include "apps/relume/milliseconds.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
 #include "engine/base/error.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -30,13 +30,13 @@ template <typename Work>
 double medianMilliseconds(vk::Commands& commands, int repeats, const Work& work) {
     std::vector<double> times;
     for (int repeat = 0; repeat <= repeats; repeat++) {
-        const auto start = std::chrono::steady_clock::now();
-        commands.begin();
-        work(repeat);
-        commands.submitAndWait();
-        const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+        const double elapsed = milliseconds([&] {
+            commands.begin();
+            work(repeat);
+            commands.submitAndWait();
+        });
         if (repeat > 0)
-            times.push_back(elapsed.count());
+            times.push_back(elapsed);
         else
             commands.clearTimes();
     }
@@ -128,9 +128,11 @@ void addBenchCommand(CLI::App& program) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
         "`relume bench bake --help`: baking on the CPU beside the device's ways, stage by stage.\n"
-        "`relume bench relight --help`: relighting from every layout, beside the CPU and a library.");
+        "`relume bench relight --help`: relighting from every layout, beside the CPU and a library.\n"
+        "`relume bench view --help`: view changes and whole frames of bakes.");
     addBenchBakeCommand(*command);
     addBenchRelightCommand(*command);
+    addBenchViewCommand(*command);
     // CLI11 runs this after a subcommand's own callback too.
     command->callback([arguments, command] {
         if (command->get_subcommands().empty()) run(*arguments);

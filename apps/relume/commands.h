@@ -20,5 +20,6 @@ void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 void addBenchBakeCommand(CLI::App& bench);
 void addBenchRelightCommand(CLI::App& bench);
+void addBenchViewCommand(CLI::App& bench);
 
 } // namespace relume

@@ -54,7 +54,7 @@ void DeviceArguments::expectNoMessages(const vk::Device& device) {
 }
 
 void CameraArguments::add(CLI::App& command) {
-    command.add_option("--size", mSize, "Image size in pixels (default 960x720)")
+    command.add_option("--size", mSize, fmt::format("Image size in pixels (default {}x{})", width, height))
         ->type_name("WxH")
         ->each([this](const std::string& text) {
             char rest;
