@@ -1,19 +1,37 @@
 #include "engine/render/map_texture.h"
 
+#include "engine/base/error.h"
 #include "engine/vk/upload.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace relume {
 
-vk::Image makeMapTexture(const vk::Device& device, std::span<const vec3> maps, uint32_t size, uint32_t layers,
-                         std::string_view name) {
-    RELUME_CHECK_EQ(maps.size(), size_t(size) * size * layers);
-    std::vector<vec4> texels;
-    texels.reserve(maps.size());
-    for (const vec3& value : maps) texels.push_back(vec4(value, 0));
-    return vk::uploadImage(device, {.width = size, .height = size, .layers = layers},
-                           std::as_bytes(std::span(texels)), name);
+ViewMapTexture makeViewMapTexture(const vk::Device& device, const FactoredBrdf& brdf, std::string_view name) {
+    ViewMapTexture packed;
+    packed.isGrey =
+        std::ranges::all_of(brdf.viewMaps, [](const vec3& v) { return v.x == v.y && v.y == v.z; });
+    const int channels = packed.isGrey ? 1 : 3;
+    packed.imagesPerLayer = uint32_t(channels * brdf.terms + 3) / 4;
+    const uint32_t images = uint32_t(brdf.layers) * packed.imagesPerLayer;
+    if (images > device.limits().maxImageArrayLayers)
+        throw Error("{}: {} layers of {} terms need {} images, {} holds at most {}; bake fewer materials or "
+                    "terms in a set",
+                    name, brdf.layers, brdf.terms, images, device.name(),
+                    device.limits().maxImageArrayLayers);
+    std::vector<vec4> texels(images * brdf.mapTexels(), vec4(0));
+    for (int layer = 0; layer < brdf.layers; layer++)
+        for (int value = 0; value < channels * brdf.terms; value++) {
+            const vec3* map = brdf.viewMap(layer, value / channels);
+            const size_t image = uint32_t(layer) * packed.imagesPerLayer + uint32_t(value) / 4;
+            for (size_t t = 0; t < brdf.mapTexels(); t++)
+                texels[image * brdf.mapTexels() + t][value % 4] = map[t][value % channels];
+        }
+    const auto size = uint32_t(brdf.size);
+    packed.image = vk::uploadImage(device, {.width = size, .height = size, .layers = images},
+                                   std::as_bytes(std::span(texels)), name);
+    return packed;
 }
 
 vk::Image makeSurfaceTexture(const vk::Device& device, const Texture& texture, std::string_view name) {

@@ -2,12 +2,16 @@
 
 #include "engine/base/error.h"
 #include "engine/render/map_texture.h"
+#include "engine/render/numbered_triangles.h"
+#include "engine/scene/closed_mesh.h"
 #include "engine/vk/upload.h"
-#include "shaders/view_clamp_frag.h"
-#include "shaders/view_frag.h"
-#include "shaders/view_vert.h"
+#include "shaders/view_shade_frag.h"
+#include "shaders/view_shade_vert.h"
+#include "shaders/view_surface_frag.h"
+#include "shaders/view_surface_vert.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace relume {
@@ -17,18 +21,23 @@ using vk::Stage;
 namespace {
 
 constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32_UINT;
 
-// A varying, whatever its width, takes a location of four components. Five are not for terms: the
-// position in clip space and those that view.vert numbers 0 to 3.
-uint32_t largestTermsPerDraw(const VkPhysicalDeviceLimits& limits) {
-    return std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) / 4 - 5;
+// Where it is offered 24 bits of depth, since they take half the memory of 32 and as precise where most of a
+// scene is: beyond twice the near plane's distance. One of the two always is.
+VkFormat depthFormatOf(const vk::Device& device) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_D24_UNORM_S8_UINT, &properties);
+    return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
+               ? VK_FORMAT_D24_UNORM_S8_UINT
+               : VK_FORMAT_D32_SFLOAT_S8_UINT;
 }
 
-bool canBlend(const vk::Device& device) {
-    VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(device.physical(), kColorFormat, &properties);
-    return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+void expectTexels(const vk::Device& device, uint64_t texels, const std::string& name) {
+    if (texels > device.limits().maxTexelBufferElements)
+        throw Error("{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several "
+                    "parts",
+                    name, texels, device.name(), device.limits().maxTexelBufferElements);
 }
 
 template <typename T>
@@ -50,6 +59,13 @@ std::vector<shared::ViewVertex> verticesOf(const Mesh& mesh) {
     return vertices;
 }
 
+std::vector<glm::u32vec4> cornersOf(const Mesh& mesh) {
+    std::vector<glm::u32vec4> corners;
+    corners.reserve(mesh.triangleCount());
+    for (const uvec3& triangle : mesh.triangles) corners.emplace_back(triangle, 0);
+    return corners;
+}
+
 // The least of the shader's ways that serves these layers.
 uint32_t lookOf(const std::vector<shared::ViewLayer>& layers) {
     for (const shared::ViewLayer& layer : layers)
@@ -57,35 +73,66 @@ uint32_t lookOf(const std::vector<shared::ViewLayer>& layers) {
     return layers.size() == 1 ? shared::kSingleLook : shared::kLayersLook;
 }
 
+// Where a box may appear, in clip space after division; everywhere if some of it is nearer than the near
+// plane.
+struct Footprint {
+    bool isWhole = true; // none of it is
+    vec2 low = vec2(1), high = vec2(-1);
+};
+
+Footprint footprintOf(const Bounds& bounds, const mat4& clipFromWorld) {
+    Footprint footprint;
+    for (int corner = 0; corner < 8; corner++) {
+        const vec3 point(corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
+                         corner & 4 ? bounds.high.z : bounds.low.z);
+        const vec4 clip = clipFromWorld * vec4(point, 1);
+        if (!(clip.z >= 0 && clip.w > 0)) return {false, vec2(-1), vec2(1)};
+        const vec2 place = vec2(clip) / clip.w;
+        footprint.low = glm::min(footprint.low, place);
+        footprint.high = glm::max(footprint.high, place);
+    }
+    return footprint;
+}
+
 } // namespace
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
-    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)),
-      mTermsPerDraw(largestTermsPerDraw(device.limits())) {
-    if (options.termsPerDraw > 0) mTermsPerDraw = std::min(mTermsPerDraw, options.termsPerDraw);
-    const vk::GraphicsOptions clamp{.colorFormat = kColorFormat,
-                                    .depthFormat = kDepthFormat,
-                                    .depthCompare = VK_COMPARE_OP_EQUAL,
-                                    .depthWrite = false,
-                                    .blend = vk::Blend::Max};
-    mClampProgram =
-        vk::GraphicsProgram(device, view_vert_spirv, view_clamp_frag_spirv, {1}, clamp, "view clamp");
+    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(depthFormatOf(device)) {
+    vk::GraphicsOptions surfaces{.colorFormat = kSurfaceFormat, .depthFormat = mDepthFormat};
+    surfaces.stencil = vk::Stencil::Write;
+    mSurfaceProgram = {device, view_surface_vert_spirv, view_surface_frag_spirv, {}, surfaces, "surfaces"};
+    surfaces.cull = vk::Cull::Clockwise;
+    mClosedSurfaceProgram = {device,   view_surface_vert_spirv, view_surface_frag_spirv, {},
+                             surfaces, "closed surfaces"};
     constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    mPixelSampler = {device, kClamp, kClamp, "view surfaces", VK_FILTER_NEAREST};
     mDiskSampler = {device, kClamp, kClamp, "view maps"};
     mPolarSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, kClamp, "polar view maps"};
     mSurfaceSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                        "surface textures"};
-    for (const AssetPart& part : asset.parts) mParts.push_back(makePart(part));
+    uint32_t firstSurface = 1;
+    for (const AssetPart& part : asset.parts) {
+        mParts.push_back(makePart(part, firstSurface));
+        firstSurface += mParts.back().surfaces;
+    }
     setAppearance(defaultAppearance(asset));
     resize(options.width, options.height);
 }
 
-ViewPass::Part ViewPass::makePart(const AssetPart& source) {
+ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface) {
     Part part;
+    part.bounds = boundsOf(source.mesh);
+    part.isClosed = isClosed(source.mesh);
+    const NumberedTriangles numbered = numberTriangles(source.mesh);
+    part.drawnPositions = uploadBindable(mDevice, numbered.positions, source.name + " drawn positions");
+    part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
+    expectTexels(mDevice, sizeof(shared::ViewVertex) / sizeof(vec4) * source.mesh.vertexCount(),
+                 source.name + " vertices");
+    expectTexels(mDevice, source.mesh.triangleCount(), source.name + " triangles");
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
-    part.indices =
-        vk::uploadBytes(mDevice, std::as_bytes(std::span(source.mesh.triangles)), source.name + " indices");
-    part.indexCount = uint32_t(3 * source.mesh.triangleCount());
+    part.triangles = vk::upload<glm::u32vec4>(mDevice, cornersOf(source.mesh), source.name + " triangles");
+    part.firstSurface = firstSurface;
+    part.surfaces = uint32_t(source.mesh.triangleCount());
     part.paint = source.paintedByColors ? shared::kPaintedByColors
                  : source.materialMap   ? shared::kPaintedByMap
                                         : shared::kUnpainted;
@@ -106,35 +153,17 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source) {
 }
 
 ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& name) {
-    const FactoredBrdf& brdf = source.brdf;
-    RELUME_CHECK_EQ(uint32_t(brdf.terms), termsOf(source.transport));
-    const auto maps = uint32_t(brdf.layers * brdf.terms);
-    if (maps > mDevice.limits().maxImageArrayLayers)
-        throw Error(
-            "{}: a set of {} layers with {} terms needs {} view maps, {} holds at most {}; bake fewer "
-            "materials or terms in a set",
-            name, brdf.layers, brdf.terms, maps, mDevice.name(), mDevice.limits().maxImageArrayLayers);
     Set set;
-    set.terms = uint32_t(brdf.terms);
+    set.terms = uint32_t(source.brdf.terms);
+    RELUME_CHECK_EQ(set.terms, termsOf(source.transport));
+    expectTexels(mDevice, 3 * uint64_t(verticesOf(source.transport)) * set.terms / set.floatsPerTexel(),
+                 name + " tuples");
     set.materials = uint32_t(source.materials.size());
-    set.mapping = brdf.mapping;
-    set.viewMaps = makeMapTexture(mDevice, brdf.viewMaps, uint32_t(brdf.size), maps, name + " view maps");
-    planDraws(set);
+    set.mapping = source.brdf.mapping;
+    set.viewMaps = makeViewMapTexture(mDevice, source.brdf, name + " view maps");
+    for (uint32_t look : {shared::kSingleLook, shared::kLayersLook, shared::kSurfaceLook})
+        set.programs[look] = &shadeProgram(set.terms, set.viewMaps.isGrey, look);
     return set;
-}
-
-void ViewPass::planDraws(Set& set) {
-    set.clamps = set.terms > mTermsPerDraw;
-    if (set.clamps && !canBlend(mDevice))
-        throw Error("{}: {} terms need several draws, and the device cannot blend float images; bake at most "
-                    "{} terms for it",
-                    mDevice.name(), set.terms, mTermsPerDraw);
-    for (uint32_t term = 0; term < set.terms; term += mTermsPerDraw) {
-        Draw& draw = set.draws.emplace_back(Draw{term, {}});
-        for (uint32_t look : {shared::kSingleLook, shared::kLayersLook, shared::kSurfaceLook})
-            draw.programs[look] =
-                &program(std::min(mTermsPerDraw, set.terms - term), term == 0, !set.clamps, look);
-    }
 }
 
 void ViewPass::setAppearance(const Appearance& appearance) {
@@ -144,22 +173,23 @@ void ViewPass::setAppearance(const Appearance& appearance) {
         part.worn = appearance[i];
         part.wornLayers.clear();
         for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
-            part.wornLayers.push_back({uint32_t(layer.layer) * part.sets[part.worn.set].terms, layer.channel,
-                                       layer.textured, layer.weight});
+            part.wornLayers.push_back({uint32_t(layer.layer) * wornSet(part).viewMaps.imagesPerLayer,
+                                       layer.channel, layer.textured, layer.weight});
         part.look = lookOf(part.wornLayers);
     }
 }
 
-const vk::GraphicsProgram& ViewPass::program(uint32_t terms, bool first, bool clamps, uint32_t look) {
-    vk::GraphicsProgram& program = mPrograms[{terms, first, clamps, look}];
-    if (program.pipeline()) return program;
+const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uint32_t look) {
+    vk::GraphicsProgram& program = mShadePrograms[{terms, uint32_t(grey), look}];
     const vk::GraphicsOptions options{.colorFormat = kColorFormat,
-                                      .depthFormat = kDepthFormat,
-                                      .depthCompare = first ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_EQUAL,
-                                      .depthWrite = first,
-                                      .blend = first ? vk::Blend::None : vk::Blend::Add};
-    program = vk::GraphicsProgram(mDevice, view_vert_spirv, view_frag_spirv, {terms, uint32_t(clamps), look},
-                                  options, fmt::format("view of {} terms", terms));
+                                      .depthFormat = mDepthFormat,
+                                      .depthCompare = VK_COMPARE_OP_ALWAYS,
+                                      .depthWrite = false,
+                                      .stencil = vk::Stencil::Equal};
+    if (!program.pipeline())
+        program = vk::GraphicsProgram(mDevice, view_shade_vert_spirv, view_shade_frag_spirv,
+                                      {terms, uint32_t(grey), look}, options,
+                                      fmt::format("view of {} terms", terms));
     return program;
 }
 
@@ -168,66 +198,100 @@ void ViewPass::resize(int width, int height) {
     vk::ImageOptions options{.format = kColorFormat, .width = uint32_t(width), .height = uint32_t(height)};
     options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     mColor = vk::Image(mDevice, options, "view color");
-    options.format = kDepthFormat;
+    options.format = kSurfaceFormat;
+    options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    mSurfaces = vk::Image(mDevice, options, "view surfaces");
+    options.format = mDepthFormat;
     options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     mDepth = vk::Image(mDevice, options, "view depth");
 }
 
-void ViewPass::draw(vk::Commands& commands, const Frame& frame, const Part& part, uint32_t firstTerm,
-                    const vk::GraphicsProgram& program, const vk::Buffer& tuples) const {
+ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
+    const auto width = int(mColor.options().width), height = int(mColor.options().height);
+    const vec3 forward = glm::normalize(camera.target - camera.eye);
+    // At unit depth, where directions are linear in x and y.
+    const auto centre = [&](int x, int y) {
+        const vec3 direction = camera.pixelDirection(x, y, width, height);
+        return direction / glm::dot(direction, forward);
+    };
+    Frame frame;
+    frame.clipFromWorld = camera.clipFromWorld(float(width) / float(height), mBounds);
+    frame.eye = camera.eye;
+    frame.right = (centre(width, 0) - centre(0, 0)) / float(width);
+    frame.down = (centre(0, height) - centre(0, 0)) / float(height);
+    frame.corner = centre(0, 0) - 0.5f * (frame.right + frame.down);
+    frame.pixel = vec2(2 / float(width), 2 / float(height));
+    return frame;
+}
+
+void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const {
+    if (part.surfaces == 0) return;
+    const bool showsNoBack = part.isClosed && footprintOf(part.bounds, frame.clipFromWorld).isWhole;
+    commands.bind(showsNoBack ? mClosedSurfaceProgram : mSurfaceProgram, {part.drawnPositions},
+                  shared::ViewSurfacePush{frame.clipFromWorld, part.firstSurface});
+    commands.setStencil(stencilOf(part));
+    commands.drawIndexed(part.drawnTriangles, 3 * part.surfaces, 1);
+}
+
+void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& part,
+                     const vk::Buffer& tuples) const {
     const Set& set = wornSet(part);
+    const Footprint footprint = footprintOf(part.bounds, frame.clipFromWorld);
+    const vec2 low = glm::max(footprint.low - frame.pixel, vec2(-1)),
+               high = glm::min(footprint.high + frame.pixel, vec2(1));
+    if (part.surfaces == 0 || low.x >= high.x || low.y >= high.y) return;
     const bool isSingle = part.look == shared::kSingleLook;
-    const shared::ViewPush push{frame.clipFromWorld,
-                                frame.eye,
-                                set.terms,
-                                firstTerm,
-                                uint32_t(set.mapping),
-                                isSingle ? part.wornLayers[0].firstMap : 0,
-                                isSingle ? part.wornLayers[0].weight : 0,
-                                uint32_t(part.wornLayers.size()),
-                                part.worn.painted ? part.paint : shared::kUnpainted,
-                                set.materials};
-    if (&program == &mClampProgram)
-        commands.bind(program, {part.vertices, tuples}, push);
-    else
-        commands.bind(program,
-                      {part.vertices,
-                       tuples,
-                       {set.viewMaps, set.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler},
-                       part.layers,
-                       {part.baseColor, mSurfaceSampler},
-                       {part.materialMap, mSurfaceSampler}},
-                      push);
-    commands.drawIndexed(part.indices, part.indexCount, 1);
+    const shared::ViewShadePush push{frame.eye,
+                                     frame.corner,
+                                     frame.right,
+                                     frame.down,
+                                     vec4(low.x, low.y, high.x, high.y),
+                                     part.firstSurface,
+                                     part.surfaces,
+                                     uint32_t(set.mapping),
+                                     isSingle ? part.wornLayers[0].firstMap : 0,
+                                     isSingle ? part.wornLayers[0].weight : 0,
+                                     uint32_t(part.wornLayers.size()),
+                                     part.worn.painted ? part.paint : shared::kUnpainted,
+                                     set.materials};
+    commands.bind(*set.programs[part.look],
+                  {{mSurfaces, mPixelSampler},
+                   vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
+                   vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
+                   vk::Binding::texelsOf(tuples, set.floatsPerTexel() == 4 ? VK_FORMAT_R32G32B32A32_SFLOAT
+                                                                           : VK_FORMAT_R32_SFLOAT),
+                   {set.viewMaps.image, set.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler},
+                   part.layers,
+                   {part.baseColor, mSurfaceSampler},
+                   {part.materialMap, mSurfaceSampler}},
+                  push);
+    commands.setStencil(stencilOf(part));
+    commands.draw(6);
 }
 
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) const {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
-    const float aspect = float(mColor.options().width) / float(mColor.options().height);
-    const Frame frame{camera.clipFromWorld(aspect, mBounds), camera.eye};
+    const Frame frame = frameOf(camera);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)
         if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
     commands.barrier(Stage::Transfer, Stage::Draw);
-    const auto drawPart = [&](size_t i, uint32_t firstTerm, const vk::GraphicsProgram& program) {
-        draw(commands, frame, mParts[i], firstTerm, program, relighter.tuples(i, mParts[i].worn.set));
-    };
-    const auto drawTerms = [&](size_t i, const Draw& step) {
-        drawPart(i, step.firstTerm, *step.programs[mParts[i].look]);
-    };
     commands.pass("view", [&] {
+        commands.transition(mSurfaces, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            Stage::Draw, Stage::Color);
+        commands.transition(mDepth, VK_IMAGE_LAYOUT_UNDEFINED,
+                            VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, Stage::Color, Stage::Color);
+        commands.render({.color = &mSurfaces, .depth = &mDepth}, [&] {
+            for (const Part& part : mParts) drawSurfaces(commands, frame, part);
+        });
+        commands.transition(mSurfaces, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Color, Stage::Draw);
         commands.transition(mColor, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             Stage::Transfer, Stage::Color);
-        commands.transition(mDepth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                            Stage::Color, Stage::Color);
-        commands.render({.color = &mColor, .depth = &mDepth}, [&] {
-            // Depth is settled over all parts before any adds to what it shows.
-            for (size_t i = 0; i < mParts.size(); i++) drawTerms(i, wornSet(mParts[i]).draws[0]);
-            for (size_t i = 0; i < mParts.size(); i++) {
-                const Set& set = wornSet(mParts[i]);
-                for (size_t d = 1; d < set.draws.size(); d++) drawTerms(i, set.draws[d]);
-                if (set.clamps) drawPart(i, 0, mClampProgram);
-            }
+        commands.barrier(Stage::Color, Stage::Color);
+        commands.render({.color = &mColor, .depth = &mDepth, .keepsDepth = true}, [&] {
+            for (size_t i = 0; i < mParts.size(); i++)
+                shade(commands, frame, mParts[i], relighter.tuples(i, mParts[i].worn.set));
         });
         commands.transition(mColor, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Stage::Color, Stage::Transfer);

@@ -1,9 +1,11 @@
 // View change: draws every part with its light-modulated tuples and view maps into a linear float image.
-// Touches no transport.
+// Touches no transport. First it draws which triangle every pixel sees, then it shades pixels, each once:
+// docs/view_speed.md says why.
 #pragma once
 
 #include "engine/image/image.h"
 #include "engine/render/appearance.h"
+#include "engine/render/map_texture.h"
 #include "engine/render/relighter.h"
 #include "engine/scene/camera.h"
 #include "shaders/shared/render.h"
@@ -12,9 +14,6 @@ namespace relume {
 
 struct ViewOptions {
     int width = 640, height = 480;
-    // Terms that one draw interpolates; 0, or more than the device passes from vertex to fragment: as many
-    // as it does.
-    uint32_t termsPerDraw = 0;
 };
 
 class ViewPass {
@@ -43,23 +42,21 @@ class ViewPass {
     Image render(const Camera& camera, const Relighter& relighter) const;
 
   private:
-    // Terms of a part are drawn a few at a time: the first draw settles depth, further ones add where depth
-    // is equal, and a last one clamps at zero; a part whose terms fit one draw clamps in the shader.
-    struct Draw {
-        uint32_t firstTerm;
-        std::array<const vk::GraphicsProgram*, 3> programs; // by look; made ahead, so that no swap waits
-    };
     struct Set {
         uint32_t terms = 0, materials = 0;
         DiskMapping mapping = DiskMapping::Orthographic;
-        vk::Image viewMaps; // an image layer a layer and term
-        std::vector<Draw> draws;
-        bool clamps = false; // needs the last draw
+        ViewMapTexture viewMaps;
+        std::array<const vk::GraphicsProgram*, 3> programs; // by look; made ahead, so that no swap waits
+        // Of the tuples, as the shader reads them: four where no vertex begins amid a texel.
+        uint32_t floatsPerTexel() const { return terms % 4 == 0 ? 4 : 1; }
     };
     struct Part {
-        vk::Buffer vertices, indices;
-        uint32_t indexCount = 0;
-        uint32_t paint = 0; // how it is painted where it is
+        Bounds bounds;
+        bool isClosed = false;
+        vk::Buffer drawnPositions, drawnTriangles; // NumberedTriangles
+        vk::Buffer vertices, triangles;            // shared::ViewVertex and corners, looked up by pixels
+        uint32_t firstSurface = 0, surfaces = 0;   // triangles, numbered over all parts from 1 on
+        uint32_t paint = 0;                        // how it is painted where it is
         vk::Image baseColor, materialMap;
         std::vector<Set> sets;
         vk::Buffer layers; // shared::ViewLayer, as many as can be worn
@@ -67,29 +64,35 @@ class ViewPass {
         uint32_t look = 0; // what that asks of the shader
         std::vector<shared::ViewLayer> wornLayers;
     };
-
-    Part makePart(const AssetPart& source);
-    Set makeSet(const MaterialSet& source, const std::string& name);
-    void planDraws(Set& set);
-    static const Set& wornSet(const Part& part) { return part.sets[part.worn.set]; }
+    // A camera, for an image of a size.
     struct Frame {
         mat4 clipFromWorld;
         vec3 eye;
+        vec3 corner, right, down; // shared::ViewShadePush
+        vec2 pixel;               // its size in clip space
     };
-    void draw(vk::Commands& commands, const Frame& frame, const Part& part, uint32_t firstTerm,
-              const vk::GraphicsProgram& program, const vk::Buffer& tuples) const;
+
+    Part makePart(const AssetPart& source, uint32_t firstSurface);
+    Set makeSet(const MaterialSet& source, const std::string& name);
+    static const Set& wornSet(const Part& part) { return part.sets[part.worn.set]; }
+    // Where it was drawn is where it may be shaded; parts that share a value sort it out by surface.
+    uint32_t stencilOf(const Part& part) const { return uint32_t(&part - mParts.data()) % 255 + 1; }
+    Frame frameOf(const Camera& camera) const;
+    void drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const;
+    void shade(vk::Commands& commands, const Frame& frame, const Part& part, const vk::Buffer& tuples) const;
     // `look`: shared::kSingleLook and so on.
-    const vk::GraphicsProgram& program(uint32_t terms, bool first, bool clamps, uint32_t look);
+    const vk::GraphicsProgram& shadeProgram(uint32_t terms, bool grey, uint32_t look);
 
     const vk::Device& mDevice;
     const Asset& mAsset;
     Bounds mBounds;
-    uint32_t mTermsPerDraw;
-    std::map<std::array<uint32_t, 4>, vk::GraphicsProgram> mPrograms; // by program()'s arguments
-    vk::GraphicsProgram mClampProgram;
+    VkFormat mDepthFormat;
+    vk::GraphicsProgram mSurfaceProgram, mClosedSurfaceProgram;
+    std::map<std::array<uint32_t, 3>, vk::GraphicsProgram> mShadePrograms; // by shadeProgram()'s arguments
+    vk::Sampler mPixelSampler;
     vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
     std::vector<Part> mParts;
-    vk::Image mColor, mDepth;
+    vk::Image mColor, mSurfaces, mDepth;
 };
 
 } // namespace relume

@@ -72,6 +72,7 @@ Commands::Commands(const Device& device, std::string_view name) : mDevice(device
 }
 
 Commands::~Commands() {
+    dropTexelViews();
     for (VkDescriptorPool pool : mDescriptorPools) vkDestroyDescriptorPool(mDevice.handle(), pool, nullptr);
     vkDestroyQueryPool(mDevice.handle(), mQueries, nullptr);
     vkDestroyFence(mDevice.handle(), mFence, nullptr);
@@ -83,6 +84,7 @@ void Commands::begin() {
     for (VkDescriptorPool pool : mDescriptorPools)
         RELUME_VK(vkResetDescriptorPool(mDevice.handle(), pool, 0));
     mActivePool = 0;
+    dropTexelViews();
     mTimedPasses.clear();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -141,6 +143,7 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
     const VkDescriptorSet set = allocateSet(program.setLayout());
     std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
     std::vector<VkDescriptorImageInfo> images(bindings.size());
+    std::vector<VkBufferView> views(bindings.size());
     std::vector<VkWriteDescriptorSet> writes;
     auto expected = program.bindings().begin();
     for (const Binding& binding : bindings) {
@@ -151,7 +154,11 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
         write.dstBinding = expected->first;
         write.descriptorCount = 1;
         write.descriptorType = expected->second;
-        if (binding.buffer) {
+        if (binding.texelFormat != VK_FORMAT_UNDEFINED) {
+            RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER));
+            views[i] = texelView(binding);
+            write.pTexelBufferView = &views[i];
+        } else if (binding.buffer) {
             RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER));
             RELUME_CHECK_LE(binding.bytes, mDevice.largestStorageBuffer());
             buffers[i] = {binding.buffer->handle(), binding.offset, binding.bytes};
@@ -169,6 +176,25 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
     }
     vkUpdateDescriptorSets(mDevice.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
     vkCmdBindDescriptorSets(mCommands, point, program.layout(), 0, 1, &set, 0, nullptr);
+}
+
+VkBufferView Commands::texelView(const Binding& binding) {
+    VkBufferViewCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+    create.buffer = binding.buffer->handle();
+    create.format = binding.texelFormat;
+    create.offset = binding.offset;
+    const uint64_t texel = binding.texelFormat == VK_FORMAT_R32_SFLOAT ? sizeof(float) : sizeof(vec4);
+    RELUME_CHECK_LE(binding.bytes / texel, uint64_t(mDevice.limits().maxTexelBufferElements));
+    create.range = binding.bytes / texel * texel;
+    VkBufferView view;
+    RELUME_VK(vkCreateBufferView(mDevice.handle(), &create, nullptr, &view));
+    mTexelViews.push_back(view);
+    return view;
+}
+
+void Commands::dropTexelViews() {
+    for (VkBufferView view : mTexelViews) vkDestroyBufferView(mDevice.handle(), view, nullptr);
+    mTexelViews.clear();
 }
 
 VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
@@ -206,7 +232,8 @@ void Commands::render(const RenderTarget& target, const std::function<void()>& d
     color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     std::copy(target.clear.begin(), target.clear.end(), color.clearValue.color.float32);
-    if (target.color->options().format == VK_FORMAT_R8_UINT)
+    const VkFormat format = target.color->options().format;
+    if (format == VK_FORMAT_R8_UINT || format == VK_FORMAT_R32_UINT)
         for (size_t i = 0; i < 4; i++) color.clearValue.color.uint32[i] = uint32_t(target.clear[i]);
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
@@ -217,11 +244,14 @@ void Commands::render(const RenderTarget& target, const std::function<void()>& d
     rendering.pColorAttachments = &color;
     if (target.depth) {
         depth.imageView = target.depth->view();
-        depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-        depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-        depth.clearValue.depthStencil.depth = 1;
+        const bool withStencil = hasStencil(target.depth->options().format);
+        depth.imageLayout = withStencil ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                                        : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+        depth.loadOp = target.keepsDepth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+        depth.storeOp = withStencil ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        depth.clearValue.depthStencil = {1, 0};
         rendering.pDepthAttachment = &depth;
+        if (withStencil) rendering.pStencilAttachment = &depth;
     }
     vkCmdBeginRendering(mCommands, &rendering);
     const VkViewport viewport{0, 0, float(size.width), float(size.height), 0, 1};
@@ -236,6 +266,12 @@ void Commands::drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t 
     vkCmdBindIndexBuffer(mCommands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdDrawIndexed(mCommands, indexCount, instances, firstIndex, 0, 0);
 }
+
+void Commands::setStencil(uint32_t value) {
+    vkCmdSetStencilReference(mCommands, VK_STENCIL_FACE_FRONT_AND_BACK, value);
+}
+
+void Commands::draw(uint32_t vertices) { vkCmdDraw(mCommands, vertices, 1, 0, 0); }
 
 void Commands::drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount) {
     vkCmdBindIndexBuffer(mCommands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);

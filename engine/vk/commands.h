@@ -24,12 +24,20 @@ struct Binding {
         : image(&texture), sampler(&textureSampler) {}
 
     Binding(const TexelBuffer& texelBuffer) : texels(&texelBuffer) {}
+    // The whole buffer, as many of its first bytes as make texels: read through the texture unit, which some
+    // devices do faster than they load.
+    static Binding texelsOf(const Buffer& buffer, VkFormat format) {
+        Binding binding(buffer);
+        binding.texelFormat = format;
+        return binding;
+    }
 
     const Buffer* buffer = nullptr;
     uint64_t offset = 0, bytes = 0;
     const Image* image = nullptr;
     const Sampler* sampler = nullptr;
     const TexelBuffer* texels = nullptr;
+    VkFormat texelFormat = VK_FORMAT_UNDEFINED;
 };
 
 // Which work waits for which: everything written by `from` is seen by `to`.
@@ -37,7 +45,8 @@ enum class Stage { Compute, Transfer, Color, Draw, Host };
 
 struct RenderTarget {
     const Image* color = nullptr;
-    const Image* depth = nullptr; // may be null
+    const Image* depth = nullptr; // may be null; with its stencil, if it has one
+    bool keepsDepth = false;      // as it was drawn before; else cleared to 1, the stencil to 0
     std::array<float, 4> clear{0, 0, 0, 0};
     uint32_t layers = 1;
 };
@@ -70,14 +79,18 @@ class Commands {
         dispatchBytes(program, bindings, std::as_bytes(std::span(&push, 1)), items);
     }
 
-    // Attaches and clears the target, then runs `draws`; images end in the layout they had inside.
+    // Attaches the target and clears it, then runs `draws`; images end in the layout they had inside.
     void render(const RenderTarget& target, const std::function<void()>& draws);
     // Inside render(): binds program, resources and push constants for the draws that follow.
     template <typename Push>
     void bind(const GraphicsProgram& program, std::initializer_list<Binding> bindings, const Push& push) {
         bindBytes(program, VK_PIPELINE_BIND_POINT_GRAPHICS, bindings, std::as_bytes(std::span(&push, 1)));
     }
+    // Inside render(), after bind(): the value that the program's stencil writes or compares with.
+    void setStencil(uint32_t value);
     void drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t instances, uint32_t firstIndex = 0);
+    // Vertices by number alone.
+    void draw(uint32_t vertices);
     void drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount);
 
     // `from` before `to`, for all memory.
@@ -106,6 +119,8 @@ class Commands {
                        std::span<const std::byte> push, uvec3 items);
     void bindBytes(const Program& program, VkPipelineBindPoint point, std::initializer_list<Binding> bindings,
                    std::span<const std::byte> push);
+    VkBufferView texelView(const Binding& binding);
+    void dropTexelViews();
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
     void orderAllCommands();
     void collectTimes();
@@ -117,6 +132,7 @@ class Commands {
     VkQueryPool mQueries = VK_NULL_HANDLE;
     std::vector<VkDescriptorPool> mDescriptorPools;
     size_t mActivePool = 0;
+    std::vector<VkBufferView> mTexelViews; // of this recording
     std::vector<std::string> mTimedPasses; // pass i wrote queries 2i and 2i + 1
     std::vector<uint64_t> mReadings;
     PassTimes mTimes;

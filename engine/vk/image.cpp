@@ -53,6 +53,7 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
 }
 
 VkImageAspectFlags Image::aspect() const {
+    if (hasStencil(mOptions.format)) return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
     return mOptions.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
@@ -74,11 +75,11 @@ void Image::destroy() {
 }
 
 Sampler::Sampler(const Device& device, VkSamplerAddressMode addressU, VkSamplerAddressMode addressV,
-                 std::string_view name)
+                 std::string_view name, VkFilter filter)
     : mDevice(&device) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    create.magFilter = VK_FILTER_LINEAR;
-    create.minFilter = VK_FILTER_LINEAR;
+    create.magFilter = filter;
+    create.minFilter = filter;
     create.addressModeU = addressU;
     create.addressModeV = addressV;
     create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;

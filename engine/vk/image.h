@@ -12,6 +12,11 @@ struct ImageOptions {
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 };
 
+// Of a depth format.
+inline bool hasStencil(VkFormat format) {
+    return format == VK_FORMAT_D32_SFLOAT_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT;
+}
+
 class Image {
   public:
     Image() = default;
@@ -36,12 +41,12 @@ class Image {
     VkImageView mView = VK_NULL_HANDLE;
 };
 
-// A bilinear sampler without mip levels.
+// A sampler without mip levels; integers cannot be filtered.
 class Sampler {
   public:
     Sampler() = default;
     Sampler(const Device& device, VkSamplerAddressMode addressU, VkSamplerAddressMode addressV,
-            std::string_view name);
+            std::string_view name, VkFilter filter = VK_FILTER_LINEAR);
     ~Sampler() { destroy(); }
     Sampler(Sampler&& other) noexcept { *this = std::move(other); }
     Sampler& operator=(Sampler&& other) noexcept;

@@ -1,6 +1,7 @@
 #include "engine/vk/program.h"
 
 #include "engine/base/check.h"
+#include "engine/vk/image.h"
 #include "engine/vk/result.h"
 
 #include <algorithm>
@@ -153,34 +154,40 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     viewport.scissorCount = 1;
     VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     raster.lineWidth = 1;
+    if (options.cull == Cull::Clockwise) raster.cullMode = VK_CULL_MODE_BACK_BIT; // front: counter-clockwise
     VkPipelineMultisampleStateCreateInfo multisample{
         VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = options.depthFormat != VK_FORMAT_UNDEFINED;
+    depth.depthTestEnable = options.depthFormat != VK_FORMAT_UNDEFINED &&
+                            (options.depthWrite || options.depthCompare != VK_COMPARE_OP_ALWAYS);
     depth.depthWriteEnable = depth.depthTestEnable && options.depthWrite;
     depth.depthCompareOp = options.depthCompare;
+    depth.stencilTestEnable = options.stencil != Stencil::None;
+    depth.front.compareMask = 0xff;
+    if (options.stencil == Stencil::Write) {
+        depth.front.compareOp = VK_COMPARE_OP_ALWAYS;
+        depth.front.passOp = VK_STENCIL_OP_REPLACE;
+        depth.front.writeMask = 0xff;
+    } else
+        depth.front.compareOp = VK_COMPARE_OP_EQUAL;
+    depth.back = depth.front;
     VkPipelineColorBlendAttachmentState blend{};
     blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                            VK_COLOR_COMPONENT_A_BIT;
-    if (options.blend != Blend::None) {
-        blend.blendEnable = VK_TRUE;
-        blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-        blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        blend.colorBlendOp = options.blend == Blend::Add ? VK_BLEND_OP_ADD : VK_BLEND_OP_MAX;
-        blend.alphaBlendOp = VK_BLEND_OP_MAX;
-    }
     VkPipelineColorBlendStateCreateInfo blending{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blending.attachmentCount = 1;
     blending.pAttachments = &blend;
-    const VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                            VK_DYNAMIC_STATE_STENCIL_REFERENCE};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = 2;
+    dynamic.dynamicStateCount = options.stencil == Stencil::None ? 2 : 3;
     dynamic.pDynamicStates = dynamicStates;
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = 1;
     rendering.pColorAttachmentFormats = &options.colorFormat;
     rendering.depthAttachmentFormat = options.depthFormat;
+    if (hasStencil(options.depthFormat)) rendering.stencilAttachmentFormat = options.depthFormat;
 
     VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
     create.stageCount = 2;

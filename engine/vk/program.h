@@ -48,18 +48,21 @@ class ComputeProgram : public Program {
                    std::string_view name, Subgroups subgroups = Subgroups::Any);
 };
 
-// How a fragment's colour meets what is there; alpha takes the larger unless it is replaced.
-enum class Blend { None, Add, Max };
+// What becomes of the stencil where a fragment is drawn: it is Commands::setStencil()'s value, or must be.
+enum class Stencil { None, Write, Equal };
+
+enum class Cull { None, Clockwise }; // which triangles, as they are seen, are not drawn
 
 struct GraphicsOptions {
     VkFormat colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     VkFormat depthFormat = VK_FORMAT_UNDEFINED; // none: no depth test
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
-    bool depthWrite = true;
-    Blend blend = Blend::None;
+    bool depthWrite = true; // false where all depths compare: no depth test
+    Cull cull = Cull::None;
+    Stencil stencil = Stencil::None; // else the depth format must have one
 };
 
-// A vertex and a fragment shader drawing triangle lists, no culling, viewport and scissor dynamic,
+// A vertex and a fragment shader drawing triangle lists, viewport and scissor dynamic,
 // vertices pulled from storage buffers.
 class GraphicsProgram : public Program {
   public:

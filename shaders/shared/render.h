@@ -138,11 +138,17 @@ const uint kSurfaceLook = 2; // paint or a texture as well
 // Where a part's paint comes from.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
 
-struct ViewPush {
+struct ViewSurfacePush {
     mat4 clipFromWorld;
+    uint firstSurface; // the number of the part's first triangle
+};
+RELUME_SHARED_SIZE(ViewSurfacePush, 68)
+
+struct ViewShadePush {
     vec3 eye;
-    uint terms;     // K of the part
-    uint firstTerm; // of this draw
+    vec3 corner, right, down; // a pixel's direction: corner + x · right + y · down, not normalised
+    vec4 rectangle; // of the pixels that the part may cover, in clip space: left, top, right, bottom
+    uint firstSurface, surfaces;
     uint mapping;   // of the view maps: DiskMapping
     uint firstMap;  // kSingleLook: of the layer,
     float weight;   // and how much of it
@@ -150,7 +156,7 @@ struct ViewPush {
     uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
     uint materials; // of the worn set: no more than these share the paint
 };
-RELUME_SHARED_SIZE(ViewPush, 108)
+RELUME_SHARED_SIZE(ViewShadePush, 96)
 
 RELUME_SHARED_END
 

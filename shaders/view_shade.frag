@@ -1,0 +1,148 @@
+#version 460
+// Reflected radiance of the triangle that a pixel sees, where its ray meets it: view maps of the worn layers, looked
+// up in the local view direction, times the interpolated tuple. C++ twins: lookupMap() in
+// engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The sampler does the bilinear lookup;
+// devices may round its weights to 8 bits, which the eye forgives and a bake would not. Buffers are read as texels:
+// on lavapipe that takes a fraction of the time of loads.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/disk_map.glsl"
+#include "shaders/lib/tangent_frame.glsl"
+#include "shaders/shared/render.h"
+
+layout(constant_id = 0) const uint kTerms = 4;
+layout(constant_id = 1) const bool kGrey = false; // all view maps are: ViewMapTexture
+layout(constant_id = 2) const uint kLook = 0;
+const uint kQuads = (kTerms + 3) / 4;
+const bool kWholeQuads = kTerms % 4 == 0;
+const uint kLayerImages = kGrey ? kQuads : (3 * kTerms + 3) / 4;
+layout(push_constant, scalar) uniform Push { ViewShadePush push; };
+layout(binding = 0) uniform usampler2DArray surfaces; // 0: none
+layout(binding = 1) uniform usamplerBuffer triangles;  // three corners and nothing
+layout(binding = 2) uniform samplerBuffer vertices;    // ViewVertex: three texels
+layout(binding = 3) uniform samplerBuffer tuples; // texels of four floats if kWholeQuads, else of one
+layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
+layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
+layout(binding = 6) uniform sampler2DArray baseColor;
+layout(binding = 7) uniform sampler2DArray materialMap;
+
+layout(location = 0) out vec4 radiance;
+
+// Four terms of three channels, as they lie in memory; beyond K zero.
+struct Quad {
+    vec4 a, b, c; // rgbr, gbrg, brgb
+};
+
+vec3 sumOf(Quad q) {
+    return vec3(q.a.x + q.a.w + q.b.z + q.c.y, q.a.y + q.b.x + q.b.w + q.c.z, q.a.z + q.b.y + q.c.x + q.c.w);
+}
+
+Quad mapsOf(vec2 place, uint firstMap, uint quad) {
+    if (kGrey) {
+        const vec4 m = textureLod(viewMaps, vec3(place, firstMap + quad), 0);
+        return Quad(m.xxxy, m.yyzz, m.zwww);
+    }
+    Quad q = Quad(vec4(0), vec4(0), vec4(0));
+    q.a = textureLod(viewMaps, vec3(place, firstMap + 3 * quad), 0);
+    if (3 * quad + 1 < kLayerImages) q.b = textureLod(viewMaps, vec3(place, firstMap + 3 * quad + 1), 0);
+    if (3 * quad + 2 < kLayerImages) q.c = textureLod(viewMaps, vec3(place, firstMap + 3 * quad + 2), 0);
+    return q;
+}
+
+void addTuple(inout Quad sum, float weight, uint vertex, uint quad) {
+    if (kWholeQuads) {
+        const int first = int((vertex * kQuads + quad) * 3);
+        sum.a += weight * texelFetch(tuples, first);
+        sum.b += weight * texelFetch(tuples, first + 1);
+        sum.c += weight * texelFetch(tuples, first + 2);
+    } else {
+        const uint first = 3 * (vertex * kTerms + 4 * quad), channels = min(12, 3 * (kTerms - 4 * quad));
+        for (uint i = 0; i < 4; i++) {
+            if (i < channels) sum.a[i] += weight * texelFetch(tuples, int(first + i)).x;
+            if (4 + i < channels) sum.b[i] += weight * texelFetch(tuples, int(first + 4 + i)).x;
+            if (8 + i < channels) sum.c[i] += weight * texelFetch(tuples, int(first + 8 + i)).x;
+        }
+    }
+}
+
+// Of the first four materials.
+vec4 paintWeights(vec2 uv, vec4 color) {
+    if (push.paint == kUnpainted) return vec4(0);
+    vec4 paint = push.paint == kPaintedByMap ? textureLod(materialMap, vec3(uv, 0), 0) : color;
+    for (uint m = push.materials; m < 4; m++) paint[m] = 0;
+    const float sum = paint.x + paint.y + paint.z + paint.w;
+    return sum > 0 ? paint / sum : vec4(1, 0, 0, 0);
+}
+
+// Not clamped.
+vec3 shade(uint triangle, vec3 direction) {
+    const uvec3 corners = texelFetch(triangles, int(triangle)).xyz;
+    vec4 low[3], high[3];
+    for (int c = 0; c < 3; c++) {
+        low[c] = texelFetch(vertices, int(corners[c] * 3));
+        high[c] = texelFetch(vertices, int(corners[c] * 3 + 1));
+    }
+    // Barycentric weights where the ray meets the triangle's plane (Möller and Trumbore 1997), moved to the nearest
+    // edge if rounding puts them outside.
+    const vec3 e1 = low[1].xyz - low[0].xyz, e2 = low[2].xyz - low[0].xyz, s = push.eye - low[0].xyz;
+    const vec3 p = cross(direction, e2), q = cross(s, e1);
+    const float determinant = dot(e1, p), scale = determinant != 0 ? 1 / determinant : 0;
+    vec3 weights = vec3(0, dot(s, p) * scale, dot(direction, q) * scale);
+    weights.yz = clamp(weights.yz, 0, 1);
+    weights.yz /= max(1, weights.y + weights.z);
+    weights.x = 1 - weights.y - weights.z;
+
+    vec3 normal = vec3(0);
+    for (int c = 0; c < 3; c++) normal += weights[c] * vec3(low[c].w, high[c].xy);
+    // Opposite normals can cancel out on a fold; any direction does there.
+    const mat3 frame = tangentFrame(dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal));
+    const vec3 local = liftAboveHorizon(frame * normalize(-direction));
+    const vec2 place = diskMapCoordinates(push.mapping, local);
+
+    vec4 paint = vec4(0);
+    vec3 base = vec3(0);
+    if (kLook == kSurfaceLook) {
+        vec2 uv = vec2(0);
+        vec4 color = vec4(0);
+        for (int c = 0; c < 3; c++) {
+            uv += weights[c] * high[c].zw;
+            color += weights[c] * texelFetch(vertices, int(corners[c] * 3 + 2));
+        }
+        paint = paintWeights(uv, color);
+        base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
+    }
+    Quad sum = Quad(vec4(0), vec4(0), vec4(0));
+    for (uint quad = 0; quad < kQuads; quad++) {
+        Quad maps = Quad(vec4(0), vec4(0), vec4(0));
+        if (kLook == kSingleLook)
+            maps = mapsOf(place, push.firstMap, quad);
+        else
+            for (uint i = 0; i < push.layers; i++) {
+                vec3 weight = vec3(layers[i].weight);
+                if (kLook == kSurfaceLook) {
+                    if (layers[i].channel >= 0) weight *= paint[layers[i].channel];
+                    if (layers[i].isTextured != 0) weight *= base;
+                }
+                const Quad layer = mapsOf(place, layers[i].firstMap, quad);
+                maps.a += weight.rgbr * layer.a;
+                maps.b += weight.gbrg * layer.b;
+                maps.c += weight.brgb * layer.c;
+            }
+        Quad tuple = Quad(vec4(0), vec4(0), vec4(0));
+        for (int c = 0; c < 3; c++) addTuple(tuple, weights[c], corners[c], quad);
+        sum.a += maps.a * tuple.a;
+        sum.b += maps.b * tuple.b;
+        sum.c += maps.c * tuple.c;
+    }
+    return (kLook == kSingleLook ? push.weight : 1) * sumOf(sum);
+}
+
+void main() {
+    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
+    const uint triangle = surface - push.firstSurface;
+    // The stencil tells most pixels of other parts before the shader runs.
+    if (surface < push.firstSurface || triangle >= push.surfaces) discard;
+    const vec3 direction = push.corner + gl_FragCoord.x * push.right + gl_FragCoord.y * push.down;
+    // A truncated sum of products can be negative.
+    radiance = vec4(max(shade(triangle, direction), 0), 1);
+}

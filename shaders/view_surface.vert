@@ -1,0 +1,14 @@
+#version 460
+// A triangle's first vertex says which it is: positions are numbered so (engine/render/numbered_triangles.h).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/shared/render.h"
+
+layout(push_constant, scalar) uniform Push { ViewSurfacePush push; };
+layout(binding = 0, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(location = 0) flat out uint surface;
+
+void main() {
+    surface = push.firstSurface + gl_VertexIndex;
+    gl_Position = push.clipFromWorld * vec4(positions[gl_VertexIndex], 1);
+}
