@@ -164,16 +164,20 @@ BakeStudy studyBake(const vk::Device& device, const std::string& name, const Ass
     study.terms = termsOf(asset.parts.at(0).sets.at(0).transport);
     const std::vector<Image>& images = references.of(asset);
     study.source = measure(device, asset, asset, images, options);
-    std::vector<LayoutOptions> ways;
+    struct Way {
+        LayoutOptions layout;
+        std::optional<int> coefficients; // of rows
+    };
+    std::vector<Way> ways;
     for (const int coefficients : options.rows)
-        ways.push_back({.layout = TransportLayout::Rows, .coefficients = coefficients});
+        ways.push_back({{.layout = TransportLayout::Rows}, coefficients});
     for (const TransportLayout layout : {TransportLayout::Clusters, TransportLayout::Bases})
         for (const double budget : options.budgets)
-            ways.push_back({.layout = layout, .bytesPerVertex = budget});
+            ways.push_back({{.layout = layout, .bytesPerVertex = budget}, {}});
     Progress progress("converting " + name, ways.size(), "variants");
-    for (const LayoutOptions& way : ways) {
+    for (const Way& way : ways) {
         Asset converted = asset;
-        convertLayout(converted, way);
+        convertLayout(converted, way.layout, {}, way.coefficients);
         study.variants.push_back(measure(device, converted, asset, images, options));
         progress.update(study.variants.size());
     }

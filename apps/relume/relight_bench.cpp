@@ -1,25 +1,18 @@
 #include "apps/relume/relight_bench.h"
 
 #include "apps/relume/csr_relighter.h"
+#include "apps/relume/milliseconds.h"
 #include "apps/relume/options.h"
 #include "apps/relume/relight_traffic.h"
 #include "engine/base/progress.h"
 #include "engine/render/relighter.h"
 #include "precompute/cpu/cpu_relighter.h"
 
-#include <chrono>
 #include <cmath>
 
 namespace relume {
 
 namespace {
-
-template <typename Work>
-double milliseconds(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 // What relights a part on the CPU, and where to.
 struct CpuPart {

@@ -53,7 +53,8 @@ void decodeCluster(std::span<const std::byte> raw, uint32_t coefficients, size_t
     const auto cluster = in.get<uint32_t>(), count = in.get<uint32_t>(), columns = in.get<uint32_t>();
     const size_t groupsRead = transport.columnStarts.size() - 1;
     if (groupsRead >= transport.groups() || cluster < offset ||
-        size_t(cluster - offset) * transport.terms != groupsRead || count != clusterSize(transport, cluster - offset))
+        size_t(cluster - offset) * transport.terms != groupsRead ||
+        count != clusterSize(transport, cluster - offset))
         throw Error("{}: cluster {} of {} vertices does not follow those before it", where, cluster, count);
     const size_t rows = size_t(count) * transport.terms;
     if (columns > columnLimit - transport.columns() || columns > kMostClusterColumns ||
