@@ -7,13 +7,13 @@ using namespace relume::test;
 
 TEST_CASE("cli: bench view prints view changes and frames of every bake") {
     const TemporaryFolder folder;
-    const auto bake = [&](const std::string& terms, const std::string& file) {
+    const auto bake = [&](const std::string& terms, const std::string& layout, const std::string& file) {
         const std::string scene = "bake sphere --ground --ground-tessellation 4 -N 8 --visibility-size 64 "
                                   "--face-size 32 --map-size 16 -q -K ";
-        REQUIRE_EQ(runRelume(folder, scene + terms + " -o " + file).exitCode, 0);
+        REQUIRE_EQ(runRelume(folder, scene + terms + " --layout " + layout + " -o " + file).exitCode, 0);
     };
-    bake("2", "two.relume");
-    bake("4", "four.relume");
+    bake("2", "rows", "two.relume");
+    bake("4", "bases", "four.relume");
     const Outcome outcome =
         runRelume(folder, "bench view two.relume four.relume --size 80x60 --repeats 3 --json");
     REQUIRE_EQ(outcome.exitCode, 0);
@@ -26,7 +26,7 @@ TEST_CASE("cli: bench view prints view changes and frames of every bake") {
         const auto& file = found["files"][i];
         CHECK_EQ(file["file"], i == 0 ? "two.relume" : "four.relume");
         CHECK_EQ(file["parts"][0]["terms"], i == 0 ? 2 : 4);
-        CHECK_EQ(file["parts"][0]["layout"], "rows");
+        CHECK_EQ(file["parts"][0]["layout"], i == 0 ? "rows" : "bases");
         uint64_t vertices = 0;
         for (const auto& part : file["parts"]) vertices += part["vertices"].get<uint64_t>();
         CHECK_EQ(file["vertices"], vertices);

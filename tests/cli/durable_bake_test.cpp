@@ -255,15 +255,15 @@ TEST_CASE("durable bake: clusters and bases go on to the same bytes, sample or n
         const BakeFolder undisturbed;
         REQUIRE_EQ(runRelume(undisturbed, bake, kNoThreads).exitCode, 0);
         const std::string whole = contents(undisturbed.path() / "out.relume");
-        // In the header, the scale, the sample's blocks and those that follow.
-        for (int call = 1; call < 12; call += call < 4 ? 1 : 3) {
+        // In the header, its sync, the scale, the sample's blocks and those that follow.
+        for (int call = 1; call < 13; call += call < 5 ? 1 : 3) {
             CAPTURE(call);
             const BakeFolder folder;
             REQUIRE_EQ(runRelume(folder, bake, faults("kill", call)).exitCode, 137);
             const Outcome resumed = runRelume(folder, bake + " --json", kNoThreads);
             REQUIRE_MESSAGE(resumed.exitCode == 0, resumed.err);
             // Once the scale is kept, no sample is baked again.
-            CHECK_EQ(says(resumed.out, "\"stage\":\"sample\""), call <= 2);
+            CHECK_EQ(says(resumed.out, "\"stage\":\"sample\""), call <= 3);
             CHECK(contents(folder.path() / "out.relume") == whole);
             CHECK_FALSE(std::filesystem::exists(folder.path() / "out.relume.checkpoint"));
         }
