@@ -13,18 +13,38 @@ using Json = nlohmann::json;
 
 constexpr int kDepth = 5; // of values in light files
 
+bool isTrack(const Json& json) { return json.is_object() && json.contains("keys"); }
+
 // Calls visit(track, place) for all tracks.
-template <typename Value, typename Visit>
-void forEachTrack(Value& json, const std::string& place, const Visit& visit, int depth = 0) {
+template <typename Visit>
+void forEachTrack(const Json& json, const std::string& place, const Visit& visit, int depth = 0) {
     if (depth == kDepth) return;
+    if (isTrack(json)) return visit(json, place);
     if (json.is_object()) {
-        if (json.contains("keys")) return visit(json, place);
-        for (auto& [key, value] : json.items())
+        for (const auto& [key, value] : json.items())
             forEachTrack(value, fmt::format("{}: {}", place, key), visit, depth + 1);
     } else if (json.is_array()) {
         for (size_t i = 0; i < json.size(); i++)
             forEachTrack(json[i], fmt::format("{}[{}]", place, i), visit, depth + 1);
     }
+}
+
+// `json` with valueOf(track, key) in place of tracks, where `key` is that of the object a track is in. Keys,
+// of which there may be very many, are not copied.
+template <typename ValueOf>
+Json withTracks(const Json& json, const ValueOf& valueOf, const std::string& key = "", int depth = 0) {
+    if (depth == kDepth) return json;
+    if (isTrack(json)) return valueOf(json, key);
+    if (json.is_object()) {
+        Json result = Json::object();
+        for (const auto& [name, value] : json.items())
+            result[name] = withTracks(value, valueOf, name, depth + 1);
+        return result;
+    }
+    if (!json.is_array()) return json;
+    Json result = Json::array();
+    for (const Json& value : json) result.push_back(withTracks(value, valueOf, key, depth + 1));
+    return result;
 }
 
 bool isColor(const Json& value) {
@@ -61,18 +81,52 @@ Json mixed(const Json& a, const Json& b, double weight) {
     return color;
 }
 
+const Json::array_t& keysOf(const Json& track) { return track["keys"].get_ref<const Json::array_t&>(); }
+
+double timeOf(const Json& key) { return key[0].get<double>(); }
+
+// The track's last time if it repeats, else 0.
+double periodOf(const Json& track) { return track.value("repeat", false) ? timeOf(keysOf(track).back()) : 0; }
+
 Json valueAt(const Json& track, double seconds) {
-    const Json& keys = track["keys"];
-    const auto end = keys.back()[0].get<double>();
-    if (track.value("repeat", false) && end > 0) seconds = std::fmod(seconds, end);
-    const auto after =
-        std::ranges::find_if(keys, [&](const Json& key) { return key[0].template get<double>() > seconds; });
+    const Json::array_t& keys = keysOf(track);
+    if (const double period = periodOf(track); period > 0) seconds = std::fmod(seconds, period);
+    const auto after = std::ranges::upper_bound(keys, seconds, {}, timeOf);
     if (after == keys.begin()) return (*after)[1];
     const Json& from = *std::prev(after);
     if (after == keys.end()) return from[1];
-    const auto start = from[0].get<double>();
-    return mixed(from[1], (*after)[1], (seconds - start) / ((*after)[0].get<double>() - start));
+    const double start = timeOf(from);
+    return mixed(from[1], (*after)[1], (seconds - start) / (timeOf(*after) - start));
 }
+
+// ∫ of a track of numbers, not repeated, from 0.
+double integralTo(const Json::array_t& keys, double end) {
+    double sum = 0, time = 0, value = keys.front()[1].get<double>();
+    for (const Json& key : keys) {
+        const double next = timeOf(key), target = key[1].get<double>();
+        if (next >= end && next > time) {
+            const double last = value + (target - value) * (end - time) / (next - time);
+            return sum + (value + last) / 2 * (end - time);
+        }
+        sum += (value + target) / 2 * (next - time);
+        time = next;
+        value = target;
+    }
+    return sum + value * (end - time);
+}
+
+// Of a track of numbers from 0 to `seconds`.
+double meanTo(const Json& track, double seconds) {
+    if (seconds == 0) return valueAt(track, 0).get<double>();
+    const Json::array_t& keys = keysOf(track);
+    const double period = periodOf(track);
+    if (!(period > 0)) return integralTo(keys, seconds) / seconds;
+    const double rounds = std::floor(seconds / period);
+    return (rounds * integralTo(keys, period) + integralTo(keys, seconds - rounds * period)) / seconds;
+}
+
+// What is multiplied by the time, to where the light is: its mean leads to where all its values so far do.
+bool isSpeed(const std::string& key) { return key == "rate" || key == "hours_per_second"; }
 
 } // namespace
 
@@ -85,17 +139,17 @@ size_t mostTrackKeys(const Json& json, const std::string& place) {
     return most;
 }
 
-Json withTracksAt(Json json, double seconds) {
-    forEachTrack(json, "", [&](Json& track, const std::string&) { track = valueAt(track, seconds); });
-    return json;
+Json withTracksAt(const Json& json, double seconds) {
+    return withTracks(json, [&](const Json& track, const std::string& key) {
+        return isSpeed(key) ? Json(meanTo(track, seconds)) : valueAt(track, seconds);
+    });
 }
 
-Json withTrackKey(Json json, size_t key) {
-    forEachTrack(json, "", [&](Json& track, const std::string&) {
-        const Json& keys = track["keys"];
-        track = Json(keys[std::min(key, keys.size() - 1)][1]);
+Json withTrackKey(const Json& json, size_t key) {
+    return withTracks(json, [&](const Json& track, const std::string&) {
+        const Json::array_t& keys = keysOf(track);
+        return keys[std::min(key, keys.size() - 1)][1];
     });
-    return json;
 }
 
 } // namespace relume

@@ -16,9 +16,10 @@ constexpr size_t kMostTrackKeys = 4096;
 // tracks that are none.
 size_t mostTrackKeys(const nlohmann::json& json, const std::string& place);
 
-// `json` with its tracks, checked before, replaced by their values at a time of at least 0, or by that of key
+// `json` with its tracks, checked before, replaced by their values at a time of at least 0 (those of "rate"
+// and "hours_per_second", which are multiplied by the time, by their means until then), or by that of key
 // number `key`, or the last.
-nlohmann::json withTracksAt(nlohmann::json json, double seconds);
-nlohmann::json withTrackKey(nlohmann::json json, size_t key);
+nlohmann::json withTracksAt(const nlohmann::json& json, double seconds);
+nlohmann::json withTrackKey(const nlohmann::json& json, size_t key);
 
 } // namespace relume

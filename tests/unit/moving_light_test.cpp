@@ -92,6 +92,30 @@ TEST_CASE("moving light: what is wrong at any time is found when it is read") {
     CHECK_THROWS_AS(lampOf(deep + std::string(100000, ']')), Error);
 }
 
+TEST_CASE("moving light: speeds that change add up") {
+    const auto sunAt = [](const char* moment) {
+        return std::sin(glm::radians(sunPosition(parseMoment(moment), 48, 11).elevation));
+    };
+    const auto sky = [](const std::string& speed) {
+        return lightOf(R"({"sky": {"time": "2026-06-21T12:00Z", "latitude": 48, "longitude": 11,
+                                   "hours_per_second": )" +
+                       speed + "}}");
+    };
+    // 2 hours a second, slowing down from 1 s to a stand at 3 s: 2 h, then 2 h more.
+    MovingLight slowing = sky(R"({"keys": [[1, 2], [3, 0]]})");
+    for (const auto& [seconds, moment] :
+         std::vector<std::pair<double, const char*>>{{0, "2026-06-21T12:00Z"},
+                                                     {1, "2026-06-21T14:00Z"},
+                                                     {2, "2026-06-21T15:30Z"},
+                                                     {3, "2026-06-21T16:00Z"},
+                                                     {9, "2026-06-21T16:00Z"}})
+        CHECK(double(slowing.at(seconds).sky->sun.y) == doctest::Approx(sunAt(moment)).epsilon(1e-4));
+    // Half an hour in every second.
+    MovingLight pulsing = sky(R"({"keys": [[0, 0], [1, 1]], "repeat": true})");
+    CHECK(double(pulsing.at(4).sky->sun.y) == doctest::Approx(sunAt("2026-06-21T14:00Z")).epsilon(1e-4));
+    CHECK(double(pulsing.at(4.5).sky->sun.y) == doctest::Approx(sunAt("2026-06-21T14:07:30Z")).epsilon(1e-4));
+}
+
 TEST_CASE("moving light: the sky's hours pass") {
     MovingLight light = lightOf(
         R"({"sky": {"time": "2026-06-21T12:00Z", "latitude": 48, "longitude": 11, "hours_per_second": 2}})");
@@ -114,6 +138,12 @@ TEST_CASE("moving light: sequences go from file to file in the order of their nu
     for (const auto& [seconds, radiance] :
          std::vector<std::pair<double, float>>{{0, 1}, {0.25, 2}, {0.5, 3}, {0.75, 5}, {1, 7}, {9, 7}})
         CHECK(radianceOf(light.at(seconds)) == doctest::Approx(radiance));
+    MovingLight slowing = readLight(folder.write(
+        "slowing.json",
+        R"({"environment": {"sequence": "a_#.exr", "rate": {"keys": [[0, 2], [0.5, 2], [1, 0.001]]}}})"));
+    for (const auto& [seconds, radiance] :
+         std::vector<std::pair<double, float>>{{0, 1}, {0.25, 2}, {0.5, 3}, {1, 5}, {1.5, 5}})
+        CHECK(radianceOf(slowing.at(seconds)) == doctest::Approx(radiance).epsilon(0.01));
     // A map that is shown again is not read again.
     CHECK(light.at(0).environments[0].map == light.at(0.25).environments[0].map);
 
