@@ -4,13 +4,24 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 namespace relume {
 
 namespace {
 
 constexpr size_t kMostMaps = 64; // of at most 1.5 MiB
-constexpr size_t kMostDigits = 9;
+
+// By value, whatever number of digits they have.
+struct ByNumber {
+    static std::string_view significant(std::string_view digits) {
+        return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+    }
+    bool operator()(const std::string& a, const std::string& b) const {
+        const std::string_view p = significant(a), q = significant(b);
+        return p.size() != q.size() ? p.size() < q.size() : p < q;
+    }
+};
 
 std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pattern) {
     const std::string name = pattern.filename();
@@ -20,7 +31,7 @@ std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pa
         throw Error("{}: expected one run of # in the file's name, where its number is", pattern.string());
     const std::filesystem::path folder = pattern.has_parent_path() ? pattern.parent_path() : ".";
     std::error_code failure;
-    std::map<long, std::filesystem::path> files;
+    std::map<std::string, std::filesystem::path, ByNumber> files;
     for (std::filesystem::directory_iterator entry(folder, failure), none; !failure && entry != none;
          entry.increment(failure)) {
         const std::string candidate = entry->path().filename();
@@ -29,9 +40,8 @@ std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pa
             continue;
         const std::string digits =
             candidate.substr(prefix.size(), candidate.size() - prefix.size() - suffix.size());
-        if (digits.size() > kMostDigits || digits.find_first_not_of("0123456789") != std::string::npos)
-            continue;
-        const auto [place, isNew] = files.emplace(std::stol(digits), folder / candidate);
+        if (digits.find_first_not_of("0123456789") != std::string::npos) continue;
+        const auto [place, isNew] = files.emplace(digits, folder / candidate);
         if (!isNew)
             throw Error("{}: expected one file of each number, found {} and {}", pattern.string(),
                         place->second.filename().string(), candidate);
@@ -47,6 +57,7 @@ std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pa
 } // namespace
 
 std::shared_ptr<const Environment> EnvironmentFiles::map(const std::filesystem::path& file) {
+    mNamed.insert(file);
     const auto found = std::ranges::find(mMaps, file, [](const auto& entry) { return entry.first; });
     if (found != mMaps.end()) {
         mMaps.splice(mMaps.begin(), mMaps, found);
@@ -60,10 +71,15 @@ std::shared_ptr<const Environment> EnvironmentFiles::map(const std::filesystem::
 
 const std::vector<std::filesystem::path>& EnvironmentFiles::sequence(const std::filesystem::path& pattern) {
     const auto found = mSequences.find(pattern);
-    return found != mSequences.end() ? found->second
-                                     : mSequences.emplace(pattern, sequenceFiles(pattern)).first->second;
+    if (found != mSequences.end()) return found->second;
+    const auto& files = mSequences.emplace(pattern, sequenceFiles(pattern)).first->second;
+    mNamed.insert(files.begin(), files.end());
+    return files;
 }
 
-bool isSequence(const std::string& name) { return name.find('#') != std::string::npos; }
+bool isSequence(const std::filesystem::path& path) {
+    std::error_code failure;
+    return path.filename().string().find('#') != std::string::npos && !std::filesystem::exists(path, failure);
+}
 
 } // namespace relume

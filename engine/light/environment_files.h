@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <list>
 #include <map>
-#include <string>
+#include <set>
 #include <vector>
 
 namespace relume {
@@ -20,12 +20,16 @@ class EnvironmentFiles {
     // they were when first asked for. Throws Error when there are none, or two of the same number.
     const std::vector<std::filesystem::path>& sequence(const std::filesystem::path& pattern);
 
+    // All that were asked for, those of sequences whether or not they were read.
+    const std::set<std::filesystem::path>& named() const { return mNamed; }
+
   private:
     std::list<std::pair<std::filesystem::path, std::shared_ptr<const Environment>>> mMaps; // the latest first
     std::map<std::filesystem::path, std::vector<std::filesystem::path>> mSequences;
+    std::set<std::filesystem::path> mNamed;
 };
 
-// Whether a name stands for a sequence: it has a #.
-bool isSequence(const std::string& name);
+// Whether a path stands for a sequence: its file's name has a #, and there is no such file.
+bool isSequence(const std::filesystem::path& path);
 
 } // namespace relume

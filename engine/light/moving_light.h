@@ -20,6 +20,9 @@ class MovingLight {
     // At a time of at least 0. Throws Error when a sequence's file cannot be read.
     Light at(double seconds);
 
+    // That the description names, the light file itself left out.
+    const std::set<std::filesystem::path>& files() const { return mFiles.named(); }
+
     // Factor of all of it, at least 0.
     void setGain(float gain) { mGain = gain; }
 

@@ -151,3 +151,41 @@ TEST_CASE("moving light: sequences go from file to file in the order of their nu
     CHECK_THROWS_AS(readLight(folder.write("light.json", R"({"environment": {"sequence": "a_####.exr"}})")),
                     Error);
 }
+
+TEST_CASE("moving light: a sequence's numbers may be long") {
+    const TemporaryFolder folder;
+    writeMap(folder.path() / "a_20261121120001.exr", 2);
+    writeMap(folder.path() / "a_20261121120000.exr", 1);
+    writeMap(folder.path() / "a_00000000000000000000000000000007.exr", 9);
+    writeMap(folder.path() / "a_000.exr", 8);
+    EnvironmentFiles files;
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : files.sequence(folder.path() / "a_#.exr"))
+        names.push_back(file.filename());
+    CHECK(names == std::vector<std::string>{"a_000.exr", "a_00000000000000000000000000000007.exr",
+                                            "a_20261121120000.exr", "a_20261121120001.exr"});
+    CHECK_EQ(files.named().size(), 4);
+}
+
+TEST_CASE("moving light: a # in a folder's name, or in that of a file, makes no sequence") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "C#");
+    writeMap(folder.path() / "C#/forest.exr", 1);
+    writeMap(folder.path() / "take#3.exr", 1);
+    CHECK_FALSE(isSequence(folder.path() / "C#/forest.exr"));
+    CHECK_FALSE(isSequence(folder.path() / "take#3.exr"));
+    CHECK(isSequence(folder.path() / "C#/forest_#.exr"));
+    CHECK_FALSE(isSequence(""));
+}
+
+TEST_CASE("moving light: many keys of many lamps are read in a moment") {
+    std::string track = R"({"keys": [[0, 1])";
+    for (int i = 1; i < 4096; i++) track += fmt::format(",[{},{}]", i, 1 + i % 7);
+    track += "]}";
+    std::string lamps;
+    for (int i = 0; i < 30; i++)
+        lamps += fmt::format(R"({}{{"azimuth": {}, "elevation": {}, "radius": {}, "radiance": [1, 1, 1]}})",
+                             i ? "," : "", track, track, track);
+    MovingLight light = lightOf(fmt::format(R"({{"lamps": [{}]}})", lamps));
+    CHECK(degrees(light.at(4.5).lamps[29].angularRadius) == doctest::Approx(5.5));
+}
