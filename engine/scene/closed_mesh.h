@@ -6,8 +6,9 @@
 namespace relume {
 
 // Every edge is shared by two triangles that turn the same way, whatever vertices the corners are (those in
-// the same place are one), and every connected piece encloses a volume with its triangles counter-clockwise
-// as seen from outside. From outside a mesh whose pieces do not turn themselves inside out shows no back.
+// the same place are one), and every piece of triangles that edges join encloses a volume with its triangles
+// counter-clockwise as seen from outside. From outside a mesh whose pieces do not pass through themselves,
+// with a part inside out, shows no back.
 bool isClosed(const Mesh& mesh);
 
 } // namespace relume

@@ -3,6 +3,7 @@
 #include "engine/render/numbered_triangles.h"
 #include "engine/scene/builtin_mesh.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace relume;
@@ -45,6 +46,22 @@ TEST_CASE("closed mesh: every piece faces outwards") {
     CHECK(isClosed(both));
     append(mesh, turnedInsideOut(second)); // far smaller than the first, whose volume it does not undo
     CHECK_FALSE(isClosed(mesh));
+}
+
+TEST_CASE("closed mesh: pieces that touch at one place are apart") {
+    const Mesh large = makeSphere(2);
+    Mesh small = makeSphere(1);
+    const auto easternmost = [](const Mesh& mesh, float side) {
+        return *std::ranges::max_element(mesh.positions, {}, [&](vec3 p) { return side * p.x; });
+    };
+    for (vec3& position : small.positions) position *= 0.1f;
+    const vec3 end = easternmost(small, -1), contact = easternmost(large, 1);
+    for (vec3& position : small.positions) position = position == end ? contact : position - end + contact;
+    Mesh outwards = large, inwards = large;
+    append(outwards, small);
+    append(inwards, turnedInsideOut(small));
+    CHECK(isClosed(outwards));
+    CHECK_FALSE(isClosed(inwards));
 }
 
 TEST_CASE("numbered triangles: each begins with the vertex of its number, and is what it was") {
