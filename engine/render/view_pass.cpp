@@ -33,11 +33,13 @@ VkFormat depthFormatOf(const vk::Device& device) {
                : VK_FORMAT_D32_SFLOAT_S8_UINT;
 }
 
-void expectTexels(const vk::Device& device, uint64_t texels, const std::string& name) {
+// `orElse`: what helps besides.
+void expectTexels(const vk::Device& device, uint64_t texels, const std::string& name,
+                  const std::string& orElse = "") {
     if (texels > device.limits().maxTexelBufferElements)
         throw Error("{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several "
-                    "parts",
-                    name, texels, device.name(), device.limits().maxTexelBufferElements);
+                    "parts{}",
+                    name, texels, device.name(), device.limits().maxTexelBufferElements, orElse);
 }
 
 template <typename T>
@@ -124,6 +126,10 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
     part.bounds = boundsOf(source.mesh);
     part.isClosed = isClosed(source.mesh);
     const NumberedTriangles numbered = numberTriangles(source.mesh);
+    const uint64_t mostVertices = uint64_t(mDevice.limits().maxDrawIndexedIndexValue) + 1;
+    if (numbered.positions.size() > mostVertices)
+        throw Error("{}: {} vertices are drawn, {} counts at most {}; split the mesh into several parts",
+                    source.name, numbered.positions.size(), mDevice.name(), mostVertices);
     part.drawnPositions = uploadBindable(mDevice, numbered.positions, source.name + " drawn positions");
     part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
     expectTexels(mDevice, sizeof(shared::ViewVertex) / sizeof(vec4) * source.mesh.vertexCount(),
@@ -156,8 +162,12 @@ ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& na
     Set set;
     set.terms = uint32_t(source.brdf.terms);
     RELUME_CHECK_EQ(set.terms, termsOf(source.transport));
-    expectTexels(mDevice, 3 * uint64_t(verticesOf(source.transport)) * set.terms / set.floatsPerTexel(),
-                 name + " tuples");
+    const uint64_t texels = 3 * uint64_t(verticesOf(source.transport)) * set.terms / set.floatsPerTexel();
+    expectTexels(
+        mDevice, texels, name + " tuples",
+        set.floatsPerTexel() == 1
+            ? fmt::format(", or bake a K that is a multiple of four (not {}): it takes a quarter", set.terms)
+            : "");
     set.materials = uint32_t(source.materials.size());
     set.mapping = source.brdf.mapping;
     set.viewMaps = makeViewMapTexture(mDevice, source.brdf, name + " view maps");

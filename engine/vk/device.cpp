@@ -231,6 +231,10 @@ void Device::createDevice() {
     VkPhysicalDeviceFeatures features{};
     features.multiDrawIndirect = VK_TRUE;
     features.drawIndirectFirstInstance = VK_TRUE;
+    VkPhysicalDeviceFeatures offered;
+    vkGetPhysicalDeviceFeatures(mPhysical, &offered);
+    features.fullDrawIndexUint32 =
+        offered.fullDrawIndexUint32; // maxDrawIndexedIndexValue is as if it were on
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features12};
     create.pEnabledFeatures = &features;
     create.queueCreateInfoCount = 1;
