@@ -175,6 +175,10 @@ MovingLight LightArguments::moving() const {
     return light;
 }
 
+void LightArguments::addFiles(InputFiles& files) const {
+    for (const std::string& file : {mEnvironment, mBlend, mFile}) files.add(file);
+}
+
 MovingLight LightArguments::source() const {
     if (!mFile.empty()) return readLight(mFile);
     if (!mDistant.empty())

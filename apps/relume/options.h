@@ -1,6 +1,7 @@
 // Options that several subcommands share, and what they stand for.
 #pragma once
 
+#include "apps/relume/input_files.h"
 #include "engine/light/moving_light.h"
 #include "engine/render/tone_map.h"
 #include "engine/scene/camera.h"
@@ -37,7 +38,8 @@ struct CameraArguments {
     std::string mSize;
 };
 
-// --light, --environment, --blend, --blend-weight, --rotate, --distant-light, --sphere-light, --intensity
+// --light, --environment, --blend, --blend-weight, --rotate, --time, --distant-light, --sphere-light,
+// --intensity
 struct LightArguments {
     float rotationDegrees = 0;
     double seconds = 0;
@@ -53,6 +55,8 @@ struct LightArguments {
     // All of it, not rotated.
     MovingLight moving() const;
     Light light() const { return moving().at(seconds); } // at that moment
+    // Those that the options name; moving().files() are those that a light file or a sequence names.
+    void addFiles(InputFiles& files) const;
 
   private:
     MovingLight source() const;

@@ -23,6 +23,10 @@ struct Arguments {
 
 void run(const Arguments& arguments) {
     arguments.image.check();
+    InputFiles inputs;
+    inputs.add(arguments.file);
+    arguments.light.addFiles(inputs);
+    inputs.expectNone("--output", arguments.image.output);
     const Asset asset = readAsset(arguments.file);
     ReferenceOptions options;
     options.width = arguments.camera.width;
@@ -44,7 +48,10 @@ void run(const Arguments& arguments) {
         image = renderReference(asset, camera, arguments.light.environment(), rotation,
                                 arguments.environmentWidth, options, report);
     } else {
-        const Light light = turned(arguments.light.light(), rotation);
+        MovingLight moving = arguments.light.moving();
+        inputs.add(moving.files());
+        inputs.expectNone("--output", arguments.image.output);
+        const Light light = turned(moving.at(arguments.light.seconds), rotation);
         image = renderReference(asset, camera, sampleLight(light, asset.faceSize), options, report);
     }
     arguments.image.write(arguments.image.output, image);

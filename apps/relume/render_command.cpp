@@ -37,6 +37,17 @@ std::filesystem::path framePath(const Arguments& arguments, int frame) {
     return path.replace_filename(name);
 }
 
+// Throws UsageError if what is read would be written over.
+void expectOutputs(const Arguments& arguments, const MovingLight& light) {
+    InputFiles inputs;
+    inputs.add(arguments.file);
+    inputs.add(light.files());
+    arguments.light.addFiles(inputs);
+    for (int frame = 0; frame < arguments.frames; frame++)
+        inputs.expectNone("--output", framePath(arguments, frame));
+    inputs.expectNone("--timings", arguments.timings);
+}
+
 // Over the frames whose light changed.
 struct LightLoss {
     uint32_t fewest = UINT32_MAX, most = 0;
@@ -75,6 +86,8 @@ void run(const Arguments& arguments) {
     }
     vk::TimingCapture* const capture = timings ? &*timings : nullptr;
     vk::CpuSpan loading(capture, "load");
+    MovingLight moving = arguments.light.moving();
+    expectOutputs(arguments, moving);
     const Asset asset = readAsset(arguments.file);
     if (const std::optional<float> share = asset.provenance.bakedShare)
         spdlog::warn("{}: is a preview: {:.0f} % of its vertices are baked, the others interpolated",
@@ -83,7 +96,6 @@ void run(const Arguments& arguments) {
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     if (capture) capture->attach(*device);
     LightPass light(*device, asset.faceSize);
-    MovingLight moving = arguments.light.moving();
     light.setLight(moving.at(arguments.light.seconds));
     Relighter relighter(*device, asset);
     relighter.setMode(arguments.mode);

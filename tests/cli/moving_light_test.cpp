@@ -69,6 +69,26 @@ TEST_CASE("cli: a moment of moving light is the same as a frame and alone") {
     // A sequence without a light file, and what is wrong with one.
     CHECK_EQ(runRelume(folder, "render a.relume -o s.exr --size 64x48 -e map_#.exr --frames 2").exitCode, 0);
     CHECK(contents(folder.path() / "s_0001.exr") != contents(folder.path() / "s_0002.exr"));
+    // What is read is not written over.
+    const std::string map = contents(folder.path() / "map_1.exr");
+    std::filesystem::rename(folder.path() / "map_1.exr", folder.path() / "map_0001.exr");
+    std::filesystem::create_directory(folder.path() / "C#");
+    std::filesystem::copy_file(folder.path() / "map_0.exr", folder.path() / "C#/map.exr");
+    folder.write("still.json", R"({"environment": {"file": "map_0.exr"}})");
+    for (const char* options :
+         {"-e map_####.exr -o map.exr --frames 2", "-e map_#.exr -o map_0001.exr",
+          "-e map_0.exr -o map_0.exr", "-e map_0.exr --blend map_0001.exr -o ./map_0001.exr",
+          "--light light.json -o map.exr --frames 2", "--light still.json -o map_0.exr",
+          "--light light.json -o s.exr --timings light.json"}) {
+        CAPTURE(options);
+        const Outcome outcome = runRelume(folder, std::string("render a.relume --size 64x48 ") + options);
+        CHECK_EQ(outcome.exitCode, 2);
+        CHECK(says(outcome.err, "written over"));
+    }
+    CHECK_EQ(runRelume(folder, "reference a.relume -e map_#.exr -o map_0001.exr").exitCode, 2);
+    CHECK(contents(folder.path() / "map_0001.exr") == map);
+    CHECK(contents(folder.path() / "light.json") == kLight);
+    CHECK_EQ(runRelume(folder, "render a.relume -o s.exr --size 64x48 -e 'C#/map.exr'").exitCode, 0);
     const Outcome none = runRelume(folder, "render a.relume -o s.exr -e none_##.exr");
     CHECK_EQ(none.exitCode, 1);
     CHECK(says(none.err, "none_##.exr"));
