@@ -1,5 +1,4 @@
-// Measures what layouts of transport lose for their bytes: docs/layouts.md is made of what this prints and
-// draws.
+// Measures what layouts of transport lose for their bytes: docs/layouts.md holds its tables and plots.
 #include "apps/layout_study/report.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"

@@ -132,14 +132,34 @@ Variant measure(const vk::Device& device, const Asset& asset, const Asset& exact
     return variant;
 }
 
+// All that a reference is drawn of, but the options.
+std::string surfaceOf(const Asset& asset) {
+    std::string surface = fmt::format("lights of {} texels a side", asset.faceSize);
+    const auto add = [&](const auto& values) { surface += ' ' + hashText(std::as_bytes(std::span(values))); };
+    const auto addTexture = [&](const std::optional<Texture>& texture) {
+        const Texture shown = texture.value_or(Texture{});
+        surface += fmt::format(" {} x {} {}", shown.width, shown.height, shown.srgb);
+        add(shown.texels);
+    };
+    for (const AssetPart& part : asset.parts) {
+        add(part.mesh.positions);
+        add(part.mesh.normals);
+        add(part.mesh.triangles);
+        add(part.mesh.uvs);
+        add(part.mesh.colors);
+        addTexture(part.baseColor);
+        addTexture(part.materialMap);
+        surface += fmt::format(" painted {}", part.paintedByColors);
+        for (const AssetMaterial& material : part.sets[0].materials)
+            surface += fmt::format(" {} {}", material.description, material.hasBase);
+    }
+    return surface;
+}
+
 } // namespace
 
 const std::vector<Image>& References::of(const Asset& asset) {
-    std::string surface;
-    for (const AssetPart& part : asset.parts) {
-        surface += hashText(std::as_bytes(std::span(part.mesh.positions)));
-        for (const AssetMaterial& material : part.sets[0].materials) surface += material.description;
-    }
+    const std::string surface = surfaceOf(asset);
     if (surface == mSurface) return mImages;
     mSurface = surface;
     mImages.clear();

@@ -15,7 +15,7 @@ struct StudyOptions {
     std::vector<int> rows;               // N
     std::vector<double> budgets;         // of clusters and bases: bytes a vertex
     std::vector<std::string> lightNames; // per light
-    std::vector<LightCube> lights;       // of 64 texels a side
+    std::vector<LightCube> lights;       // sampled at the bake's face size
     int width = 320, height = 240;       // of images
     int exactRows = 2000;                // that the error of transport is measured over
 };
@@ -39,7 +39,8 @@ struct BakeStudy {
     std::vector<Variant> variants;
 };
 
-// Images that bakes are held against, per light. Bakes of one surface and material share them.
+// Images that bakes are held against, per light. Bakes share those of the bake before if they have the same
+// parts, shapes, textures, paint and materials, and lights of the same size.
 class References {
   public:
     explicit References(const StudyOptions& options) : mOptions(options) {}

@@ -23,14 +23,19 @@ struct Outcome {
     std::string out, err;
 };
 
-// Runs `relume ARGUMENTS` in a shell inside the folder; `environment` is put before it.
-inline Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
-                         const std::string& environment = "") {
-    const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                                " '" RELUME_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
+// Runs `PROGRAM ARGUMENTS` in a shell inside the folder; `environment` is put before it.
+inline Outcome runProgram(const TemporaryFolder& folder, const std::string& program,
+                          const std::string& arguments, const std::string& environment = "") {
+    const std::string command = "cd '" + folder.path().string() + "' && " + environment + " '" + program +
+                                "' " + arguments + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
             contents(folder.path() / "out.txt"), contents(folder.path() / "err.txt")};
+}
+
+inline Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
+                         const std::string& environment = "") {
+    return runProgram(folder, RELUME_PROGRAM, arguments, environment);
 }
 
 inline bool says(const std::string& text, const std::string& part) {
