@@ -240,10 +240,7 @@ void addBenchBakeCommand(CLI::App& bench) {
         "bytes\n"
         "that it moves.");
     command->callback([arguments, command, &bench] {
-        for (const CLI::Option* option : bench.get_options())
-            if (option->count() > 0)
-                throw UsageError("bench: {} comes before bake, where it means nothing; put it after",
-                                 option->get_name());
+        expectNoOptions(bench, "bake");
         if (command->get_option("--visibility")->count() > 0)
             throw UsageError("--visibility: bench bake times every way; leave it out");
         run(*arguments);

@@ -88,7 +88,9 @@ void run(Arguments& arguments) {
     view16by9.height = kHeight;
     const Camera camera = view16by9.camera(asset);
     vk::Commands commands(*device, "bench");
-    // Every light change turns the light a little, so that nothing can be reused.
+    // Every light change turns the light a little, and is relit in full even where that changes nothing of
+    // it.
+    relighter.setMode(RelightMode::Full);
     const double lightChange = medianMilliseconds(commands, arguments.repeats, [&](int repeat) {
         light.record(commands, radians(arguments.light.rotationDegrees + float(repeat)));
         relighter.record(commands, light);
@@ -113,6 +115,13 @@ void run(Arguments& arguments) {
 }
 
 } // namespace
+
+void expectNoOptions(const CLI::App& command, const char* subcommand) {
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0)
+            throw UsageError("{}: {} comes before {}, where it means nothing; put it after",
+                             command.get_name(), option->get_name(), subcommand);
+}
 
 void addBenchCommand(CLI::App& program) {
     CLI::App* command =

@@ -181,15 +181,12 @@ void addBenchRelightCommand(CLI::App& bench) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
         "Every round turns the light by a degree; then it adds a lamp of 3 degrees that alone would light\n"
-        "white to radiance 1, and moves it by a degree: relit in full, and by what changed. The floor is the "
-        "time to copy the bytes that the light\n"
-        "makes a layout read and write. Relit errors are of tuples under all of the light, against those\n"
-        "of FILE as it is. Eigen CSR multiplies the rows as sparse matrices of floats, on all cores.");
+        "white to radiance 1, and moves it by a degree: relit in full, and by what changed. The floor is\n"
+        "the time to copy the bytes that the light makes a layout read and write. Relit errors are of\n"
+        "tuples under all of the light, against those of FILE as it is. Eigen CSR multiplies the rows as\n"
+        "sparse matrices of floats, on all cores.");
     command->callback([arguments, &bench] {
-        for (const CLI::Option* option : bench.get_options())
-            if (option->count() > 0)
-                throw UsageError("bench: {} comes before relight, where it means nothing; put it after",
-                                 option->get_name());
+        expectNoOptions(bench, "relight");
         run(*arguments);
     });
 }

@@ -129,13 +129,11 @@ void addBenchViewCommand(CLI::App& bench) {
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer("view: record, submit and wait for the view pass alone, the camera turned further.\n"
-                    "frame: the same of a light turned by a degree, relighting and view, in one submission.\n"
+                    "frame: the same of a light turned by a degree, relighting in full and view, in one\n"
+                    "submission.\n"
                     "on device: the view pass between its two timestamps.");
     command->callback([arguments, &bench] {
-        for (const CLI::Option* option : bench.get_options())
-            if (option->count() > 0)
-                throw UsageError("bench: {} comes before view, where it means nothing; put it after",
-                                 option->get_name());
+        expectNoOptions(bench, "view");
         run(*arguments);
     });
 }

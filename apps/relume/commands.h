@@ -5,6 +5,9 @@
 
 namespace relume {
 
+// Throws UsageError for an option of `command` that was given before its subcommand, where it means nothing.
+void expectNoOptions(const CLI::App& command, const char* subcommand);
+
 void addBakeCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
 void addConvertCommand(CLI::App& program);

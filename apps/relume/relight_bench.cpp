@@ -9,6 +9,7 @@
 #include "precompute/cpu/cpu_relighter.h"
 
 #include <cmath>
+#include <set>
 
 namespace relume {
 
@@ -69,7 +70,7 @@ double relightMs(vk::Commands& commands, const LightPass& light, Relighter& reli
     });
 }
 
-// A lamp beside the light that moves by a degree, from where it is no other round's.
+// A lamp beside the light that moves by a degree.
 void benchLamp(vk::Commands& commands, LightPass& pass, const Light& light, float azimuth,
                const LightSelection& selection, std::vector<Variant>& variants, RelightSeries& series) {
     const auto setLight = [&](float place) {
@@ -143,7 +144,7 @@ RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& in
         series.csrMs.push_back(milliseconds([&] {
             for (const CsrRelighter& part : csr) part.relight(vector, csrTuples);
         }));
-        for (const int count : rounds.counts) {
+        for (const int count : std::set(rounds.counts.begin(), rounds.counts.end())) {
             setLight({.count = count});
             for (Variant& variant : variants)
                 series.layouts[variant.name].msByCount[count].push_back(

@@ -20,6 +20,7 @@ struct Stage {
         : asset(source), light(device, source.faceSize), relighter(device, source),
           view(device, source, {.width = rounds.width, .height = rounds.height}) {
         light.setLight(sources);
+        relighter.setMode(RelightMode::Full); // turning changes nothing of some light
     }
     const Asset& asset;
     LightPass light;

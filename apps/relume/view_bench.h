@@ -25,7 +25,7 @@ struct ViewRounds {
 // Of one bake; milliseconds, one value a round.
 struct ViewSeries {
     std::vector<double> viewMs;  // to record, submit and wait for a view change
-    std::vector<double> frameMs; // the same of light, relighting and view in one submission
+    std::vector<double> frameMs; // the same of light, relighting in full and view in one submission
     // Device time of the passes of either, by name; empty where the device has no timestamps.
     std::map<std::string, std::vector<double>> viewPasses, framePasses;
     std::vector<double> coveredPixels;
