@@ -30,22 +30,19 @@ BakedRows BakedRows::vertices(uint32_t first, uint32_t end) const {
     return part;
 }
 
-void append(SparseTransport& all, const SparseTransport& more) {
-    RELUME_CHECK_EQ(all.terms, more.terms);
+void BakedRows::append(const BakedRows& more) {
+    RELUME_CHECK_EQ(transport.terms, more.transport.terms);
     const auto join = [](auto& values, const auto& others) {
         values.insert(values.end(), others.begin(), others.end());
     };
-    const uint64_t before = all.entries();
-    for (size_t row = 0; row < more.rows(); row++) all.rowStarts.push_back(before + more.rowStarts[row + 1]);
-    join(all.scales, more.scales);
-    join(all.indices, more.indices);
-    join(all.values, more.values);
-    all.vertices += more.vertices;
-}
-
-void BakedRows::append(const BakedRows& more) {
-    relume::append(transport, more.transport);
-    losses.insert(losses.end(), more.losses.begin(), more.losses.end());
+    const uint64_t before = transport.entries();
+    for (size_t row = 0; row < more.transport.rows(); row++)
+        transport.rowStarts.push_back(before + more.transport.rowStarts[row + 1]);
+    join(transport.scales, more.transport.scales);
+    join(transport.indices, more.transport.indices);
+    join(transport.values, more.transport.values);
+    transport.vertices += more.transport.vertices;
+    join(losses, more.losses);
 }
 
 TransportLosses BakedBlock::losses() const {

@@ -21,9 +21,6 @@ struct BakedRows {
     void append(const BakedRows& more);
 };
 
-// Adds the vertices of `more`, of as many terms, behind those of `all`.
-void append(SparseTransport& all, const SparseTransport& more);
-
 // A block: its rows, a BakedRows per set of its part, and its visibility.
 struct BakedBlock {
     std::vector<BakedRows> sets;

@@ -11,11 +11,12 @@ namespace relume {
 
 namespace {
 
-// Of the vertices of all parts, so many or such a share; of a part's at least so many: docs/layouts.md.
+// Of the vertices of all parts, so many or such a share; of a part's at least so many, while the parts are
+// few; in all never more than so many vertices and bytes of rows, which are held in memory: docs/layouts.md.
 constexpr uint64_t kSampleVertices = 8192, kSampleShare = 4, kLeastOfPart = 1024;
+constexpr uint64_t kMostSampled = 32768, kSampleBytes = uint64_t(256) << 20;
 // Vertices of a part that tell its sets' units: such a share, within bounds.
 constexpr uint64_t kUnitShare = 64, kLeastForUnit = 512, kMostForUnit = 4096;
-constexpr uint64_t kSampleBytes = uint64_t(256) << 20; // of rows in memory
 
 uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
     uint64_t terms = 0;
@@ -58,44 +59,57 @@ std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeL
 
 LayoutScale scaleOf(const BakePlan& plan, std::span<const SampledBlock> blocks,
                     const std::vector<float>& units) {
-    std::vector<SparseTransport> rows; // over all parts
-    std::vector<SetSample> samples;
+    std::vector<SetSample> samples; // over all parts
     for (const AssetPart& part : plan.asset.parts)
-        for (const MaterialSet& set : part.sets) {
-            rows.emplace_back();
-            rows.back().terms = uint32_t(set.brdf.terms);
-            rows.back().rowStarts = {0};
-            samples.push_back({&set, nullptr, uint32_t(part.mesh.vertexCount()), units[samples.size()]});
-        }
+        for (const MaterialSet& set : part.sets)
+            samples.push_back({&set, {}, uint32_t(part.mesh.vertexCount()), units[samples.size()]});
     for (const SampledBlock& sampled : blocks) {
         const uint32_t firstSet = plan.firstSet[plan.blocks[sampled.block].part];
         for (size_t set = 0; set < sampled.baked.sets.size(); set++)
-            append(rows[firstSet + set], sampled.baked.sets[set].transport);
+            samples[firstSet + set].blocks.push_back(&sampled.baked.sets[set].transport);
     }
-    for (size_t set = 0; set < rows.size(); set++) samples[set].rows = &rows[set];
     return findScale(samples, plan.asset.faceSize, plan.vertices(), plan.options.layout);
+}
+
+// Of `all`, cut into `count` stretches: the middle of one.
+uint64_t middleOf(uint64_t stretch, uint64_t count, uint64_t all) {
+    return (2 * stretch + 1) * all / (2 * count);
+}
+
+// Of these blocks, so that neither vertices nor bytes are too many; 1 where they are not.
+double shareThatFits(const BakePlan& plan, std::span<const uint32_t> blocks) {
+    uint64_t vertices = 0, bytes = 0;
+    for (const uint32_t number : blocks) {
+        const BakeBlock& block = plan.blocks[number];
+        vertices += block.count();
+        bytes += block.count() * rowBytes(plan.asset, plan.asset.parts[block.part]);
+    }
+    return std::min({1.0, double(kMostSampled) / double(std::max<uint64_t>(1, vertices)),
+                     double(kSampleBytes) / double(std::max<uint64_t>(1, bytes))});
 }
 
 } // namespace
 
 std::vector<uint32_t> sampleBlocks(const BakePlan& plan) {
-    uint64_t bytes = 0;
-    for (const AssetPart& part : plan.asset.parts)
-        bytes += part.mesh.vertexCount() * rowBytes(plan.asset, part);
     const uint64_t all = plan.vertices();
-    const uint64_t most = std::max<uint64_t>(1, kSampleBytes / std::max<uint64_t>(1, bytes / all));
-    const uint64_t wanted = std::min({kSampleVertices, all / kSampleShare, most});
-    const uint64_t leastOfPart = std::min(kLeastOfPart, most);
+    const uint64_t wanted = std::min(kSampleVertices, all / kSampleShare);
+    const uint64_t leastOfPart = std::min(
+        kLeastOfPart, std::max<uint64_t>(plan.blockVertices, kSampleVertices / plan.asset.parts.size()));
     std::vector<uint32_t> sample;
     for (uint32_t first = 0, part = 0; part < plan.asset.parts.size(); part++) {
         const uint64_t vertices = plan.asset.parts[part].mesh.vertexCount();
         const uint64_t blocks = (vertices + plan.blockVertices - 1) / plan.blockVertices;
         const uint64_t own = std::max(leastOfPart, wanted * vertices / all);
         const uint64_t count = std::min(blocks, (own + plan.blockVertices - 1) / plan.blockVertices);
-        // The middles of so many stretches.
-        for (uint64_t i = 0; i < count; i++)
-            sample.push_back(first + uint32_t((2 * i + 1) * blocks / (2 * count)));
+        for (uint64_t i = 0; i < count; i++) sample.push_back(first + uint32_t(middleOf(i, count, blocks)));
         first += uint32_t(blocks);
+    }
+    for (double share = shareThatFits(plan, sample); share < 1 && sample.size() > 1;
+         share = shareThatFits(plan, sample)) {
+        const uint64_t kept = std::max<uint64_t>(1, uint64_t(share * double(sample.size())));
+        std::vector<uint32_t> fewer;
+        for (uint64_t i = 0; i < kept; i++) fewer.push_back(sample[middleOf(i, kept, sample.size())]);
+        sample = std::move(fewer);
     }
     return sample;
 }

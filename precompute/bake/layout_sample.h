@@ -5,7 +5,8 @@
 
 namespace relume {
 
-// Blocks of every part, spread evenly over its surface. They depend on the plan's blocks alone.
+// Blocks spread evenly over the surface of every part, or of some where the parts are many, in their order:
+// docs/layouts.md. They depend on the plan's options and numbers of vertices and terms alone.
 std::vector<uint32_t> sampleBlocks(const BakePlan& plan);
 
 struct SampledBlock {

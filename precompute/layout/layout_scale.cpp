@@ -15,17 +15,26 @@ namespace {
 
 // A cluster of a sample, and how many it stands for.
 struct Place {
-    uint32_t sample, first, count;
+    uint32_t sample;
+    const SparseTransport* rows;
+    uint32_t first, count;
     double weight;
 };
+
+uint64_t sampledOf(const SetSample& sample) {
+    uint64_t vertices = 0;
+    for (const SparseTransport* rows : sample.blocks) vertices += rows->vertices;
+    return vertices;
+}
 
 std::vector<Place> placesOf(std::span<const SetSample> samples, uint32_t clusterVertices) {
     std::vector<Place> places;
     for (uint32_t number = 0; number < samples.size(); number++) {
-        const uint32_t sampled = samples[number].rows->vertices;
-        const double weight = double(samples[number].vertices) / double(std::max(1u, sampled));
-        for (uint32_t first = 0; first < sampled; first += clusterVertices)
-            places.push_back({number, first, std::min(clusterVertices, sampled - first), weight});
+        const double weight = double(samples[number].vertices) / double(sampledOf(samples[number]));
+        for (const SparseTransport* rows : samples[number].blocks)
+            for (uint32_t first = 0; first < rows->vertices; first += clusterVertices)
+                places.push_back(
+                    {number, rows, first, std::min(clusterVertices, rows->vertices - first), weight});
     }
     return places;
 }
@@ -37,21 +46,26 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
     sumAlikeEverywhere();
     const std::vector<float> spectrum = lightSpectrum(faceSize);
     LayoutScale scale;
-    double error = 0, rowBytes = 0; // wanted, squared; of clusters, whatever is kept
+    double error = 0, rowBytes = 0;   // wanted, squared; of clusters, whatever is kept
+    double allRows = 0, toldRows = 0; // of sets that the samples tell of
     for (const SetSample& sample : samples) {
         scale.units.push_back(sample.unit);
+        const double rows = double(sample.vertices) * sample.set->brdf.terms;
+        allRows += rows;
+        if (sampledOf(sample) == 0) continue;
+        toldRows += rows;
         error += options.error * options.error * double(sample.vertices);
-        rowBytes += double(sample.vertices) * double(sample.rows->terms) * sizeof(float);
+        rowBytes += rows * sizeof(float);
     }
-    const double budget = options.bytesPerVertex.value_or(0) * double(vertices);
+    const double share = allRows > 0 ? toldRows / allRows : 1;
+    const double budget = share * options.bytesPerVertex.value_or(0) * double(vertices);
     if (options.layout == TransportLayout::Clusters) {
         const std::vector<Place> places = placesOf(samples, kClusterVertices);
         std::vector<std::vector<ColumnEnergy>> each(places.size());
         tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
             const Place& place = places[i];
-            for (const float energy :
-                 columnEnergies(*samples[place.sample].rows, place.first / kClusterVertices, spectrum,
-                                scale.units[place.sample]))
+            for (const float energy : columnEnergies(*place.rows, place.first / kClusterVertices, spectrum,
+                                                     scale.units[place.sample]))
                 each[i].push_back({energy, float(place.weight)});
         });
         std::vector<ColumnEnergy> energies;
@@ -67,7 +81,7 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
         const Place& place = places[i];
         const SetSample& sample = samples[place.sample];
         analyses[i] =
-            analyse(clusterMatrix(*sample.rows, place.first, place.count, basisKinds(sample.set->brdf),
+            analyse(clusterMatrix(*place.rows, place.first, place.count, basisKinds(sample.set->brdf),
                                   spectrum, scale.units[place.sample], kAnalysedColumns));
         analyses[i].weight = place.weight;
     });

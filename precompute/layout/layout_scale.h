@@ -21,13 +21,13 @@ struct LayoutScale {
 // Clusters of a set that stand for all of them.
 struct SetSample {
     const MaterialSet* set;
-    const SparseTransport* rows; // cluster after cluster; only the last may have fewer vertices
-    uint32_t vertices;           // of the whole set
-    float unit;                  // transportUnit() of the set
+    std::vector<const SparseTransport*> blocks; // each of clusters, of which only the last may not be full
+    uint32_t vertices;                          // of the whole set
+    float unit;                                 // transportUnit() of the set
 };
 
-// For what `options` ask for of clusters or bases, as these samples tell it. `vertices`: of the asset, which
-// a budget is for. The same on every machine.
+// For what `options` ask for of clusters or bases, as these samples tell it; sets without any are taken to be
+// as the others are. `vertices`: of the asset, which a budget is for. The same on every machine.
 LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
                       const LayoutOptions& options);
 

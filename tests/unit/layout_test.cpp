@@ -316,7 +316,7 @@ TEST_CASE("layout: samples that stand for twice as many find about the price of 
           LayoutOptions{.layout = TransportLayout::Clusters, .error = 0.1},
           LayoutOptions{.layout = TransportLayout::Clusters, .bytesPerVertex = 200}}) {
         const auto priceOf = [&](const SparseTransport& sample) {
-            const SetSample one{&set, &sample, 4096, unit};
+            const SetSample one{&set, {&sample}, 4096, unit};
             const LayoutScale scale = findScale({&one, 1}, kFace, 4096, options);
             CHECK(scale.units == std::vector(1, unit));
             return scale.price;
@@ -324,6 +324,24 @@ TEST_CASE("layout: samples that stand for twice as many find about the price of 
         const double all = priceOf(rows);
         CHECK(all > 0);
         CHECK(std::abs(std::log2(priceOf(half) / all)) < 0.5);
+    }
+}
+
+TEST_CASE("layout: sets without a sample do not change what the others' say") {
+    const SparseTransport rows = smoothRows(1024, 2, 15);
+    const Asset asset = assetOf(rows);
+    const MaterialSet& set = asset.parts[0].sets[0];
+    const float unit = transportUnit(rows, lightSpectrum(kFace));
+    const SetSample told{&set, {&rows}, 1024, unit}, untold{&set, {}, 3072, 7};
+    for (const LayoutOptions& options :
+         {LayoutOptions{.error = 0.05}, LayoutOptions{.bytesPerVertex = 40},
+          LayoutOptions{.layout = TransportLayout::Clusters, .error = 0.1},
+          LayoutOptions{.layout = TransportLayout::Clusters, .bytesPerVertex = 200}}) {
+        const std::array both = {untold, told};
+        const LayoutScale scale = findScale(both, kFace, 4096, options);
+        CHECK(scale.units == std::vector{7.0f, unit});
+        CHECK(scale.price == findScale({&told, 1}, kFace, 1024, options).price);
+        CHECK(scale.price > 0);
     }
 }
 
