@@ -62,7 +62,14 @@ void interpolateBlocks(const vk::Device& device, BakePlan& plan, std::span<const
     std::vector<std::vector<uint32_t>> chosen;
     for (const CoarsePart& part : coarse) chosen.push_back(part.vertices);
     StageObserver coarseObserver(observer, BakeStage::Preview);
-    const std::vector<BakedRows> rows = bakeVertices(device, plan, chosen, limits, coarseObserver);
+    std::vector<BakedRows> rows; // per set, over all parts
+    for (const AssetPart& part : plan.asset.parts)
+        for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
+    const auto take = [&](uint32_t part, std::span<const BakedRows> sets) {
+        for (size_t set = 0; set < sets.size(); set++) rows[plan.firstSet[part] + set].append(sets[set]);
+    };
+    BakeTimes times; // which previews have apart
+    bakeVertices(device, plan, chosen, limits, take, coarseObserver, times);
 
     std::vector<std::optional<CoarseNeighbours>> neighbours(coarse.size());
     for (size_t part = 0; part < coarse.size(); part++)

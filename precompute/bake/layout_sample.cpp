@@ -2,8 +2,8 @@
 
 #include "precompute/bake/stored_blocks.h"
 #include "precompute/bake/vertex_rows.h"
-#include "precompute/layout/cluster_matrix.h"
 #include "precompute/layout/light_spectrum.h"
+#include "precompute/layout/unit_sum.h"
 
 #include <algorithm>
 
@@ -15,8 +15,15 @@ namespace {
 // few; in all never more than so many vertices and bytes of rows, which are held in memory: docs/layouts.md.
 constexpr uint64_t kSampleVertices = 8192, kSampleShare = 4, kLeastOfPart = 1024;
 constexpr uint64_t kMostSampled = 32768, kSampleBytes = uint64_t(256) << 20;
-// Vertices of a part that tell its sets' units: such a share, within bounds.
+// Vertices of a part that tell its sets' units: such a share, within bounds, of which the lower one is less
+// where the parts are many.
 constexpr uint64_t kUnitShare = 64, kLeastForUnit = 512, kMostForUnit = 4096;
+constexpr uint64_t kLeastForUnits = 16384, kLeastOfManyForUnit = 64; // of all parts, of each
+
+// Of `all`, cut into `count` stretches: the middle of one.
+uint64_t middleOf(uint64_t stretch, uint64_t count, uint64_t all) {
+    return (2 * stretch + 1) * all / (2 * count);
+}
 
 uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
     uint64_t terms = 0;
@@ -40,20 +47,37 @@ class SampleSink : public BakeSink {
 };
 
 // Per set, from vertices spread over its part: a few blocks would not tell. A ground's shadow is on one in
-// twenty.
+// twenty. Visibility that was kept would be of little use: it is packed by blocks, and to unpack all of one
+// for a few vertices takes longer than to find theirs.
 std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeLimits& limits,
-                           BakeObserver& observer) {
+                           BakeObserver& observer, BakeTimes& times) {
     std::vector<std::vector<uint32_t>> chosen;
+    const uint64_t least =
+        std::clamp(kLeastForUnits / plan.asset.parts.size(), kLeastOfManyForUnit, kLeastForUnit);
     for (const AssetPart& part : plan.asset.parts) {
         const uint64_t all = part.mesh.vertexCount();
-        const uint64_t count = std::min(all, std::clamp(all / kUnitShare, kLeastForUnit, kMostForUnit));
+        const uint64_t count = std::min(all, std::clamp(all / kUnitShare, least, kMostForUnit));
         std::vector<uint32_t>& own = chosen.emplace_back();
-        for (uint64_t i = 0; i < count; i++) own.push_back(uint32_t((2 * i + 1) * all / (2 * count)));
+        for (uint64_t i = 0; i < count; i++) own.push_back(uint32_t(middleOf(i, count, all)));
     }
     const std::vector<float> spectrum = lightSpectrum(plan.asset.faceSize);
     std::vector<float> units;
-    for (const BakedRows& rows : bakeVertices(device, plan, chosen, limits, observer))
-        units.push_back(transportUnit(rows.transport, spectrum));
+    std::vector<UnitSum> sums; // of the sets of one part at a time: rows are not held
+    uint32_t summed = 0;       // that part
+    const auto endPart = [&] {
+        for (const UnitSum& sum : sums) units.push_back(sum.unit());
+        sums.clear();
+    };
+    const auto take = [&](uint32_t part, std::span<const BakedRows> sets) {
+        if (part != summed) endPart();
+        summed = part;
+        for (size_t set = 0; set < sets.size(); set++) {
+            if (sums.size() == set) sums.emplace_back(sets[set].transport.terms, spectrum);
+            sums[set].add(sets[set].transport);
+        }
+    };
+    bakeVertices(device, plan, chosen, limits, take, observer, times);
+    endPart();
     return units;
 }
 
@@ -69,11 +93,6 @@ LayoutScale scaleOf(const BakePlan& plan, std::span<const SampledBlock> blocks,
             samples[firstSet + set].blocks.push_back(&sampled.baked.sets[set].transport);
     }
     return findScale(samples, plan.asset.faceSize, plan.vertices(), plan.options.layout);
-}
-
-// Of `all`, cut into `count` stretches: the middle of one.
-uint64_t middleOf(uint64_t stretch, uint64_t count, uint64_t all) {
-    return (2 * stretch + 1) * all / (2 * count);
 }
 
 // Of these blocks, so that neither vertices nor bytes are too many; 1 where they are not.
@@ -120,7 +139,7 @@ std::vector<SampledBlock> bakeSample(const vk::Device& device, BakePlan& plan, c
     SampleSink sink(plan);
     StageObserver sampleObserver(observer, BakeStage::Sample);
     bakeBlocks(device, plan, blocks, blocks, limits, sink, sampleObserver, times, kept);
-    plan.scale = scaleOf(plan, sink.blocks, unitsOf(device, plan, limits, sampleObserver));
+    plan.scale = scaleOf(plan, sink.blocks, unitsOf(device, plan, limits, sampleObserver, times));
     return std::move(sink.blocks);
 }
 

@@ -15,7 +15,7 @@ struct SampledBlock {
 };
 
 // Bakes them, in a stage of its own, and sets the plan's scale. Throws BakeStopped, Error. `kept` as for
-// bakeBlocks().
+// bakeBlocks(); it serves the blocks alone, not the vertices besides that tell the sets' units.
 std::vector<SampledBlock> bakeSample(const vk::Device& device, BakePlan& plan, const BakeLimits& limits,
                                      BakeObserver& observer, BakeTimes& times, KeptVisibility* kept);
 

@@ -32,39 +32,28 @@ BakePlan planOfVertices(const BakePlan& plan, std::span<const std::vector<uint32
     return result;
 }
 
-// Rows of all vertices of a plan, a BakedRows per set over all parts: takes the blocks in order.
 class RowsSink : public BakeSink {
   public:
-    explicit RowsSink(const BakePlan& plan) : mPlan(plan) {
-        for (const AssetPart& part : plan.asset.parts)
-            for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
-    }
+    RowsSink(const BakePlan& plan, const TakeRows& take) : mPlan(plan), mTake(take) {}
 
-    void take(uint32_t block, BakedBlock baked) override {
-        const uint32_t firstSet = mPlan.firstSet[mPlan.blocks[block].part];
-        for (size_t set = 0; set < baked.sets.size(); set++) rows[firstSet + set].append(baked.sets[set]);
-    }
-
-    std::vector<BakedRows> rows;
+    void take(uint32_t block, BakedBlock baked) override { mTake(mPlan.blocks[block].part, baked.sets); }
 
   private:
     const BakePlan& mPlan;
+    const TakeRows& mTake;
 };
 
 } // namespace
 
-std::vector<BakedRows> bakeVertices(const vk::Device& device, BakePlan& plan,
-                                    std::span<const std::vector<uint32_t>> vertices, const BakeLimits& limits,
-                                    BakeObserver& observer) {
+void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,
+                  const BakeLimits& limits, const TakeRows& take, BakeObserver& observer, BakeTimes& times) {
     BakePlan fewer = planOfVertices(plan, vertices);
     std::swap(fewer.asset.occluder, plan.asset.occluder); // large: never twice
     std::vector<uint32_t> blocks(fewer.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
-    RowsSink sink(fewer);
-    BakeTimes times;
+    RowsSink sink(fewer, take);
     bakeBlocks(device, fewer, blocks, blocks, limits, sink, observer, times);
     std::swap(fewer.asset.occluder, plan.asset.occluder);
-    return std::move(sink.rows);
 }
 
 } // namespace relume

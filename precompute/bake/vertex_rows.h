@@ -3,13 +3,16 @@
 
 #include "precompute/bake/block_baker.h"
 
+#include <functional>
+
 namespace relume {
 
-// Bakes these vertices of every part, one list a part, and gives a BakedRows per set over all parts, vertex
-// after vertex. Throws BakeStopped, Error; then nothing more can be baked of `plan`, whose occluder is
-// borrowed.
-std::vector<BakedRows> bakeVertices(const vk::Device& device, BakePlan& plan,
-                                    std::span<const std::vector<uint32_t>> vertices, const BakeLimits& limits,
-                                    BakeObserver& observer);
+// Of the next vertices of a part: rows, per set.
+using TakeRows = std::function<void(uint32_t part, std::span<const BakedRows> sets)>;
+
+// Bakes these vertices of every part, one list a part, part after part and vertex after vertex. Throws
+// BakeStopped, Error; then nothing more can be baked of `plan`, whose occluder is borrowed.
+void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,
+                  const BakeLimits& limits, const TakeRows& take, BakeObserver& observer, BakeTimes& times);
 
 } // namespace relume

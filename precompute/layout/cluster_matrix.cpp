@@ -1,16 +1,13 @@
 #include "precompute/layout/cluster_matrix.h"
 
 #include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/unit_sum.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace relume {
 
 namespace {
-
-// Of a set whose vertices are all alike, relative to what they hold: errors stay far below what is seen.
-constexpr double kLeastVariation = 0.1;
 
 // Calls entry(row of the matrix, kind, coefficient, value) for all that a cluster holds.
 template <typename Entry>
@@ -32,21 +29,9 @@ void forEachEntry(const SparseTransport& rows, uint32_t first, uint32_t count,
 } // namespace
 
 float transportUnit(const SparseTransport& rows, std::span<const float> spectrum) {
-    double energy = 0;
-    std::vector<glm::dvec3> sums(rows.terms * spectrum.size(), glm::dvec3(0)); // over the vertices
-    for (size_t row = 0; row < rows.rows(); row++)
-        for (uint64_t i = rows.rowStarts[row]; i < rows.rowStarts[row + 1]; i++) {
-            const glm::dvec3 value = vec3(unpackCoefficient(rows.values[i])) * kCoefficientUnit *
-                                     (spectrum[rows.indices[i]] * rows.scales[row]);
-            energy += glm::dot(value, value);
-            sums[row % rows.terms * spectrum.size() + rows.indices[i]] += value;
-        }
-    const double vertices = std::max(1u, rows.vertices);
-    double common = 0;
-    for (const glm::dvec3& sum : sums) common += glm::dot(sum, sum) / vertices;
-    const double varying = std::max(energy - common, kLeastVariation * kLeastVariation * energy);
-    const auto unit = float(std::sqrt(varying / vertices));
-    return unit > 0 && std::isfinite(unit) ? unit : 1;
+    UnitSum sum(rows.terms, spectrum);
+    sum.add(rows);
+    return sum.unit();
 }
 
 ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_t count,

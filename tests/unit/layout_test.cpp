@@ -6,6 +6,7 @@
 #include "precompute/layout/layout_scale.h"
 #include "precompute/layout/light_spectrum.h"
 #include "precompute/layout/slope.h"
+#include "precompute/layout/unit_sum.h"
 #include "tests/support/asset_sample.h"
 
 #include <Eigen/SVD>
@@ -156,6 +157,24 @@ TEST_CASE("layout: errors are relative to what tells a set's vertices apart") {
     CHECK(unitOf({1023, 0, 0}, {0, 0, 0}) == doctest::Approx(1.5));    // half of it is mean
     CHECK(unitOf({1023, 0, 0}, {1023, 0, 0}) == doctest::Approx(0.3)); // nothing else: a tenth
     CHECK(unitOf({0, 0, 0}, {0, 0, 0}) == 1);
+}
+
+TEST_CASE("layout: a unit is the same of vertices that come a few at a time") {
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    const SparseTransport rows = smoothRows(2, 2, 4);
+    UnitSum sum(2, spectrum);
+    for (uint64_t vertex = 0; vertex < 2; vertex++) {
+        const uint64_t row = 2 * vertex, first = rows.rowStarts[row], end = rows.rowStarts[row + 2];
+        SparseTransport one{
+            .vertices = 1, .terms = 2, .rowStarts = {}, .scales = {}, .indices = {}, .values = {}};
+        for (uint64_t i = row; i <= row + 2; i++) one.rowStarts.push_back(rows.rowStarts[i] - first);
+        one.scales = {rows.scales[row], rows.scales[row + 1]};
+        one.indices.assign(rows.indices.begin() + ptrdiff_t(first), rows.indices.begin() + ptrdiff_t(end));
+        one.values.assign(rows.values.begin() + ptrdiff_t(first), rows.values.begin() + ptrdiff_t(end));
+        CHECK(sum.unit() != transportUnit(rows, spectrum));
+        sum.add(one);
+    }
+    CHECK(sum.unit() == transportUnit(rows, spectrum));
 }
 
 TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
