@@ -131,7 +131,8 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     const auto writeWhole = [&](const StoredBlocks& blocks) {
         writeFile([&](const ChunkWriter::Output& write) { summary.bytes = writeBake(plan, blocks, write); });
     };
-    StoringSink sink(plan, [&](uint32_t block, StoredBlock stored) { checkpoint.append(block, stored); });
+    StoringSink sink(plan, StoringSink::bytesInHand(limits),
+                     [&](uint32_t block, StoredBlock stored) { checkpoint.append(block, stored); });
     if (needsScale(plan) && !plan.scale && !missing.empty()) {
         std::vector<SampledBlock> sample = bakeSample(device, plan, limits, observer, summary.times, kept);
         checkpoint.append(*plan.scale);
@@ -181,7 +182,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     std::iota(all.begin(), all.end(), 0u);
     std::vector<uint32_t> missing = all;
     MemoryBlocks blocks;
-    StoringSink sink(plan,
+    StoringSink sink(plan, StoringSink::bytesInHand({}),
                      [&](uint32_t block, StoredBlock stored) { blocks.keep(block, std::move(stored)); });
     if (needsScale(plan))
         for (SampledBlock& sampled : bakeSample(device, plan, {}, observer, times, nullptr)) {

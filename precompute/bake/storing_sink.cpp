@@ -1,19 +1,47 @@
 #include "precompute/bake/storing_sink.h"
 
+#include <algorithm>
 #include <atomic>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace relume {
 
+namespace {
+
+// Of a baked block in memory, about.
+uint64_t bytesOf(const BakedBlock& baked) {
+    uint64_t bytes = baked.visibility.size() * sizeof(uint32_t);
+    for (const BakedRows& set : baked.sets)
+        bytes += set.transport.entries() * (sizeof(uint16_t) + sizeof(uint32_t)) +
+                 set.transport.rows() * (sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses));
+    for (const StoredChunk& chunk : baked.packedVisibility) bytes += chunk.bytes.size();
+    return bytes;
+}
+
+size_t allowedThreads() {
+    const size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::min(allowed, size_t(tbb::this_task_arena::max_concurrency()));
+}
+
+} // namespace
+
 struct StoringSink::Work {
     uint32_t block;
     BakedBlock baked;
+    uint64_t bytes; // of it
     StoredBlock stored;
     std::atomic<bool> isDone = false;
 };
 
-StoringSink::StoringSink(const BakePlan& plan, Keep keep)
-    : mPlan(plan), mKeep(std::move(keep)), mTasks(std::make_unique<tbb::task_group>()) {}
+uint64_t StoringSink::bytesInHand(const BakeLimits& limits) {
+    constexpr uint64_t kUsual = uint64_t(256) << 20, kShare = 4;
+    return limits.memory == 0 ? kUsual : std::min(kUsual, limits.memory / kShare);
+}
+
+StoringSink::StoringSink(const BakePlan& plan, uint64_t mostBytes, Keep keep)
+    : mPlan(plan), mMostBytes(mostBytes), mKeep(std::move(keep)),
+      mTasks(std::make_unique<tbb::task_group>()) {}
 
 StoringSink::~StoringSink() {
     mTasks->cancel();
@@ -27,17 +55,32 @@ void StoringSink::keepFinished() {
     while (!mWorks.empty() && mWorks.front()->isDone) {
         const std::shared_ptr<Work> first = std::move(mWorks.front());
         mWorks.pop_front();
+        mBytes -= first->bytes;
         mKeep(first->block, std::move(first->stored));
     }
 }
 
+// Those behind one that failed too.
+void StoringSink::keepWhatIsStored() {
+    std::erase_if(mWorks, [](const auto& work) { return !work->isDone; });
+    keepFinished();
+    mBytes = 0;
+}
+
 void StoringSink::take(uint32_t block, BakedBlock baked) {
     keepFinished();
-    // Blocks in hand are few, or memory would not be.
-    if (mWorks.size() >= size_t(2 * tbb::this_task_arena::max_concurrency())) finish();
+    const size_t threads = allowedThreads();
+    const uint64_t bytes = bytesOf(baked);
+    if (mWorks.size() >= 2 * threads || mBytes + bytes > mMostBytes) finish();
+    if (threads == 1) {
+        mKeep(block, storeBlock(mPlan, block, std::move(baked)));
+        return;
+    }
     const auto work = std::make_shared<Work>();
     work->block = block;
     work->baked = std::move(baked);
+    work->bytes = bytes;
+    mBytes += bytes;
     mWorks.push_back(work);
     mTasks->run([this, work] {
         work->stored = storeBlock(mPlan, work->block, std::move(work->baked));
@@ -46,7 +89,15 @@ void StoringSink::take(uint32_t block, BakedBlock baked) {
 }
 
 void StoringSink::finish() {
-    mTasks->wait();
+    try {
+        mTasks->wait();
+    } catch (...) {
+        try {
+            keepWhatIsStored();
+        } catch (...) { // the first error tells more
+        }
+        throw;
+    }
     keepFinished();
 }
 
