@@ -246,8 +246,11 @@ void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const 
             baker.bakePart(own, times);
             blocks = blocks.subspan(own.size());
         }
-    } catch (const BakeStopped&) {
-        sink.finish();
+    } catch (...) { // what is baked is not lost
+        try {
+            sink.finish();
+        } catch (...) { // the first error tells more
+        }
         throw;
     }
     sink.finish();

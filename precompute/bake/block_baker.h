@@ -32,9 +32,8 @@ class BakeSink {
 
 // Bakes the blocks of these numbers in their order; those of a part had best be together. Progress is told of
 // `all` blocks, those done before among them. What a block gives depends on the plan alone. A device or host
-// short of memory halves the batch, saying so. Finishes the sink, stopped or not. Throws BakeStopped when the
-// observer wants it, Error. `kept`:
-// verified visibility of the plan's key, taken instead of finding it.
+// short of memory halves the batch, saying so. Finishes the sink, whatever it throws: BakeStopped when the
+// observer wants it, Error. `kept`: verified visibility of the plan's key, taken instead of finding it.
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
                 std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
                 BakeObserver& observer, BakeTimes& times, KeptVisibility* kept = nullptr);
