@@ -33,12 +33,8 @@ void sortByEnergy(std::vector<ColumnEnergy>& columns) {
     });
 }
 
-// What keeps the first `kept`: of equal ones at the edge all are dropped, to stay within a budget.
-float thresholdOf(const std::vector<ColumnEnergy>& columns, size_t kept) {
-    return kept < columns.size()
-               ? std::nextafter(columns[kept].energy, std::numeric_limits<float>::infinity())
-               : 0.0f;
-}
+// Just more than an energy.
+float above(float energy) { return std::nextafter(energy, std::numeric_limits<float>::infinity()); }
 
 } // namespace
 
@@ -50,7 +46,8 @@ float thresholdForBytes(std::vector<ColumnEnergy> columns, double bytes) {
         taken += double(columns[kept].weight) * kColumnBytes;
         if (taken > bytes) break;
     }
-    return thresholdOf(columns, kept);
+    // Of equal ones at the edge all are dropped, to stay within the budget.
+    return kept < columns.size() ? above(columns[kept].energy) : 0.0f;
 }
 
 float thresholdForError(std::vector<ColumnEnergy> columns, double error) {
@@ -60,7 +57,9 @@ float thresholdForError(std::vector<ColumnEnergy> columns, double error) {
         left += double(columns[kept - 1].weight) * double(columns[kept - 1].energy);
         if (left > error) break;
     }
-    return thresholdOf(columns, kept);
+    if (kept == columns.size()) return 0;
+    // Of equal ones at the edge all are kept, to stay within the error.
+    return kept > 0 ? columns[kept - 1].energy : above(columns[0].energy);
 }
 
 CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price) {

@@ -14,7 +14,7 @@ struct ColumnEnergy {
 // The least energy of columns that are to be kept, of which the strongest together have at most `bytes`.
 float thresholdForBytes(std::vector<ColumnEnergy> columns, double bytes);
 
-// The highest at which the columns that are dropped hold `error` together, squared.
+// The highest at which the columns that are dropped hold at most `error` together, squared; 0 to keep all.
 float thresholdForError(std::vector<ColumnEnergy> columns, double error);
 
 struct CutTotals {

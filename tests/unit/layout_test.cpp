@@ -324,6 +324,22 @@ TEST_CASE("layout: clusters keep what a budget or an error allows, exactly") {
     }
 }
 
+TEST_CASE("layout: of columns of equal energy, what is asked for decides whether all are kept or none") {
+    const std::vector<ColumnEnergy> equal(4, {1, 1});
+    CHECK(thresholdForError(equal, 2) == 1); // two could go, but only all four can
+    CHECK(thresholdForError(equal, 3.9) == 1);
+    CHECK(thresholdForError(equal, 4) > 1);
+    CHECK(thresholdForError(equal, 0.5) <= 1);
+    CHECK(thresholdForBytes(equal, 2 * 130) > 1);
+    CHECK(thresholdForBytes(equal, 4 * 130) <= 1);
+    const std::vector<ColumnEnergy> mixed = {{1, 1}, {3, 1}, {1, 2}, {2, 1}};
+    CHECK(thresholdForError(mixed, 2.5) == 1);
+    CHECK(thresholdForError(mixed, 3) == 2);
+    CHECK(thresholdForError(mixed, 5) == 3);
+    CHECK(thresholdForError(mixed, 8) > 3);
+    CHECK(thresholdForError({}, 1) == 0);
+}
+
 TEST_CASE("layout: samples that stand for twice as many find about the price of all") {
     const SparseTransport rows = smoothRows(4096, 2, 14);
     const Asset asset = assetOf(rows);
