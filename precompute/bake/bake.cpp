@@ -147,6 +147,7 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     }
     if (outputOptions.previews && !missing.empty()) {
         interpolated->resume(plan);
+        if (plan.scale && !interpolated->scale()) interpolated->append(*plan.scale);
         bakeWithPreviews(device, plan, missing, limits, checkpoint, *interpolated, sink, writeWhole, observer,
                          summary.times, kept);
     } else

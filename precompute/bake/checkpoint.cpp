@@ -69,6 +69,10 @@ void putChunk(ByteWriter& out, const ChunkEntry& entry) {
 
 size_t setsOf(const BakePlan& plan) { return plan.firstSet.back() + plan.asset.parts.back().sets.size(); }
 
+bool isInRows(const BakePlan& plan) {
+    return layoutOf(plan.asset.parts.front().sets.front().transport) == TransportLayout::Rows;
+}
+
 uint64_t scaleBytes(const BakePlan& plan) { return sizeof(double) + setsOf(plan) * sizeof(float); }
 
 ChunkEntry getChunk(ByteReader& in) {
@@ -168,13 +172,15 @@ void Checkpoint::resume(const BakePlan& plan) {
     mSynced = std::chrono::steady_clock::now();
 }
 
-// Reads the record at mBytes and goes past it, if it is whole and of a block that is missing yet.
+// Reads the record at mBytes and goes past it, if it is whole and of a block that is missing yet, or the
+// scale that comes before blocks that are not in rows.
 bool Checkpoint::readRecord(const BakePlan& plan) {
     std::array<std::byte, kRecordHeaderBytes> header{};
     if (!read(mBytes, header)) return false;
     ByteReader in(header, "");
     const auto block = in.get<uint32_t>(), chunkCount = in.get<uint32_t>();
     const auto bodyBytes = in.get<uint64_t>(), checksum = in.get<uint64_t>();
+    if (block == kScale ? isInRows(plan) : !isInRows(plan) && !mScale) return false;
     uint64_t least = scaleBytes(plan), most = least;
     size_t chunks = 0;
     if (block != kScale) {
