@@ -87,8 +87,6 @@ void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, 
            "values within ±1023 in red and green and ±511 in blue");
 }
 
-namespace {
-
 void checkKinds(const BasisTransport& transport, const std::string& where) {
     expect(transport.kinds.size() <= 3 * size_t(transport.terms), where, "at most three kinds a term");
     uint32_t term = 0, ofTerm = 0;
@@ -101,8 +99,6 @@ void checkKinds(const BasisTransport& transport, const std::string& where) {
             expect(std::isfinite(kind.color[channel]), where, "finite colours of kinds");
     }
 }
-
-} // namespace
 
 void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, uint32_t coefficients,
                   const std::string& where) {

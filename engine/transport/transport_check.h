@@ -15,6 +15,9 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
 // Groups that rise, of indices below `coefficients`, and no more columns than a file holds. Throws Error.
 void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, const std::string& where);
 
+// What the weights of all clusters are amounts of. Throws Error.
+void checkKinds(const BasisTransport& transport, const std::string& where);
+
 // One cluster of so many vertices. Throws Error.
 void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, uint32_t coefficients,
                   const std::string& where);

@@ -5,6 +5,7 @@
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_file.h"
 #include "engine/transport/byte_stream.h"
+#include "engine/transport/transport_check.h"
 
 #include <algorithm>
 #include <bit>
@@ -106,6 +107,10 @@ BakePlan ShardFile::plan() const {
     AssetMeta meta = mMeta;
     readArrays(mChunks, meta);
     checkSkeleton(meta.asset, name());
+    for (const AssetPart& part : meta.asset.parts) // which no chunk of transport has
+        for (const MaterialSet& set : part.sets)
+            if (const auto* bases = std::get_if<BasisTransport>(&set.transport))
+                checkKinds(*bases, fmt::format("{}: transport of part \"{}\"", name(), part.name));
     BakePlan plan = planOf(std::move(meta.asset), meta.visibilityKey);
     if (plan.identity != mIdentity)
         throw Error(

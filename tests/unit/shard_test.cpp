@@ -116,6 +116,20 @@ TEST_CASE("merge: of shards in clusters and bases too") {
     }
 }
 
+TEST_CASE("merge: kinds that a reader would refuse are refused") {
+    const Asset asset = shardedAsset();
+    BakePlan bad = planIn(asset, TransportLayout::Bases);
+    auto& kinds = std::get<BasisTransport>(bad.asset.parts[0].sets[0].transport).kinds;
+    REQUIRE_GT(kinds.size(), 1);
+    std::swap(kinds.front(), kinds.back());
+    BakePlan plan = planOf(bad.asset);
+    plan.scale = bad.scale;
+    const SampleBlocks blocks(plan, asset);
+    std::vector<Bytes> files(2);
+    for (uint32_t index = 0; index < 2; index++) writeShard(plan, {index, 2}, blocks, appendTo(files[index]));
+    CHECK(says(refusal(files), "0: transport of part \"sample\": expected kinds by rising term"));
+}
+
 TEST_CASE("merge: missing, doubled and strange shards are named") {
     const Asset asset = shardedAsset();
     const std::vector<Bytes> files = shardsOf(asset, 4);
