@@ -105,6 +105,7 @@ std::string identityOf(const BakePlan& plan) {
     for (const Kernels& kernels : {visibilityKernels(VisibilityMethod::Raster),
                                    visibilityKernels(VisibilityMethod::Traced), TransportPass::kernels()})
         for (const auto kernel : kernels) hash.add(kernel);
+    hash.add(std::span(&kLayoutEncoderVersion, 1));
     forEachArray(
         plan.asset, [&](ChunkTag, uint32_t, const auto& elements) { hash.add(std::span(elements)); },
         [](uint32_t, const MaterialSet&) {});

@@ -9,6 +9,11 @@
 
 namespace relume {
 
+// Of what decides the bytes of clusters and bases besides a bake's inputs and options: which sample tells the
+// scale, and how it and a scale's bytes are found. Raised with every change of these, so that blocks of
+// different programs never meet in one bake.
+constexpr uint32_t kLayoutEncoderVersion = 2;
+
 struct LayoutScale {
     std::vector<float> units; // per set, over all parts: transportUnit()
     // What makes a cluster keep more or less: of bases the price of a byte (slope.h), of clusters the least
