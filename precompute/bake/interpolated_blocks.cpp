@@ -15,8 +15,8 @@ namespace {
 
 constexpr uint64_t kVerticesPerCoarse = 12;
 constexpr uint64_t kCoarseRowBytes = uint64_t(256) << 20;
-constexpr int kMostInterpolated = 96;  // coefficients of a row: more do not show
-constexpr size_t kBlocksTogether = 64; // interpolated between two looks at whether to stop
+constexpr int kMostInterpolated = 96;        // coefficients of a row: more do not show
+constexpr uint32_t kVerticesTogether = 2048; // interpolated between two looks at whether to stop
 
 // Of rows in memory, with what they lost.
 uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
@@ -93,7 +93,8 @@ void interpolateBlocks(const vk::Device& device, BakePlan& plan, std::span<const
     };
     for (std::span<const uint32_t> left(lacking); !left.empty();) {
         if (observer.wantsStop()) throw BakeStopped("stopped");
-        const auto some = left.first(std::min(kBlocksTogether, left.size()));
+        const size_t together = std::max(1u, kVerticesTogether / plan.blockVertices);
+        const auto some = left.first(std::min(together, left.size()));
         std::vector<StoredBlock> stored(some.size());
         tbb::parallel_for(size_t(0), some.size(), [&](size_t i) { stored[i] = interpolate(some[i]); });
         for (size_t i = 0; i < some.size(); i++) interpolated.append(some[i], stored[i]);
