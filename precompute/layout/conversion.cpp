@@ -19,6 +19,7 @@ namespace relume {
 namespace {
 
 constexpr uint64_t kBatchVertices = 8192; // between two reports of progress
+constexpr uint64_t kLayoutPasses = 2;     // over the rows that clusters or bases are made of
 
 using Report = std::function<void(uint64_t done, uint64_t total)>;
 
@@ -78,11 +79,11 @@ class Passes {
     const Report& mReport;
 };
 
-void makeRows(const std::vector<MaterialSet*>& sets, const Asset& asset, const Report& report) {
+void makeRows(const std::vector<MaterialSet*>& sets, const Asset& asset, Passes& passes) {
     constexpr uint32_t kTogether = 64;
     const std::vector<Place> places = placesOf(sets, kTogether);
     std::vector<std::vector<PackedRow>> packed(places.size());
-    Passes(sets, 1, report).run(places, [&](size_t i) {
+    passes.run(places, [&](size_t i) {
         const Transport& transport = sets[places[i].set]->transport;
         const size_t terms = termsOf(transport), first = places[i].first * terms;
         for (size_t row = first; row < first + places[i].count * terms; row++) {
@@ -131,13 +132,11 @@ struct Source {
     double squared(double relative) const { return relative * relative * double(vertices); }
 };
 
-double convertToClusters(const Source& source, const LayoutOptions& options, double budget,
-                         const Report& report) {
+double convertToClusters(const Source& source, const LayoutOptions& options, double budget, Passes& passes) {
     const std::vector<Place> places = placesOf(source.sets, kClusterVertices);
     const auto rowsAt = [&](const Place& place) -> const SparseTransport& {
         return rowsOf(source.sets[place.set]->transport);
     };
-    Passes passes(source.sets, 2, report);
     std::vector<std::vector<float>> each(places.size());
     passes.run(places, [&](size_t i) {
         const Place& place = places[i];
@@ -174,8 +173,7 @@ double convertToClusters(const Source& source, const LayoutOptions& options, dou
     return source.relative(error);
 }
 
-double convertToBases(const Source& source, const LayoutOptions& options, double budget,
-                      const Report& report) {
+double convertToBases(const Source& source, const LayoutOptions& options, double budget, Passes& passes) {
     std::vector<BasisTransport> made;
     for (const MaterialSet* set : source.sets) {
         const SparseTransport& rows = rowsOf(set->transport);
@@ -189,8 +187,7 @@ double convertToBases(const Source& source, const LayoutOptions& options, double
                              kAnalysedColumns);
     };
 
-    // The rows are read twice: once for what each cluster asks for, once for what it gets.
-    Passes passes(source.sets, 2, report);
+    // The rows are read twice (kLayoutPasses): once for what each cluster asks for, once for what it gets.
     std::vector<BasisAnalysis> analyses(places.size());
     passes.run(places, [&](size_t i) { analyses[i] = analyse(matrixOf(places[i])); });
     const double price = options.bytesPerVertex ? priceForBytes(analyses, budget)
@@ -226,18 +223,19 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Repor
     const bool areRows = std::ranges::all_of(
         sets, [](const MaterialSet* set) { return layoutOf(set->transport) == TransportLayout::Rows; });
     const bool areShorter = coefficients && *coefficients < asset.coefficients;
-    const bool isLast = options.layout == TransportLayout::Rows;
+    const bool needsRows = areShorter || !areRows, isLast = options.layout == TransportLayout::Rows;
+    Passes passes(sets, (needsRows ? 1 : 0) + (isLast ? 0 : kLayoutPasses), progress);
     Conversion conversion;
     conversion.bytesBefore = bytesOf(sets);
     if (areShorter) asset.coefficients = *coefficients;
-    if (areShorter || !areRows) makeRows(sets, asset, isLast ? progress : Report());
+    if (needsRows) makeRows(sets, asset, passes);
     asset.layout.reset();
     if (!isLast) {
         const Source source(sets, asset.faceSize);
         const double budget = options.bytesPerVertex.value_or(0) * double(verticesOf(asset));
         conversion.error = options.layout == TransportLayout::Clusters
-                               ? convertToClusters(source, options, budget, progress)
-                               : convertToBases(source, options, budget, progress);
+                               ? convertToClusters(source, options, budget, passes)
+                               : convertToBases(source, options, budget, passes);
         if (!std::isfinite(*conversion.error)) throw Error(kTooLarge);
         asset.layout = recordOf(options, *conversion.error);
     }

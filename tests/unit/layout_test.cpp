@@ -406,6 +406,24 @@ TEST_CASE("layout: there and back") {
         CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) <
               (layout == TransportLayout::Bases ? 0.012 : 2e-3));
     }
+    // One layout into another: making rows is a third of the work, and can be stopped too.
+    Asset clusters = rows;
+    convertLayout(clusters, {TransportLayout::Clusters, {}, 1e-3});
+    const std::vector<std::byte> before = encodeAsset(clusters);
+    struct Stop {};
+    const auto stop = [](uint64_t done, uint64_t) {
+        CHECK(done == 100);
+        throw Stop();
+    };
+    CHECK_THROWS_AS(convertLayout(clusters, bases({}), stop), Stop);
+    CHECK(encodeAsset(clusters) == before);
+    std::vector<uint64_t> reports;
+    convertLayout(clusters, bases({}), [&](uint64_t done, uint64_t total) {
+        CHECK(total == 300);
+        reports.push_back(done);
+    });
+    CHECK(reports == std::vector<uint64_t>{100, 200, 300});
+
     Asset same = rows;
     convertLayout(same, {TransportLayout::Rows, {}, 0});
     CHECK(encodeAsset(same) == encodeAsset(rows));
