@@ -73,7 +73,7 @@ void BakeJob::tellLayout(const BakeSummary& summary) {
         summary.layout ? fmt::format(", error {:.2f} %", 100 * summary.layout->error) : std::string();
     spdlog::info("transport in {}: {:.0f} bytes a vertex in memory{}", layoutName(summary.kept), bytes,
                  error);
-    if (summary.layout) warnOfMisses(*summary.layout, bytes);
+    if (summary.layout) warnOfMisses(*summary.layout, bytes, LayoutOrigin::Baked);
 }
 
 void BakeJob::run(const vk::Device& opened, const Bake& bake) const {

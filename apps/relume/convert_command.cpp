@@ -8,6 +8,7 @@
 #include "engine/transport/kept_visibility.h"
 #include "precompute/bake/bake_observer.h"
 #include "precompute/layout/conversion.h"
+#include "precompute/layout/layout_scale.h"
 
 #include <memory>
 #include <spdlog/spdlog.h>
@@ -70,7 +71,9 @@ void run(const Arguments& arguments) {
                      arguments.output.string(), double(std::filesystem::file_size(arguments.output)) * 1e-6,
                      layoutName(options.layout), double(conversion.bytesAfter) / vertices,
                      double(conversion.bytesBefore) / vertices, error);
-        if (asset.layout) warnOfMisses(*asset.layout, double(conversion.bytesAfter) / vertices);
+        if (conversion.error)
+            warnOfMisses(recordOf(options, *conversion.error), double(conversion.bytesAfter) / vertices,
+                         LayoutOrigin::Converted);
     } catch (const BakeStopped&) {
         spdlog::warn("stopped; {} is as it was", arguments.output.string());
         throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
@@ -93,10 +96,11 @@ void addConvertCommand(CLI::App& program) {
         ->check(CLI::Range(1, 24576))
         ->type_name("COUNT");
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
-    command->footer("The error is against FILE's own transport. The more coefficients a bake kept (-N), the\n"
-                    "better a layout that is made of it.\n"
-                    "relume bake bunny.obj -N 384 -o rows.relume\n"
-                    "relume convert rows.relume --layout bases --error 0.03 -o bunny.relume");
+    command->footer(
+        "The error is against FILE's own transport; `relume info` adds what FILE had lost already.\n"
+        "The more coefficients a bake kept (-N), the better a layout that is made of it.\n"
+        "relume bake bunny.obj --layout rows -N 384 -o rows.relume\n"
+        "relume convert rows.relume --layout bases --error 0.03 -o bunny.relume");
     command->callback([arguments] { run(*arguments); });
 }
 

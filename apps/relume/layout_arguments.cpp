@@ -23,13 +23,15 @@ void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
     CLI::Option* budget =
         command
             .add_option("--budget", mBudget,
-                        "Bytes of transport per vertex, in memory, that the least error is sought within")
+                        "Bytes of transport per vertex, in memory, that the least error is sought within; a "
+                        "bake, which goes by a sample, meets it about")
             ->check(between(1, float(kMostLayoutBytes)))
             ->type_name("BYTES");
     command
         .add_option(
             "--error", mError,
-            "Error of transport that the fewest bytes are sought for, as light weighs it: 0.05 is 5 %")
+            "Error of transport that the fewest bytes are sought for, as light weighs it: 0.05 is 5 %; a "
+            "bake meets it about")
         ->check(between(1e-6f, 1))
         ->type_name("ERROR")
         ->default_str(hasDefaults ? fmt::format("{}", defaults.error) : "the bake's own")
@@ -53,15 +55,32 @@ LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
     return options;
 }
 
-void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex) {
+void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex, LayoutOrigin origin) {
     constexpr double kHardlyMore = 1.05;
-    if (layout.wantedBytes && bytesPerVertex > kHardlyMore * *layout.wantedBytes)
-        spdlog::warn("a budget of {} bytes a vertex is less than this layout can do with; it has {:.0f}",
-                     *layout.wantedBytes, bytesPerVertex);
-    if (layout.wantedError && layout.error > kHardlyMore * *layout.wantedError)
-        spdlog::warn(
-            "an error of {:.2f} % is beyond this layout's precision; rows of many coefficients keep more",
-            100 * *layout.wantedError);
+    const bool isBaked = origin == LayoutOrigin::Baked; // then it is mostly the sample that missed
+    if (layout.wantedBytes && bytesPerVertex > kHardlyMore * *layout.wantedBytes) {
+        if (isBaked)
+            spdlog::warn(
+                "{} bytes a vertex were asked for, and it has {:.0f}: the sample that a bake goes by "
+                "missed, or this layout cannot do with less; `relume convert` of a bake in rows meets a "
+                "budget exactly if it can be met",
+                *layout.wantedBytes, bytesPerVertex);
+        else
+            spdlog::warn("a budget of {} bytes a vertex is less than this layout can do with; it has {:.0f}",
+                         *layout.wantedBytes, bytesPerVertex);
+    }
+    if (layout.wantedError && layout.error > kHardlyMore * *layout.wantedError) {
+        if (isBaked)
+            spdlog::warn(
+                "an error of {:.2f} % was asked for, and it is {:.2f} %: the sample that a bake goes by "
+                "missed, or it is beyond this layout's precision; `relume convert` of a bake in rows "
+                "meets an error exactly if it can be met",
+                100 * *layout.wantedError, 100 * layout.error);
+        else
+            spdlog::warn(
+                "an error of {:.2f} % is beyond this layout's precision; rows of many coefficients keep more",
+                100 * *layout.wantedError);
+    }
     if (layout.error > 0.5)
         spdlog::warn("more than half of what tells vertices apart is lost; ask for more bytes");
 }

@@ -21,7 +21,9 @@ struct LayoutArguments {
     std::optional<double> mBudget, mError;
 };
 
-// Says where what was asked for is beyond what a layout can do. `bytesPerVertex`: that it takes.
-void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex);
+enum class LayoutOrigin { Baked, Converted };
+
+// Says where what was asked for was missed, and why. `bytesPerVertex`: that it takes.
+void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex, LayoutOrigin origin);
 
 } // namespace relume

@@ -155,7 +155,9 @@ void addRebakeCommand(CLI::App& program) {
         "Meshes, textures and every option that is not given are FILE's own. The new file is, byte for "
         "byte,\n"
         "what `relume bake` makes of the same scene with the new materials and options. It can be stopped\n"
-        "and goes on as `relume bake` does.\n"
+        "and goes on as `relume bake` does. `--layout rows` leaves N as it is, 384 unless FILE was baked "
+        "with\n"
+        "another: name it too, -N 96 say.\n"
         "relume bake bunny.obj --ground --keep-visibility -o bunny.relume\n"
         "relume rebake bunny.relume -m gold -m ground=clay -o gold.relume");
     command->callback([arguments] { run(*arguments); });
