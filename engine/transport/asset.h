@@ -62,7 +62,7 @@ struct Provenance {
 struct LayoutRecord {
     std::optional<double> wantedBytes; // per vertex, in memory
     std::optional<double> wantedError;
-    double error = 0; // against the rows that it was made from
+    double error = 0; // against the rows as baked; estimated where layouts were made of layouts
 };
 
 struct Asset {
@@ -73,7 +73,7 @@ struct Asset {
     float visibilityOffset = 0;  // distance a vertex was lifted along its normal
     float quantisationError = 0; // relative L2 over all rows, as measured during the bake
     float truncationError = 0;   // relative L2 over all rows lost by keeping N, as measured during the bake
-    std::optional<LayoutRecord> layout = std::nullopt; // none: rows, or it was made before this was recorded
+    std::optional<LayoutRecord> layout = std::nullopt; // none: rows as baked, or of before this was kept
     Mesh occluder;                                     // Positions and triangles that cast the shadows
     std::vector<AssetPart> parts;
     Provenance provenance;

@@ -92,7 +92,8 @@ Json describeApproximations(const Asset& asset) {
             list.push_back(fmt::format("layout of {}: {}", part.name, describeLayout(set.transport)));
     if (asset.layout)
         list.push_back(fmt::format(
-            "error of the layout: {:.2f} % of what tells vertices apart, {}", 100 * asset.layout->error,
+            "error of the layout against the rows as baked: {:.2f} % of what tells vertices apart, {}",
+            100 * asset.layout->error,
             asset.layout->wantedBytes
                 ? fmt::format("{:g} bytes a vertex being asked for", *asset.layout->wantedBytes)
                 : fmt::format("{:g} % being asked for", 100 * asset.layout->wantedError.value_or(0))));

@@ -229,7 +229,6 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Repor
     conversion.bytesBefore = bytesOf(sets);
     if (areShorter) asset.coefficients = *coefficients;
     if (needsRows) makeRows(sets, asset, passes);
-    asset.layout.reset();
     if (!isLast) {
         const Source source(sets, asset.faceSize);
         const double budget = options.bytesPerVertex.value_or(0) * double(verticesOf(asset));
@@ -237,7 +236,9 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Repor
                                ? convertToClusters(source, options, budget, passes)
                                : convertToBases(source, options, budget, passes);
         if (!std::isfinite(*conversion.error)) throw Error(kTooLarge);
-        asset.layout = recordOf(options, *conversion.error);
+        // What was lost before is lost: about independent of what is lost now, so that squares add.
+        const double before = asset.layout ? asset.layout->error : 0;
+        asset.layout = recordOf(options, std::hypot(before, *conversion.error));
     }
     conversion.bytesAfter = bytesOf(sets);
     return conversion;

@@ -16,6 +16,8 @@ struct Conversion {
 
 uint64_t verticesOf(const Asset& asset);
 
+// The asset's record adds what was lost now to what it says was lost before, an estimate; rows that are made
+// of another layout keep the record.
 // By way of rows of at most asset.coefficients entries, or `coefficients` if that is less. Calls
 // progress(vertices of all sets that are done, of how many) from the calling thread, and does nothing more
 // once that throws. The same asset and options give the same bytes.

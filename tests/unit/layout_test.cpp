@@ -399,7 +399,8 @@ TEST_CASE("layout: there and back") {
         const Conversion back = convertLayout(asset, {TransportLayout::Rows, {}, 0}, progress);
         CHECK(last == 300);
         CHECK(!back.error);
-        CHECK(!asset.layout);
+        REQUIRE(asset.layout); // what was lost is lost
+        CHECK(asset.layout->error == *there.error);
         checkAsset(asset, "back");
         REQUIRE(layoutOf(asset.parts[0].sets[0].transport) == TransportLayout::Rows);
         // Bytes leave an error of their own.
@@ -423,6 +424,15 @@ TEST_CASE("layout: there and back") {
         reports.push_back(done);
     });
     CHECK(reports == std::vector<uint64_t>{100, 200, 300});
+
+    // A chain's errors add.
+    Asset chained = rows;
+    const double first = *convertLayout(chained, bases({}, 0.06)).error;
+    const Conversion second = convertLayout(chained, {TransportLayout::Clusters, {}, 0.03});
+    CHECK(chained.layout->error == doctest::Approx(std::hypot(first, *second.error)));
+    CHECK(*second.error < 0.04);
+    CHECK(errorOf(chained.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) ==
+          doctest::Approx(chained.layout->error).epsilon(0.15));
 
     Asset same = rows;
     convertLayout(same, {TransportLayout::Rows, {}, 0});
