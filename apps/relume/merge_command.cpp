@@ -3,10 +3,12 @@
 #include "engine/base/file.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
+#include "engine/transport/asset_arrays.h"
 #include "precompute/bake/bake_observer.h"
 #include "precompute/bake/merge.h"
 
 #include <algorithm>
+#include <optional>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
@@ -50,26 +52,41 @@ uint64_t totalBytes(const std::vector<std::filesystem::path>& parts) {
     return bytes;
 }
 
+// Bytes of transport in bases.
+uint64_t basesBytes(const std::vector<ShardFile>& shards) {
+    uint64_t bytes = 0;
+    for (const ShardFile& shard : shards)
+        for (const ChunkEntry& entry : shard.chunks().entries())
+            if (entry.tag == kBases) bytes += entry.storedSize;
+    return bytes;
+}
+
 uint64_t merge(const Arguments& arguments) {
-    // Every byte is read twice: checked before anything is written, then copied.
+    // Every byte is read twice: checked before anything is written, then copied. Bases' columns are counted
+    // between.
     constexpr uint64_t kMegabyte = 1000000;
-    const uint64_t total = 2 * totalBytes(arguments.parts) / kMegabyte;
-    Progress progress("checking parts", total, "MB", arguments.quiet);
-    uint64_t read = 0;
+    const uint64_t allBytes = totalBytes(arguments.parts);
+    uint64_t read = 0, total = 0;
+    std::optional<Progress> progress;
+    const auto begin = [&](const char* title, uint64_t bytes) {
+        read = 0, total = bytes / kMegabyte;
+        progress.emplace(title, total, "MB", arguments.quiet);
+    };
     const auto watch = [&](uint64_t bytes) {
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
         read += bytes;
-        progress.update(std::min(read / kMegabyte, total));
+        progress->update(std::min(read / kMegabyte, total));
     };
+    begin("checking parts", allBytes);
     std::vector<ShardFile> shards;
     for (const std::filesystem::path& part : arguments.parts) shards.emplace_back(part, watch);
 
-    progress.setTitle("writing");
+    begin("writing", allBytes + basesBytes(shards));
     AtomicFile file(arguments.output);
     const uint64_t vertices =
         mergeShards(shards, [&](std::span<const std::byte> bytes) { file.write(bytes); });
     file.commit();
-    progress.update(total);
+    progress->update(total);
     return vertices;
 }
 

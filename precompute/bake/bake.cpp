@@ -119,17 +119,21 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     if (kept && !missing.empty())
         spdlog::info("{}: visibility of {} vertices reused", kept->file().name(),
                      summary.vertices - summary.resumed);
+    const auto poll = [&] {
+        if (observer.wantsStop()) throw BakeStopped("stopped");
+    };
     const auto writeFile = [&](const std::function<void(const ChunkWriter::Output&)>& writeTo) {
         // Of its own name: the checkpoint's lock keeps other bakes off.
         AtomicFile file(output, ".partial");
         writeTo([&](std::span<const std::byte> bytes) {
-            if (observer.wantsStop()) throw BakeStopped("stopped");
+            poll();
             file.write(bytes);
         });
         file.commit();
     };
     const auto writeWhole = [&](const StoredBlocks& blocks) {
-        writeFile([&](const ChunkWriter::Output& write) { summary.bytes = writeBake(plan, blocks, write); });
+        writeFile(
+            [&](const ChunkWriter::Output& write) { summary.bytes = writeBake(plan, blocks, write, poll); });
     };
     StoringSink sink(plan, StoringSink::bytesInHand(limits),
                      [&](uint32_t block, StoredBlock stored) { checkpoint.append(block, stored); });

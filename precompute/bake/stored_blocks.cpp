@@ -173,7 +173,8 @@ uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& ent
     return entry.rawSize - kRunHeaderBytes - plan.blocks[block].count() * terms * kLengthBytes;
 }
 
-uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output) {
+uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,
+                   const std::function<void()>& poll) {
     struct Run {
         uint32_t block;
         ChunkEntry entry;
@@ -185,6 +186,7 @@ uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter
     TransportLosses losses;
     uint64_t bytes = 0;
     for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+        if (poll) poll();
         losses.add(blocks.losses(block));
         for (const ChunkEntry& entry : blocks.chunks(block)) {
             if (entry.tag == kVisibility) {

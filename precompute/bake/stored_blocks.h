@@ -5,6 +5,8 @@
 #include "precompute/bake/bake_plan.h"
 #include "precompute/bake/baked_rows.h"
 
+#include <functional>
+
 namespace relume {
 
 // A finished block: a chunk of transport per set of its part, in its layout, then visb chunks where
@@ -50,8 +52,10 @@ class StoredBlocks {
 };
 
 // Puts the asset's file together, holding one chunk of transport at a time: each block is copied to where it
-// belongs. Sets the plan's measured errors from the blocks' losses. Returns the bytes that its transport
-// takes in memory. Throws Error.
-uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output);
+// belongs. Transport in bases is loaded twice: its columns are counted before anything is written. Sets the
+// plan's measured errors from the blocks' losses. Returns the bytes that its transport takes in memory. Calls
+// `poll` between blocks of the counting; what it throws comes through. Throws Error.
+uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,
+                   const std::function<void()>& poll = {});
 
 } // namespace relume
