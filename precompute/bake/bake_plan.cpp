@@ -11,6 +11,7 @@
 #include "precompute/bake/visibility_key.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/conversion.h"
 #include "precompute/layout/same_sums.h"
 #include "precompute/visibility/occluder.h"
 
@@ -131,11 +132,7 @@ void finish(BakePlan& plan) {
 
 } // namespace
 
-uint64_t BakePlan::vertices() const {
-    uint64_t sum = 0;
-    for (const AssetPart& part : asset.parts) sum += part.mesh.vertexCount();
-    return sum;
-}
+uint64_t BakePlan::vertices() const { return verticesOf(asset); }
 
 BakePlan planOf(Asset asset, const std::string& visibilityKey) {
     BakePlan plan;

@@ -18,14 +18,6 @@ constexpr uint64_t kCoarseRowBytes = uint64_t(256) << 20;
 constexpr int kMostInterpolated = 96;        // coefficients of a row: more do not show
 constexpr uint32_t kVerticesTogether = 2048; // interpolated between two looks at whether to stop
 
-// Of rows in memory, with what they lost.
-uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
-    uint64_t terms = 0;
-    for (const MaterialSet& set : part.sets) terms += uint64_t(set.brdf.terms);
-    return terms *
-           (uint64_t(asset.coefficients) * 6 + sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses));
-}
-
 // The coarse vertices of a part; none of one that needs no blocks.
 struct CoarsePart {
     std::vector<uint32_t> vertices;

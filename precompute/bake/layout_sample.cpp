@@ -25,12 +25,6 @@ uint64_t middleOf(uint64_t stretch, uint64_t count, uint64_t all) {
     return (2 * stretch + 1) * all / (2 * count);
 }
 
-uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
-    uint64_t terms = 0;
-    for (const MaterialSet& set : part.sets) terms += uint64_t(set.brdf.terms);
-    return terms * uint64_t(asset.coefficients) * (sizeof(uint16_t) + sizeof(uint32_t));
-}
-
 class SampleSink : public BakeSink {
   public:
     explicit SampleSink(const BakePlan& plan) : mPlan(plan) {}

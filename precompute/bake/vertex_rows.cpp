@@ -45,6 +45,14 @@ class RowsSink : public BakeSink {
 
 } // namespace
 
+uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
+    uint64_t terms = 0;
+    for (const MaterialSet& set : part.sets) terms += uint64_t(set.brdf.terms);
+    constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t);
+    constexpr uint64_t kRowBytes = sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses);
+    return terms * (uint64_t(asset.coefficients) * kEntryBytes + kRowBytes);
+}
+
 void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,
                   const BakeLimits& limits, const TakeRows& take, BakeObserver& observer, BakeTimes& times) {
     BakePlan fewer = planOfVertices(plan, vertices);

@@ -7,6 +7,9 @@
 
 namespace relume {
 
+// Most bytes that the rows of a vertex of this part take in memory, with what they lost.
+uint64_t rowBytes(const Asset& asset, const AssetPart& part);
+
 // Of the next vertices of a part: rows, per set.
 using TakeRows = std::function<void(uint32_t part, std::span<const BakedRows> sets)>;
 
