@@ -48,6 +48,12 @@ TEST_CASE(
         CHECK_GT(compare["relative_rmse"], 0);
     }
     run(folder, "convert bases.relume --layout rows -o again.relume");
+    const auto error = [&](const std::string& file) -> double {
+        return Json::parse(run(folder, "info " + file + " --json").out)["layout_error"]["error"];
+    };
+    CHECK_EQ(error("again.relume"), error("bases.relume")); // what was lost stays so
+    run(folder, "convert bases.relume --layout clusters --error 0.01 -o twice.relume");
+    CHECK_GT(error("twice.relume"), error("bases.relume"));
     run(folder, "convert rows.relume --layout rows -N 20 -o short.relume");
     CHECK_EQ(Json::parse(run(folder, "info short.relume --json").out)["coefficients"], 20);
     run(folder, "render again.relume --size 96x72 --threshold 0 -o again.exr");
