@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -31,6 +32,7 @@ struct StoringSink::Work {
     BakedBlock baked;
     uint64_t bytes; // of it
     StoredBlock stored;
+    std::exception_ptr error; // in its place
     std::atomic<bool> isDone = false;
 };
 
@@ -56,15 +58,9 @@ void StoringSink::keepFinished() {
         const std::shared_ptr<Work> first = std::move(mWorks.front());
         mWorks.pop_front();
         mBytes -= first->bytes;
+        if (first->error) std::rethrow_exception(first->error);
         mKeep(first->block, std::move(first->stored));
     }
-}
-
-// Those behind one that failed too.
-void StoringSink::keepWhatIsStored() {
-    std::erase_if(mWorks, [](const auto& work) { return !work->isDone; });
-    keepFinished();
-    mBytes = 0;
 }
 
 void StoringSink::take(uint32_t block, BakedBlock baked) {
@@ -83,22 +79,25 @@ void StoringSink::take(uint32_t block, BakedBlock baked) {
     mBytes += bytes;
     mWorks.push_back(work);
     mTasks->run([this, work] {
-        work->stored = storeBlock(mPlan, work->block, std::move(work->baked));
+        try {
+            work->stored = storeBlock(mPlan, work->block, std::move(work->baked));
+        } catch (...) { // which must not cancel the others
+            work->error = std::current_exception();
+        }
         work->isDone = true;
     });
 }
 
 void StoringSink::finish() {
-    try {
-        mTasks->wait();
-    } catch (...) {
+    mTasks->wait();
+    std::exception_ptr first;
+    while (!mWorks.empty()) // all are done
         try {
-            keepWhatIsStored();
-        } catch (...) { // the first error tells more
+            keepFinished();
+        } catch (...) {
+            if (!first) first = std::current_exception();
         }
-        throw;
-    }
-    keepFinished();
+    if (first) std::rethrow_exception(first);
 }
 
 } // namespace relume

@@ -28,13 +28,12 @@ class StoringSink : public BakeSink {
 
     // Throws what storing and keeping earlier ones do.
     void take(uint32_t block, BakedBlock baked) override;
-    // All that is stored is kept, whatever it throws.
+    // All that can be stored is kept, whatever it throws.
     void finish() override;
 
   private:
     struct Work;
     void keepFinished();
-    void keepWhatIsStored();
 
     const BakePlan& mPlan;
     uint64_t mMostBytes, mBytes = 0; // of blocks in hand

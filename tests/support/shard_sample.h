@@ -37,22 +37,26 @@ inline BakePlan planIn(Asset asset, TransportLayout layout) {
     return plan;
 }
 
-// All blocks of an asset in rows, with losses as a device might measure them.
+// A block of an asset in rows, with losses as a device might measure them.
+inline BakedBlock bakedBlock(const BakePlan& plan, const Asset& asset, uint32_t number) {
+    const BakeBlock& place = plan.blocks[number];
+    BakedBlock baked;
+    for (const MaterialSet& set : asset.parts[place.part].sets) {
+        BakedRows rows(rowsOf(set.transport).terms);
+        rows.transport = rowsOf(set.transport);
+        for (size_t row = 0; row < rowsOf(set.transport).rows(); row++)
+            rows.losses.push_back({1.0 / double(row + 3), 0.1 / double(row + 3), 1e-5 / double(row + 7)});
+        baked.sets.push_back(rows.vertices(place.first, place.end));
+    }
+    return baked;
+}
+
+// All of them, stored.
 class SampleBlocks : public StoredBlocks {
   public:
     SampleBlocks(const BakePlan& plan, const Asset& asset) {
         for (uint32_t number = 0; number < plan.blocks.size(); number++) {
-            const BakeBlock& place = plan.blocks[number];
-            BakedBlock baked;
-            for (const MaterialSet& set : asset.parts[place.part].sets) {
-                BakedRows rows(rowsOf(set.transport).terms);
-                rows.transport = rowsOf(set.transport);
-                for (size_t row = 0; row < rowsOf(set.transport).rows(); row++)
-                    rows.losses.push_back(
-                        {1.0 / double(row + 3), 0.1 / double(row + 3), 1e-5 / double(row + 7)});
-                baked.sets.push_back(rows.vertices(place.first, place.end));
-            }
-            mBlocks.push_back(storeBlock(plan, number, baked));
+            mBlocks.push_back(storeBlock(plan, number, bakedBlock(plan, asset, number)));
             mEntries.emplace_back();
             for (const StoredChunk& chunk : mBlocks.back().chunks) mEntries.back().push_back(chunk.entry);
         }
