@@ -19,7 +19,7 @@ std::string errorPlot(const std::vector<BakeStudy>& studies, const StudyOptions&
     LinePlot plot{.title = label,
                   .xLabel = "bytes of transport a vertex, in memory",
                   .yLabel = "relative error",
-                  .xTicks = {25, 50, 100, 200, 400, 800, 1600, 3200, 6400},
+                  .xTicks = {50, 200, 800, 3200, 12800},
                   .logarithmic = true,
                   .columns = int(options.lights.size()),
                   .panels = {},

@@ -149,32 +149,29 @@ TEST_CASE("preview: near the finished bake, nearer each time, and without a trac
 
 TEST_CASE("preview: a bake that was stopped goes on from it, with previews or without") {
     const TestDevice device;
-    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
+    for (const auto& [layout, again] :
+         {std::pair(TransportLayout::Rows, true), std::pair(TransportLayout::Bases, false)}) {
         CAPTURE(layoutName(layout));
         const BakeOptions options = smallOptions(layout);
         const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), options));
-        for (const bool again : {true, false}) {
-            CAPTURE(again);
-            const TemporaryFolder folder;
-            const auto path = folder.path() / "a.relume";
-            Previews stopped(path);
-            stopped.stopAfter = 1;
-            CHECK_THROWS_AS(
-                bakeToFile(device, knotOnGround(), options, path, {}, stopped, {.previews = true}),
-                BakeStopped);
-            CHECK_GT(stopped.coarseVertices, 0);
-            const std::optional<float> share = readAsset(path).provenance.bakedShare;
-            REQUIRE(share);
-            CHECK((*share > 0) == (layout == TransportLayout::Bases)); // the sample's
-            CHECK(*share < 0.7f);
-            CHECK(std::filesystem::exists(interpolatedPath(path)));
-            Previews resumed(path);
-            bakeToFile(device, knotOnGround(), options, path, {}, resumed, {.previews = again});
-            CHECK_EQ(resumed.coarseVertices, 0);
-            CHECK_EQ(resumed.shares.empty(), !again);
-            CHECK(readFile(path) == whole);
-            for (const auto& file : std::filesystem::directory_iterator(folder.path()))
-                CHECK_EQ(file.path().filename(), "a.relume");
-        }
+        const TemporaryFolder folder;
+        const auto path = folder.path() / "a.relume";
+        Previews stopped(path);
+        stopped.stopAfter = 1;
+        CHECK_THROWS_AS(bakeToFile(device, knotOnGround(), options, path, {}, stopped, {.previews = true}),
+                        BakeStopped);
+        CHECK_GT(stopped.coarseVertices, 0);
+        const std::optional<float> share = readAsset(path).provenance.bakedShare;
+        REQUIRE(share);
+        CHECK((*share > 0) == (layout == TransportLayout::Bases)); // the sample's
+        CHECK(*share < 0.7f);
+        CHECK(std::filesystem::exists(interpolatedPath(path)));
+        Previews resumed(path);
+        bakeToFile(device, knotOnGround(), options, path, {}, resumed, {.previews = again});
+        CHECK_EQ(resumed.coarseVertices, 0);
+        CHECK_EQ(resumed.shares.empty(), !again);
+        CHECK(readFile(path) == whole);
+        for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+            CHECK_EQ(file.path().filename(), "a.relume");
     }
 }
