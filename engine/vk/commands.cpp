@@ -352,7 +352,10 @@ void Commands::submitAndWait() {
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &buffer;
-    RELUME_VK(vkQueueSubmit2(mDevice.queue(), 1, &submit, mFence));
+    {
+        const auto lock = mDevice.lockQueue();
+        RELUME_VK(vkQueueSubmit2(mDevice.queue(), 1, &submit, mFence));
+    }
     submission.end();
     CpuSpan waiting(mCapture, "wait");
     RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mFence, VK_TRUE, UINT64_MAX));

@@ -93,6 +93,9 @@ class Commands {
     void draw(uint32_t vertices);
     void drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount);
 
+    // Lets a library record what it draws, outside render().
+    void recordForeign(const std::function<void(VkCommandBuffer)>& record) { record(mCommands); }
+
     // `from` before `to`, for all memory.
     void barrier(Stage from, Stage to);
     // Changes an image's layout, keeping nothing of its contents when `from` is undefined.

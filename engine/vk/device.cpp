@@ -39,16 +39,21 @@ bool hasInstanceExtension(const char* name) {
     return hasExtension(extensions, name);
 }
 
-// Whether the device's clock can be read together with CLOCK_MONOTONIC.
-bool canReadClocks(VkInstance instance, VkPhysicalDevice physical) {
+std::vector<VkExtensionProperties> extensionsOf(VkPhysicalDevice physical) {
     uint32_t count = 0;
     RELUME_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr));
     std::vector<VkExtensionProperties> extensions(count);
     RELUME_VK(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()));
     extensions.resize(count);
-    if (!hasExtension(extensions, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
+    return extensions;
+}
+
+// Whether the device's clock can be read together with CLOCK_MONOTONIC.
+bool canReadClocks(VkInstance instance, VkPhysicalDevice physical) {
+    if (!hasExtension(extensionsOf(physical), VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
     const auto domainsOf = reinterpret_cast<PFN_vkGetPhysicalDeviceCalibrateableTimeDomainsEXT>(
         vkGetInstanceProcAddr(instance, "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"));
+    uint32_t count = 0;
     RELUME_VK(domainsOf(physical, &count, nullptr));
     std::vector<VkTimeDomainEXT> domains(count);
     RELUME_VK(domainsOf(physical, &count, domains.data()));
@@ -102,10 +107,10 @@ VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, Vk
 }
 
 Device::Device(const DeviceOptions& options) {
-    createInstance(options.validation);
+    createInstance(options);
     try {
         pickPhysicalDevice(options.select);
-        createDevice();
+        createDevice(!options.surfaceExtensions.empty());
     } catch (...) {
         destroy();
         throw;
@@ -127,7 +132,8 @@ void Device::destroy() {
     if (mInstance) vkDestroyInstance(mInstance, nullptr);
 }
 
-void Device::createInstance(const std::string& validation) {
+void Device::createInstance(const DeviceOptions& options) {
+    const std::string& validation = options.validation;
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "relume";
     application.apiVersion = VK_API_VERSION_1_3;
@@ -147,12 +153,12 @@ void Device::createInstance(const std::string& validation) {
         create.ppEnabledLayerNames = &kValidationLayer;
         create.pNext = &features;
     }
-    const char* debugUtilities = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    const bool canDebug = !validation.empty() || hasInstanceExtension(debugUtilities);
-    if (canDebug) {
-        create.enabledExtensionCount = 1;
-        create.ppEnabledExtensionNames = &debugUtilities;
-    }
+    std::vector<const char*> extensions;
+    for (const std::string& extension : options.surfaceExtensions) extensions.push_back(extension.c_str());
+    const bool canDebug = !validation.empty() || hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (canDebug) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    create.enabledExtensionCount = uint32_t(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
     if (vkCreateInstance(&create, nullptr, &mInstance) != VK_SUCCESS)
         throw NoDeviceError("no Vulkan driver was found; on Debian, mesa-vulkan-drivers brings one that runs "
                             "everywhere");
@@ -211,7 +217,7 @@ void Device::pickPhysicalDevice(const std::string& select) {
     mTimestampBits = properties[mQueueFamily].timestampValidBits;
 }
 
-void Device::createDevice() {
+void Device::createDevice(bool showsImages) {
     VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
@@ -239,12 +245,16 @@ void Device::createDevice() {
     create.pEnabledFeatures = &features;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    const char* calibratedTimestamps = VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME;
+    std::vector<const char*> extensions;
     const bool hasClocks = canReadClocks(mInstance, mPhysical);
-    if (hasClocks) {
-        create.enabledExtensionCount = 1;
-        create.ppEnabledExtensionNames = &calibratedTimestamps;
+    if (hasClocks) extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    if (showsImages) {
+        if (!hasExtension(extensionsOf(mPhysical), VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+            throw NoDeviceError("{}: cannot show images in a window; `relume devices` lists others", name());
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }
+    create.enabledExtensionCount = uint32_t(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
     RELUME_VK(vkCreateDevice(mPhysical, &create, nullptr, &mDevice));
     vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
     setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(mQueue), "queue");

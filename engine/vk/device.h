@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,9 @@ struct DeviceOptions {
     std::string select;
     // Comma-separated checks of Khronos' validation layer: core, sync, gpu, best. Empty: none.
     std::string validation;
+    // What the window system's surfaces need of the instance; the device can then show images on them.
+    // Empty: it draws into images of its own alone.
+    std::vector<std::string> surfaceExtensions;
 };
 
 // Owns instance, device and queue; movable in its unique_ptr only, since everything refers to it.
@@ -46,9 +50,12 @@ class Device {
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
+    VkInstance instance() const { return mInstance; }
     VkDevice handle() const { return mDevice; }
     VkPhysicalDevice physical() const { return mPhysical; }
     VkQueue queue() const { return mQueue; }
+    // To be held while something is given to the queue: threads may share it.
+    std::unique_lock<std::mutex> lockQueue() const { return std::unique_lock(mQueueMutex); }
     uint32_t queueFamily() const { return mQueueFamily; }
     const VkPhysicalDeviceLimits& limits() const { return mProperties.limits; }
     const std::string& name() const { return mInfo.name; }
@@ -79,9 +86,9 @@ class Device {
     friend VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                         VkDebugUtilsMessageTypeFlagsEXT,
                                         const VkDebugUtilsMessengerCallbackDataEXT*, void*);
-    void createInstance(const std::string& validation);
+    void createInstance(const DeviceOptions& options);
     void pickPhysicalDevice(const std::string& select);
-    void createDevice();
+    void createDevice(bool showsImages);
     void destroy();
 
     VkInstance mInstance = VK_NULL_HANDLE;
@@ -89,6 +96,7 @@ class Device {
     VkPhysicalDevice mPhysical = VK_NULL_HANDLE;
     VkDevice mDevice = VK_NULL_HANDLE;
     VkQueue mQueue = VK_NULL_HANDLE;
+    mutable std::mutex mQueueMutex;
     uint32_t mQueueFamily = 0;
     uint32_t mTimestampBits = 0;
     VkPhysicalDeviceProperties mProperties{};

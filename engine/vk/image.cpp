@@ -18,7 +18,6 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
     create.tiling = VK_IMAGE_TILING_OPTIMAL;
     create.usage = options.usage;
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     try {
         const uint32_t side = device.limits().maxImageDimension2D;
         if (options.width > side || options.height > side ||
@@ -38,11 +37,7 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
             device.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
         RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));
         RELUME_VK(vkBindImageMemory(device.handle(), mImage, mMemory, 0));
-        view.image = mImage;
-        view.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
-        view.format = options.format;
-        view.subresourceRange = {aspect(), 0, 1, 0, options.layers};
-        RELUME_VK(vkCreateImageView(device.handle(), &view, nullptr, &mView));
+        createView();
     } catch (...) {
         destroy();
         throw;
@@ -50,6 +45,22 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(mImage), name);
     device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(mView), name);
     device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(mMemory), name);
+}
+
+Image::Image(const Device& device, VkImage image, const ImageOptions& options, std::string_view name)
+    : mDevice(&device), mOptions(options), mImage(image) {
+    createView();
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(mImage), name);
+    device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(mView), name);
+}
+
+void Image::createView() {
+    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    view.image = mImage;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+    view.format = mOptions.format;
+    view.subresourceRange = {aspect(), 0, 1, 0, mOptions.layers};
+    RELUME_VK(vkCreateImageView(mDevice->handle(), &view, nullptr, &mView));
 }
 
 VkImageAspectFlags Image::aspect() const {
@@ -69,7 +80,7 @@ Image& Image::operator=(Image&& other) noexcept {
 void Image::destroy() {
     if (!mDevice) return;
     vkDestroyImageView(mDevice->handle(), mView, nullptr);
-    vkDestroyImage(mDevice->handle(), mImage, nullptr);
+    if (mMemory) vkDestroyImage(mDevice->handle(), mImage, nullptr);
     vkFreeMemory(mDevice->handle(), mMemory, nullptr);
     mDevice = nullptr;
 }

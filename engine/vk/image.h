@@ -22,6 +22,8 @@ class Image {
     Image() = default;
     // Throws OutOfMemory, or Error when the device cannot make such an image.
     Image(const Device& device, const ImageOptions& options, std::string_view name);
+    // A view of an image that someone else keeps, a swapchain.
+    Image(const Device& device, VkImage image, const ImageOptions& options, std::string_view name);
     ~Image() { destroy(); }
     Image(Image&& other) noexcept { *this = std::move(other); }
     Image& operator=(Image&& other) noexcept;
@@ -32,12 +34,13 @@ class Image {
     VkImageAspectFlags aspect() const;
 
   private:
+    void createView();
     void destroy();
 
     const Device* mDevice = nullptr;
     ImageOptions mOptions;
     VkImage mImage = VK_NULL_HANDLE;
-    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE; // none: the image is not ours
     VkImageView mView = VK_NULL_HANDLE;
 };
 

@@ -1,0 +1,35 @@
+// What hands do, as changes of what is looked at.
+#pragma once
+
+#include "apps/viewer/scene_state.h"
+#include "apps/viewer/window.h"
+
+#include <array>
+
+namespace relume {
+
+// What a control asks for beyond changes of the state.
+enum class Command { None, Screenshot, Capture, FullScreen, NextMaterial, NextEnvironment, Quit };
+
+// A key, and what it does, as the help shows it.
+struct KeyHelp {
+    const char *keys, *action;
+};
+std::vector<KeyHelp> keyHelp();
+
+class Controls {
+  public:
+    // One input, in a window of this size. `model`: what is looked at, if there is anything; its bounds.
+    Command take(const InputEvent& event, SceneState& state, ivec2 size, const Bounds* model);
+
+    bool isDragging() const { return mHeld >= 0; }
+
+  private:
+    Command takeKey(const InputEvent& event, SceneState& state);
+
+    int mHeld = -1, mModifiers = 0; // the button of a drag, and what was held with it
+    vec2 mCursor{0};
+    std::array<std::optional<Orbit>, 9> mViews; // that number keys keep
+};
+
+} // namespace relume

@@ -1,0 +1,32 @@
+// What the last frames spent their time on.
+#pragma once
+
+#include "engine/vk/commands.h"
+
+#include <array>
+#include <chrono>
+
+namespace relume {
+
+class FrameTimes {
+  public:
+    static constexpr size_t kFrames = 120;
+
+    // A frame that took `seconds` from its input to its image, and passes of it.
+    void add(double seconds, const vk::PassTimes& passes);
+
+    // Milliseconds of the last frames, the newest last.
+    std::vector<float> milliseconds() const;
+    // Of the newest frame that had each of these.
+    const vk::PassTimes& passes() const { return mPasses; }
+    // If frames followed each other: by those of the last second of drawing.
+    double framesPerSecond() const;
+    uint64_t count() const { return mCount; }
+
+  private:
+    std::array<float, kFrames> mSeconds{};
+    uint64_t mCount = 0;
+    vk::PassTimes mPasses;
+};
+
+} // namespace relume

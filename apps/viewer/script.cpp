@@ -1,0 +1,139 @@
+#include "apps/viewer/script.h"
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+
+#include <GLFW/glfw3.h>
+#include <map>
+
+namespace relume {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kMostBytes = 16 << 20;
+
+const std::map<std::string, int>& buttons() {
+    static const std::map<std::string, int> all = {{"left", GLFW_MOUSE_BUTTON_LEFT},
+                                                   {"middle", GLFW_MOUSE_BUTTON_MIDDLE},
+                                                   {"right", GLFW_MOUSE_BUTTON_RIGHT}};
+    return all;
+}
+
+// "shift+left": what is held, and what is pressed.
+std::pair<std::string, int> splitModifiers(std::string text) {
+    int modifiers = 0;
+    const std::pair<const char*, int> known[] = {{"shift+", GLFW_MOD_SHIFT}, {"ctrl+", GLFW_MOD_CONTROL}};
+    for (bool found = true; found;) {
+        found = false;
+        for (const auto& [name, bit] : known)
+            if (text.starts_with(name)) {
+                text.erase(0, std::string(name).size());
+                modifiers |= bit;
+                found = true;
+            }
+    }
+    return {text, modifiers};
+}
+
+// A letter, a digit, F1 to F12, Enter, Space.
+int keyOf(const std::string& name) {
+    if (name.size() == 1 && name[0] >= 'A' && name[0] <= 'Z') return GLFW_KEY_A + (name[0] - 'A');
+    if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
+    for (int i = 1; i <= 12; i++)
+        if (name == fmt::format("F{}", i)) return GLFW_KEY_F1 + i - 1;
+    if (name == "Enter") return GLFW_KEY_ENTER;
+    if (name == "Space") return GLFW_KEY_SPACE;
+    throw Error("expected a key, found \"{}\"; A to Z, 0 to 9, F1 to F12, Enter and Space are", name);
+}
+
+vec2 pairOf(const json& step, const char* name) {
+    const json& value = step.at(name);
+    return {value.at(0).get<float>(), value.at(1).get<float>()};
+}
+
+} // namespace
+
+Script::Script(const std::filesystem::path& file) : mFile(file) {
+    const std::vector<std::byte> bytes = readFile(file, kMostBytes);
+    const char* const text = reinterpret_cast<const char*>(bytes.data());
+    mSteps = json::parse(text, text + bytes.size(), nullptr, false);
+    if (!mSteps.is_array()) throw Error("{}: expected a JSON array of steps", file.string());
+}
+
+void Script::step(ScriptTarget& target) {
+    while (!hasEnded()) {
+        try {
+            if (!run(target, mSteps[mStep])) return;
+        } catch (const json::exception& wrong) {
+            throw Error("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what());
+        } catch (const Error& wrong) {
+            throw Error("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what());
+        }
+        mStep++;
+        mFrame = 0;
+    }
+}
+
+bool Script::run(ScriptTarget& target, const json& step) {
+    if (!step.is_object() || step.empty()) throw Error("expected an object, found {}", step.dump());
+    if (step.contains("drag")) return drag(target, step);
+    const bool isFirst = mFrame++ == 0;
+    if (step.contains("frames")) return mFrame > step["frames"].get<int>();
+    if (step.contains("wait")) {
+        if (step["wait"] != "settled") throw Error("\"wait\": expected \"settled\"");
+        return target.isSettled();
+    }
+    // What takes one frame: done in it, over with the next.
+    if (!isFirst) return true;
+    if (step.contains("set")) {
+        for (const auto& [name, value] : step["set"].items()) target.set(name, value);
+    } else if (step.contains("key")) {
+        const auto [name, modifiers] = splitModifiers(step["key"].get<std::string>());
+        for (const bool isDown : {true, false})
+            target.input({InputEvent::Kind::Key, keyOf(name), isDown, modifiers});
+    } else if (step.contains("wheel")) {
+        if (step.contains("at")) target.input({InputEvent::Kind::Move, 0, false, 0, pairOf(step, "at")});
+        target.input({InputEvent::Kind::Scroll, 0, false, 0, {0, step["wheel"].get<float>()}});
+    } else if (step.contains("drop")) {
+        InputEvent event{InputEvent::Kind::Drop};
+        for (const json& file : step["drop"]) event.files.emplace_back(file.get<std::string>());
+        target.input(std::move(event));
+    } else if (step.contains("resize")) {
+        const vec2 size = pairOf(step, "resize");
+        target.resize(int(size.x), int(size.y));
+    } else if (step.contains("screenshot")) {
+        target.screenshot(step["screenshot"].get<std::string>());
+    } else if (step.contains("quit")) {
+        target.quit();
+    } else
+        throw Error("expected one of drag, drop, frames, key, quit, resize, screenshot, set, wait, wheel; "
+                    "found {}",
+                    step.dump());
+    return false;
+}
+
+// Pressed at `from`, moved by an equal part of `by` in each of `over` frames, released.
+bool Script::drag(ScriptTarget& target, const json& step) {
+    const auto [name, modifiers] = splitModifiers(step["drag"].get<std::string>());
+    const auto button = buttons().find(name);
+    if (button == buttons().end())
+        throw Error("\"drag\": expected left, middle or right, after shift+ or ctrl+; found \"{}\"", name);
+    const vec2 from = pairOf(step, "from"), by = pairOf(step, "by");
+    const int frames = std::max(1, step.value("over", 1));
+    using Kind = InputEvent::Kind;
+    if (mFrame == 0) {
+        target.input({Kind::Move, 0, false, 0, from});
+        target.input({Kind::Button, button->second, true, modifiers, from});
+    }
+    if (mFrame < frames) {
+        mFrame++;
+        target.input({Kind::Move, 0, false, 0, from + float(mFrame) / float(frames) * by});
+        return false;
+    }
+    target.input({Kind::Button, button->second, false, modifiers, from + by});
+    return true;
+}
+
+} // namespace relume

@@ -1,0 +1,46 @@
+// A session that was written down: inputs and settings, one after the other. Format: docs/viewer.md.
+#pragma once
+
+#include "apps/viewer/window.h"
+
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+// What a script asks of its viewer.
+class ScriptTarget {
+  public:
+    virtual ~ScriptTarget() = default;
+    virtual void input(InputEvent event) = 0;
+    virtual void resize(int width, int height) = 0;
+    virtual void screenshot(const std::filesystem::path& file) = 0;
+    // Throws Error for a setting that there is not.
+    virtual void set(const std::string& name, const nlohmann::json& value) = 0;
+    // Nothing is being read or baked, and the newest of it is shown.
+    virtual bool isSettled() const = 0;
+    virtual void quit() = 0;
+};
+
+class Script {
+  public:
+    // Throws Error that names file and step.
+    explicit Script(const std::filesystem::path& file);
+
+    // Before every frame: does what is due.
+    void step(ScriptTarget& target);
+    bool hasEnded() const { return mStep >= mSteps.size(); }
+    // For something else than frames.
+    bool isWaiting() const { return !hasEnded() && mSteps[mStep].contains("wait"); }
+
+  private:
+    // One step's inputs of this frame; true: it has ended.
+    bool run(ScriptTarget& target, const nlohmann::json& step);
+    bool drag(ScriptTarget& target, const nlohmann::json& step);
+
+    std::filesystem::path mFile;
+    nlohmann::json mSteps;
+    size_t mStep = 0;
+    int mFrame = 0; // of the step
+};
+
+} // namespace relume

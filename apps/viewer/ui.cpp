@@ -1,0 +1,156 @@
+#include "apps/viewer/ui.h"
+
+#include "engine/vk/result.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_vulkan.h>
+#include <cmath>
+#include <imgui.h>
+
+namespace relume {
+
+namespace {
+
+// Draws over what is there. ImGui's backend knows no dynamic rendering.
+VkRenderPass makeRenderPass(const vk::Device& device, VkFormat format) {
+    VkAttachmentDescription color{};
+    color.format = format;
+    color.samples = VK_SAMPLE_COUNT_1_BIT;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    color.initialLayout = color.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    VkRenderPassCreateInfo create{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
+    create.attachmentCount = 1;
+    create.pAttachments = &color;
+    create.subpassCount = 1;
+    create.pSubpasses = &subpass;
+    VkRenderPass pass;
+    RELUME_VK(vkCreateRenderPass(device.handle(), &create, nullptr, &pass));
+    device.setName(VK_OBJECT_TYPE_RENDER_PASS, reinterpret_cast<uint64_t>(pass), "ui");
+    return pass;
+}
+
+VkDescriptorPool makeDescriptorPool(const vk::Device& device) {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8};
+    VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    create.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+    create.maxSets = 8;
+    create.poolSizeCount = 1;
+    create.pPoolSizes = &size;
+    VkDescriptorPool pool;
+    RELUME_VK(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool));
+    return pool;
+}
+
+} // namespace
+
+Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swapchain)
+    : mDevice(device), mSwapchain(swapchain), mScale(window.scale()),
+      mDescriptors(makeDescriptorPool(device)), mRenderPass(makeRenderPass(device, swapchain.format())) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // Settings keep what is worth keeping
+    io.LogFilename = nullptr;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    ImFontConfig font;
+    font.SizePixels = std::floor(13 * mScale);
+    io.Fonts->AddFontDefault(&font);
+    setDark(true);
+    ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
+    ImGui_ImplVulkan_InitInfo info{};
+    info.Instance = device.instance();
+    info.PhysicalDevice = device.physical();
+    info.Device = device.handle();
+    info.QueueFamily = device.queueFamily();
+    info.Queue = device.queue();
+    info.DescriptorPool = mDescriptors;
+    info.MinImageCount = info.ImageCount = 2;
+    info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+    info.CheckVkResultFn = [](VkResult result) { vk::check(result, "Dear ImGui"); };
+    ImGui_ImplVulkan_Init(&info, mRenderPass);
+    vk::Commands commands(device, "ui fonts");
+    commands.begin();
+    commands.recordForeign([](VkCommandBuffer buffer) { ImGui_ImplVulkan_CreateFontsTexture(buffer); });
+    commands.submitAndWait();
+    ImGui_ImplVulkan_DestroyFontUploadObjects();
+}
+
+Ui::~Ui() {
+    ImGui_ImplVulkan_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    destroyFramebuffers();
+    vkDestroyRenderPass(mDevice.handle(), mRenderPass, nullptr);
+    vkDestroyDescriptorPool(mDevice.handle(), mDescriptors, nullptr);
+}
+
+void Ui::destroyFramebuffers() {
+    for (VkFramebuffer framebuffer : mFramebuffers)
+        vkDestroyFramebuffer(mDevice.handle(), framebuffer, nullptr);
+    mFramebuffers.clear();
+}
+
+void Ui::resized() {
+    destroyFramebuffers();
+    for (const vk::Image& image : mSwapchain.images()) {
+        const VkImageView view = image.view();
+        VkFramebufferCreateInfo create{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+        create.renderPass = mRenderPass;
+        create.attachmentCount = 1;
+        create.pAttachments = &view;
+        create.width = mSwapchain.width();
+        create.height = mSwapchain.height();
+        create.layers = 1;
+        RELUME_VK(vkCreateFramebuffer(mDevice.handle(), &create, nullptr, &mFramebuffers.emplace_back()));
+    }
+}
+
+void Ui::begin() {
+    ImGui_ImplVulkan_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Ui::end() { ImGui::Render(); }
+
+void Ui::record(vk::Commands& commands, uint32_t image) const {
+    VkRenderPassBeginInfo begin{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+    begin.renderPass = mRenderPass;
+    begin.framebuffer = mFramebuffers.at(image);
+    begin.renderArea.extent = {mSwapchain.width(), mSwapchain.height()};
+    commands.barrier(vk::Stage::Color, vk::Stage::Color);
+    commands.pass("ui", [&] {
+        commands.recordForeign([&](VkCommandBuffer buffer) {
+            vkCmdBeginRenderPass(buffer, &begin, VK_SUBPASS_CONTENTS_INLINE);
+            ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), buffer);
+            vkCmdEndRenderPass(buffer);
+        });
+    });
+}
+
+UiWants Ui::wants() {
+    const ImGuiIO& io = ImGui::GetIO();
+    return {io.WantCaptureMouse, io.WantCaptureKeyboard};
+}
+
+void Ui::setDark(bool dark) {
+    ImGuiStyle style;
+    if (dark)
+        ImGui::StyleColorsDark(&style);
+    else
+        ImGui::StyleColorsLight(&style);
+    style.WindowRounding = 4;
+    style.FrameRounding = 3;
+    style.Colors[ImGuiCol_WindowBg].w = 0.92f;
+    style.ScaleAllSizes(mScale);
+    ImGui::GetStyle() = style;
+}
+
+} // namespace relume

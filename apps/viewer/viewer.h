@@ -1,0 +1,24 @@
+// The interactive program: a window, what is in it, and the loop that keeps it so.
+#pragma once
+
+#include "engine/vk/device.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace relume {
+
+struct ViewerOptions {
+    vk::DeviceOptions device;
+    std::vector<std::filesystem::path> files; // bakes, meshes, scenes; environments and lights
+    int width = 1280, height = 720;
+    bool waitsForDisplay = true;
+    std::optional<int> exitFrame;                      // frames to draw before it ends by itself
+    std::filesystem::path screenshot, script, timings; // empty: none
+};
+
+// Until the window is closed. Throws Error; NoDeviceError where no window can be shown.
+void runViewer(const ViewerOptions& options);
+
+} // namespace relume

@@ -1,0 +1,131 @@
+#include "engine/vk/swapchain.h"
+
+#include "engine/vk/result.h"
+
+#include <algorithm>
+
+namespace relume::vk {
+
+namespace {
+
+VkSurfaceFormatKHR formatOf(VkPhysicalDevice physical, VkSurfaceKHR surface) {
+    uint32_t count = 0;
+    RELUME_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface, &count, nullptr));
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    RELUME_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface, &count, formats.data()));
+    for (const VkSurfaceFormatKHR& format : formats)
+        if (format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM)
+            return format;
+    throw NoDeviceError("the window takes no images of 8 bits a channel without conversion");
+}
+
+// Where nobody waits for the display: the newest image at its next turn, or any at once.
+VkPresentModeKHR modeOf(VkPhysicalDevice physical, VkSurfaceKHR surface, bool waitsForDisplay) {
+    if (waitsForDisplay) return VK_PRESENT_MODE_FIFO_KHR;
+    uint32_t count = 0;
+    RELUME_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface, &count, nullptr));
+    std::vector<VkPresentModeKHR> modes(count);
+    RELUME_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface, &count, modes.data()));
+    for (const VkPresentModeKHR mode : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR})
+        if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return mode;
+    return VK_PRESENT_MODE_FIFO_KHR;
+}
+
+} // namespace
+
+Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface, bool waitsForDisplay)
+    : mDevice(device), mSurface(surface) {
+    VkBool32 canShow = VK_FALSE;
+    RELUME_VK(
+        vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &canShow));
+    if (!canShow) throw NoDeviceError("{}: cannot show images in this window; name another", device.name());
+    mFormat = formatOf(device.physical(), surface);
+    mMode = modeOf(device.physical(), surface, waitsForDisplay);
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mAcquired));
+}
+
+Swapchain::~Swapchain() {
+    destroy();
+    vkDestroyFence(mDevice.handle(), mAcquired, nullptr);
+}
+
+void Swapchain::destroy() {
+    if (!mSwapchain) return;
+    {
+        const auto lock = mDevice.lockQueue();
+        vkQueueWaitIdle(mDevice.queue()); // what was presented last
+    }
+    mImages.clear();
+    vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
+    mSwapchain = VK_NULL_HANDLE;
+}
+
+bool Swapchain::resize(uint32_t width, uint32_t height) {
+    destroy();
+    VkSurfaceCapabilitiesKHR can;
+    RELUME_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(mDevice.physical(), mSurface, &can));
+    mExtent = can.currentExtent;
+    if (mExtent.width == UINT32_MAX)
+        mExtent = {std::clamp(width, can.minImageExtent.width, can.maxImageExtent.width),
+                   std::clamp(height, can.minImageExtent.height, can.maxImageExtent.height)};
+    if (mExtent.width == 0 || mExtent.height == 0) return false;
+
+    constexpr VkImageUsageFlags kUsage =
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if ((can.supportedUsageFlags & kUsage) != kUsage)
+        throw NoDeviceError("{}: images of this window cannot be drawn on and copied", mDevice.name());
+    VkSwapchainCreateInfoKHR create{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    create.surface = mSurface;
+    create.minImageCount =
+        can.maxImageCount ? std::min(can.minImageCount + 1, can.maxImageCount) : can.minImageCount + 1;
+    create.imageFormat = mFormat.format;
+    create.imageColorSpace = mFormat.colorSpace;
+    create.imageExtent = mExtent;
+    create.imageArrayLayers = 1;
+    create.imageUsage = kUsage;
+    create.preTransform = can.currentTransform;
+    create.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                                ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                                : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    create.presentMode = mMode;
+    create.clipped = VK_FALSE; // screenshots show what is behind other windows too
+    RELUME_VK(vkCreateSwapchainKHR(mDevice.handle(), &create, nullptr, &mSwapchain));
+    uint32_t count = 0;
+    RELUME_VK(vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, &count, nullptr));
+    std::vector<VkImage> images(count);
+    RELUME_VK(vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, &count, images.data()));
+    const ImageOptions options{
+        .format = mFormat.format, .width = mExtent.width, .height = mExtent.height, .usage = kUsage};
+    for (VkImage image : images) mImages.emplace_back(mDevice, image, options, "swapchain image");
+    return true;
+}
+
+std::optional<uint32_t> Swapchain::acquire() {
+    if (!mSwapchain) return std::nullopt;
+    uint32_t image = 0;
+    const VkResult result =
+        vkAcquireNextImageKHR(mDevice.handle(), mSwapchain, UINT64_MAX, VK_NULL_HANDLE, mAcquired, &image);
+    if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
+    if (result != VK_SUBOPTIMAL_KHR) check(result, "vkAcquireNextImageKHR");
+    RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mAcquired, VK_TRUE, UINT64_MAX));
+    RELUME_VK(vkResetFences(mDevice.handle(), 1, &mAcquired));
+    return image;
+}
+
+bool Swapchain::present(uint32_t image) {
+    VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    present.swapchainCount = 1;
+    present.pSwapchains = &mSwapchain;
+    present.pImageIndices = &image;
+    VkResult result;
+    {
+        const auto lock = mDevice.lockQueue();
+        result = vkQueuePresentKHR(mDevice.queue(), &present);
+    }
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
+    check(result, "vkQueuePresentKHR");
+    return true;
+}
+
+} // namespace relume::vk

@@ -1,0 +1,20 @@
+#version 460
+// A linear image as a display takes it, over an even background. C++ twin: toneMap() in engine/render/tone_map.h.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/tone_map.glsl"
+#include "shaders/shared/render.h"
+
+layout(push_constant, scalar) uniform Push { DisplayPush push; };
+layout(binding = 0) uniform sampler2DArray image; // as large as the target
+
+layout(location = 0) out vec4 display;
+
+void main() {
+    const vec4 pixel = texelFetch(image, ivec3(gl_FragCoord.xy, 0), 0);
+    if (pixel.a == 0) {
+        display = vec4(push.background, 1);
+        return;
+    }
+    display = vec4(toneMap(pixel.rgb, push.curve, push.scale), 1);
+}
