@@ -13,7 +13,7 @@ namespace relume {
 // Angles and positions beyond this have lost all precision.
 static constexpr float kLargestNumber = 1e6f;
 
-float radians(float degrees) { return degrees * kPi / 180; }
+float radians(float degrees) { return glm::radians(degrees); }
 
 CLI::Validator between(float low, float high) {
     const auto check = [low, high](const std::string& text) -> std::string {
@@ -25,14 +25,6 @@ CLI::Validator between(float low, float high) {
 }
 
 namespace {
-
-// The object: everything but a ground, which would push it out of the picture's middle.
-Bounds objectBounds(const Asset& asset) {
-    Bounds bounds;
-    for (const AssetPart& part : asset.parts)
-        if (part.name != "ground") bounds.add(boundsOf(part.mesh));
-    return bounds.low.x <= bounds.high.x ? bounds : boundsOf(asset);
-}
 
 vec3 vectorOf(const std::vector<float>& values) { return {values[0], values[1], values[2]}; }
 
@@ -102,7 +94,7 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
     if (!mTarget.empty()) camera.target = vectorOf(mTarget);
     const vec3 arm = camera.eye - camera.target;
     const float c = std::cos(turn), s = std::sin(turn);
-    camera.eye = camera.target + vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
+    if (turn != 0) camera.eye = camera.target + vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
     if (!(glm::length(arm) > 0)) throw UsageError("--eye: expected a point other than the target");
     return camera;
 }

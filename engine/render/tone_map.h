@@ -1,4 +1,4 @@
-// From linear radiance to display values. CPU only: a still image's last step.
+// From linear radiance to display values: a still image's last step. DisplayPass does it on the device.
 #pragma once
 
 #include "engine/image/image.h"

@@ -206,7 +206,8 @@ const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uin
 void ViewPass::resize(int width, int height) {
     RELUME_CHECK(width > 0 && height > 0);
     vk::ImageOptions options{.format = kColorFormat, .width = uint32_t(width), .height = uint32_t(height)};
-    options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    options.usage =
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     mColor = vk::Image(mDevice, options, "view color");
     options.format = kSurfaceFormat;
     options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;

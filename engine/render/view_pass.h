@@ -32,7 +32,8 @@ class ViewPass {
     // Pass "view": draws the asset with the tuples recorded before.
     void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) const;
 
-    // RGBA32F, linear, alpha 1 where covered, 0 elsewhere; in TRANSFER_SRC_OPTIMAL after record().
+    // RGBA32F, linear, alpha 1 where covered, 0 elsewhere; in TRANSFER_SRC_OPTIMAL after record(). It can be
+    // sampled as well.
     const vk::Image& image() const { return mColor; }
 
     // The image of the last submission. Waits for the device.

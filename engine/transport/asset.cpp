@@ -12,6 +12,13 @@ Bounds boundsOf(const Asset& asset) {
     return bounds;
 }
 
+Bounds objectBounds(const Asset& asset) {
+    Bounds bounds;
+    for (const AssetPart& part : asset.parts)
+        if (part.name != "ground") bounds.add(boundsOf(part.mesh));
+    return bounds.low.x <= bounds.high.x ? bounds : boundsOf(asset);
+}
+
 uint32_t blockVertices(const Asset& asset) {
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets) {

@@ -80,6 +80,8 @@ struct Asset {
 };
 
 Bounds boundsOf(const Asset& asset);
+// Of everything but a ground, which would push the object out of the picture's middle.
+Bounds objectBounds(const Asset& asset);
 
 // Vertices of a block of this asset: what is baked, kept in a checkpoint and written as a run. A cluster,
 // where there are any; of rows as transport_chunk.h says.

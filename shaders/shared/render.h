@@ -158,6 +158,16 @@ struct ViewShadePush {
 };
 RELUME_SHARED_SIZE(ViewShadePush, 96)
 
+// Tone curves, in the order of ToneCurve.
+const uint kToneNone = 0, kToneAces = 1, kToneAgx = 2;
+
+struct DisplayPush {
+    vec3 background; // display values
+    float scale;     // of radiance, before the curve
+    uint curve;
+};
+RELUME_SHARED_SIZE(DisplayPush, 20)
+
 RELUME_SHARED_END
 
 #endif
