@@ -145,7 +145,7 @@ TEST_CASE("viewer: meshes, environments and what is no such thing are dropped on
     CHECK(std::filesystem::exists(session.path("cache/relume/bakes")));
 }
 
-TEST_CASE("viewer: frames of its own end it, and none are drawn where nothing changes") {
+TEST_CASE("viewer: ends by itself after so many frames, the last of them written") {
     Session session;
     const Outcome outcome =
         session.replay({{{"wait", "settled"}}}, "knot.relume --exit-frame 5 --screenshot last.png");
