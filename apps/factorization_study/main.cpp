@@ -1,13 +1,13 @@
 // Compares the ways to factor a BRDF: docs/factorization.md is made of what this prints and draws.
 #include "apps/factorization_study/report.h"
 #include "apps/factorization_study/set_price.h"
+#include "apps/relume/run_program.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <chrono>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 using namespace relume;
@@ -108,8 +108,7 @@ void run(Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-    spdlog::set_default_logger(spdlog::stderr_color_mt("study"));
-    spdlog::set_pattern("%^%l%$: %v");
+    logToStderr("study");
     CLI::App program{
         "Compares the ways to factor a BRDF: writes factorization.csv and figures, prints tables in "
         "Markdown.",
@@ -133,21 +132,8 @@ int main(int argc, char** argv) {
     program.add_option("--orientations", arguments.options.orientations, "Orientations of the light")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    try {
-        program.parse(argc, argv);
+    return runProgram(program, argc, argv, [&] {
         if (arguments.onlyGiven && arguments.materials.empty()) throw UsageError("--only: give a MATERIAL");
         run(arguments);
-        return kExitDone;
-    } catch (const CLI::Success& success) { // --help
-        return program.exit(success);
-    } catch (const CLI::ParseError& wrong) {
-        program.exit(wrong);
-        return kExitUsage;
-    } catch (const UsageError& wrong) {
-        spdlog::error("{}", wrong.what());
-        return kExitUsage;
-    } catch (const std::exception& failure) {
-        spdlog::error("{}", failure.what());
-        return kExitFailed;
-    }
+    });
 }

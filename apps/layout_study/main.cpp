@@ -1,11 +1,8 @@
 // Measures what layouts of transport lose for their bytes: docs/layouts.md holds its tables and plots.
 #include "apps/layout_study/report.h"
+#include "apps/relume/run_program.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-
-#include <CLI/CLI.hpp>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 using namespace relume;
 
@@ -58,8 +55,7 @@ void run(Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-    spdlog::set_default_logger(spdlog::stderr_color_mt("study"));
-    spdlog::set_pattern("%^%l%$: %v");
+    logToStderr("study");
     CLI::App program{
         "Measures errors of transport, of relit tuples and of images against ray tracing, over the bytes "
         "of each\nlayout: writes layouts.csv and figures, prints tables in Markdown.",
@@ -91,20 +87,5 @@ int main(int argc, char** argv) {
     program.add_option("--height", arguments.options.height, "Of images")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
-    try {
-        program.parse(argc, argv);
-        run(arguments);
-        return kExitDone;
-    } catch (const CLI::Success& success) { // --help
-        return program.exit(success);
-    } catch (const CLI::ParseError& wrong) {
-        program.exit(wrong);
-        return kExitUsage;
-    } catch (const UsageError& wrong) {
-        spdlog::error("{}", wrong.what());
-        return kExitUsage;
-    } catch (const std::exception& failure) {
-        spdlog::error("{}", failure.what());
-        return kExitFailed;
-    }
+    return runProgram(program, argc, argv, [&] { run(arguments); });
 }

@@ -21,7 +21,6 @@ class FrameTimes {
     const vk::PassTimes& passes() const { return mPasses; }
     // If frames followed each other: by those of the last second of drawing.
     double framesPerSecond() const;
-    uint64_t count() const { return mCount; }
 
   private:
     std::array<float, kFrames> mSeconds{};

@@ -198,7 +198,7 @@ PanelWishes drawPanels(SceneState& state, const PanelFacts& facts) {
     PanelWishes wishes;
     if (state.showsPanels) {
         drawControls(state, facts, wishes);
-        if (state.showsTimes) drawTimes(facts, wishes);
+        drawTimes(facts, wishes);
         drawStatus(facts, wishes);
     }
     if (state.showsHelp) drawHelp(state);

@@ -54,7 +54,7 @@ struct SceneState {
     ToneCurve tone = ToneCurve::Agx;
     float exposure = 0; // stops
     bool turns = false; // turntable
-    bool showsPanels = true, showsHelp = false, showsTimes = true, isDark = true;
+    bool showsPanels = true, showsHelp = false, isDark = true;
 };
 
 } // namespace relume

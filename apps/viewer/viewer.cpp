@@ -5,7 +5,9 @@
 #include "apps/viewer/model.h"
 #include "apps/viewer/opened_file.h"
 #include "apps/viewer/panels.h"
+#include "apps/viewer/screenshot.h"
 #include "apps/viewer/script.h"
+#include "apps/viewer/settings.h"
 #include "apps/viewer/ui.h"
 #include "apps/viewer/worker.h"
 #include "engine/base/error.h"
@@ -80,7 +82,6 @@ std::string timeStamp() {
 class Viewer : public ScriptTarget {
   public:
     explicit Viewer(const ViewerOptions& options);
-    ~Viewer() override;
     void run();
 
     void input(InputEvent event) override { mWindow.add(std::move(event)); }
@@ -103,6 +104,7 @@ class Viewer : public ScriptTarget {
     void obey(Command command);
     void obey(const PanelWishes& wishes);
     void pollBake();
+    void expectSomething() const;
     void advance(double seconds);
     bool wantsFrame() const;
     bool moves() const;
@@ -116,8 +118,9 @@ class Viewer : public ScriptTarget {
     void wearChosen();
     void saveScreenshots();
     void toggleCapture();
+    void beginCapture(const std::filesystem::path& file);
+    void endCapture();
     void tell(const std::string& words, bool isFailure = false);
-    void tellCommand() const;
 
     ViewerOptions mOptions;
     Window mWindow;
@@ -161,30 +164,15 @@ Viewer::Viewer(const ViewerOptions& options)
       mDisplay(mDevice, mSwapchain.format()), mCommands(mDevice, "frame"), mWorker([] { Window::wake(); }) {
     mState.light.environments.push_back({"sky", {}, nullptr, false});
     if (!options.script.empty()) mScript.emplace(options.script);
-    if (!options.timings.empty()) {
-        expectTimingFile(options.timings);
-        mCaptureFile = options.timings;
-        mCapture.emplace();
-        mCapture->attach(mDevice);
-        mCommands.setCapture(&*mCapture);
-    }
+    if (!options.timings.empty()) beginCapture(options.timings);
     bool hasModel = false;
     for (const std::filesystem::path& file : options.files) {
+        if (!std::filesystem::exists(file)) throw Error("{}: there is no such file", file.string());
         const FileKind kind = kindOf(file);
         hasModel |= kind == FileKind::Bake || kind == FileKind::Bakeable;
         open(file);
     }
     if (!hasModel) bake("");
-}
-
-Viewer::~Viewer() {
-    if (mCapture) {
-        try {
-            toggleCapture();
-        } catch (const std::exception& failure) {
-            spdlog::error("{}", failure.what());
-        }
-    }
 }
 
 // Opening
@@ -353,56 +341,11 @@ void Viewer::obey(const PanelWishes& wishes) {
 
 void Viewer::set(const std::string& name, const nlohmann::json& value) {
     mFramesWanted = kFramesAfterInput;
-    const auto orbit = [&]() -> Orbit& {
-        if (!mModel) throw Error("\"{}\": nothing is shown yet; \"wait\" for it", name);
-        cameraNow();
-        return *mState.orbit;
-    };
-    if (name == "azimuth")
-        orbit().azimuth = glm::radians(value.get<float>());
-    else if (name == "elevation")
-        orbit().elevation = glm::radians(value.get<float>());
-    else if (name == "distance")
-        orbit().distance = value.get<float>() * mModel->bounds.radius();
-    else if (name == "fov") {
-        mState.fovDegrees = value.get<float>();
-        orbit().verticalFov = glm::radians(mState.fovDegrees);
-    } else if (name == "rotation")
-        mState.light.rotation = value.get<float>();
-    else if (name == "threshold")
-        mState.light.selection.threshold = std::clamp(value.get<int>(), 0, 32767);
-    else if (name == "environment")
-        value == "sky" ? void(mState.light.environment = 0) : addEnvironment(value.get<std::string>());
-    else if (name == "lamps") {
-        mState.light.lamps.clear();
-        for (const nlohmann::json& lamp : value) {
-            LampChoice choice;
-            choice.azimuth = lamp.value("azimuth", choice.azimuth);
-            choice.elevation = lamp.value("elevation", choice.elevation);
-            choice.radius = std::clamp(lamp.value("radius", choice.radius), 0.5f, 60.0f);
-            choice.brightness = lamp.value("brightness", choice.brightness);
-            mState.light.lamps.push_back(choice);
-        }
-    } else if (name == "material")
-        mState.material = value.get<std::string>();
-    else if (name == "exposure")
-        mState.exposure = value.get<float>();
-    else if (name == "tone") {
-        const std::optional<ToneCurve> curve = toneCurveFromName(value.get<std::string>());
-        if (!curve) throw Error("\"tone\": expected none, aces or agx, found {}", value.dump());
-        mState.tone = *curve;
-    } else if (name == "panels")
-        mState.showsPanels = value.get<bool>();
-    else if (name == "help")
-        mState.showsHelp = value.get<bool>();
-    else if (name == "dark")
-        mState.isDark = value.get<bool>();
-    else if (name == "turntable")
-        mState.turns = value.get<bool>();
-    else if (name == "seconds")
-        mState.light.seconds = std::max(0.0, value.get<double>());
+    if (mModel) cameraNow(); // where it is by default, it is so that it can be changed
+    if (name == "environment" && value != "sky")
+        addEnvironment(value.get<std::string>());
     else
-        throw Error("no setting is called \"{}\"", name);
+        applySetting(mState, name, value, mModel ? &mModel->bounds : nullptr);
 }
 
 // The loop
@@ -414,6 +357,7 @@ void Viewer::run() {
         takeEvents();
         mWorker.apply();
         pollBake();
+        expectSomething();
         if (mWindow.takeDamage()) mFramesWanted = std::max(mFramesWanted, 1);
         if (mWindow.size() != ivec2(int(mSwapchain.width()), int(mSwapchain.height())))
             mNeedsSwapchain = true;
@@ -427,8 +371,15 @@ void Viewer::run() {
                 mScreenshots.push_back(mOptions.screenshot);
         }
         drawFrame();
-        if (mOptions.exitFrame && mSettledFrames >= *mOptions.exitFrame) return;
+        if (mOptions.exitFrame && mSettledFrames >= *mOptions.exitFrame) break;
     }
+    if (mCapture) endCapture();
+}
+
+// Nobody is there to open something else.
+void Viewer::expectSomething() const {
+    const bool isReplayed = mOptions.exitFrame || (mScript && mScript->isWaiting());
+    if (isReplayed && !mModel && mIsFailure && mWorker.isIdle() && !mBake) throw Error("{}", mNotice);
 }
 
 bool Viewer::moves() const {
@@ -480,7 +431,14 @@ Camera Viewer::cameraNow() {
 }
 
 Light Viewer::lightNow() {
-    if (mState.light.file) return mState.light.file->at(mState.light.seconds);
+    if (mState.light.file) {
+        try {
+            return mState.light.file->at(mState.light.seconds);
+        } catch (const Error& why) { // a sequence's file that is gone
+            tell(why.what(), true);
+            mState.light.file.reset();
+        }
+    }
     Light light;
     const EnvironmentChoice& choice = mState.light.environments[mState.light.environment];
     if (choice.map) light.environments.push_back({choice.map, 0, mState.light.environmentGain});
@@ -634,53 +592,42 @@ void Viewer::saveScreenshots() {
             if (file.extension() == ".exr") {
                 if (!mModel) throw Error("{}: nothing is shown yet", file.string());
                 writeExr(file, mModel->view.read());
-                tellCommand();
-            } else {
-                Image image(int(mSwapchain.width()), int(mSwapchain.height()));
-                const bool isBgra = mSwapchain.format() == VK_FORMAT_B8G8R8A8_UNORM;
-                const std::span<uint8_t> bytes = mScreen.map<uint8_t>();
-                for (size_t i = 0; i < image.pixels.size(); i++) {
-                    const auto channel = [&](size_t c) { return float(bytes[4 * i + c]) / 255; };
-                    image.pixels[i] = {channel(isBgra ? 2 : 0), channel(1), channel(isBgra ? 0 : 2), 1};
-                }
-                writePng(file, image);
-            }
+                const std::optional<std::string> command =
+                    renderCommand(mState, mModel->file, int(mSwapchain.width()), int(mSwapchain.height()));
+                if (command) spdlog::info("the same: {}", *command);
+            } else
+                writePng(file, screenImage(mScreen.map<uint8_t>(), int(mSwapchain.width()),
+                                           int(mSwapchain.height()), mSwapchain.format()));
             tell(file.string() + " is written");
         } catch (const Error& why) {
+            if (mOptions.exitFrame) throw; // nobody else will see it
             tell(why.what(), true);
         }
     }
     mScreen = {};
 }
 
-// What draws the same image without a window.
-void Viewer::tellCommand() const {
-    const LightState& light = mState.light;
-    if (!light.lamps.empty() || light.environmentGain != 1) return; // a light file would have to say it
-    const Camera camera = mState.orbit->camera();
-    std::string command = fmt::format(
-        "relume render '{}' -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={} "
-        "--threshold {}",
-        mModel->file.string(), mSwapchain.width(), mSwapchain.height(), camera.eye.x, camera.eye.y,
-        camera.eye.z, camera.target.x, camera.target.y, camera.target.z, mState.fovDegrees, light.rotation,
-        light.selection.threshold);
-    if (light.file)
-        command += fmt::format(" --light '{}' --time {}", light.fileName.string(), light.seconds);
-    else if (const EnvironmentChoice& choice = light.environments[light.environment]; !choice.file.empty())
-        command += fmt::format(" -e '{}'", choice.file.string());
-    if (!mState.material.empty()) command += fmt::format(" -m '{}'", mState.material);
-    spdlog::info("the same: {}", command);
+void Viewer::toggleCapture() {
+    try {
+        if (mCapture)
+            endCapture();
+        else
+            beginCapture("relume-" + timeStamp() + ".json");
+    } catch (const Error& why) {
+        tell(why.what(), true);
+    }
 }
 
-void Viewer::toggleCapture() {
-    if (!mCapture) {
-        mCaptureFile = "relume-" + timeStamp() + ".json";
-        mCapture.emplace();
-        mCapture->attach(mDevice);
-        mCommands.setCapture(&*mCapture);
-        tell("capturing times; F9 ends it");
-        return;
-    }
+void Viewer::beginCapture(const std::filesystem::path& file) {
+    expectTimingFile(file);
+    mCaptureFile = file;
+    mCapture.emplace();
+    mCapture->attach(mDevice);
+    mCommands.setCapture(&*mCapture);
+    tell("capturing times; F9 ends it");
+}
+
+void Viewer::endCapture() {
     mCommands.setCapture(nullptr);
     const TimingTrace trace = mCapture->trace();
     mCapture.reset();

@@ -14,8 +14,9 @@ struct ViewerOptions {
     std::vector<std::filesystem::path> files; // bakes, meshes, scenes; environments and lights
     int width = 1280, height = 720;
     bool waitsForDisplay = true;
-    std::optional<int> exitFrame;                      // frames to draw before it ends by itself
-    std::filesystem::path screenshot, script, timings; // empty: none
+    std::optional<int> exitFrame;     // frames to draw before it ends by itself
+    std::filesystem::path screenshot; // of the last of these; empty: none
+    std::filesystem::path script, timings;
 };
 
 // Until the window is closed. Throws Error; NoDeviceError where no window can be shown.

@@ -164,4 +164,20 @@ TEST_CASE("viewer: says what is wrong with a script, and that there is no displa
     CHECK_EQ(blind.exitCode, 4);
     CHECK(says(blind.err, "relume render"));
     CHECK_EQ(runProgram(folder, RELUME_VIEWER, "--size 3x4").exitCode, 2);
+    CHECK_EQ(runProgram(folder, RELUME_VIEWER, "--screenshot a.png").exitCode, 2); // of which frame?
+    CHECK_EQ(runProgram(folder, RELUME_VIEWER, "--exit-frame 1 --screenshot a.jpg").exitCode, 2);
+}
+
+TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
+    Session session;
+    std::ofstream(session.path("broken.relume")) << "nothing";
+    const Outcome missing = session.replay(json::array(), "absent.relume");
+    CHECK_EQ(missing.exitCode, 1);
+    CHECK(says(missing.err, "absent.relume: there is no such file"));
+    const Outcome broken = session.replay({{{"wait", "settled"}}}, "broken.relume");
+    CHECK_EQ(broken.exitCode, 1);
+    CHECK(says(broken.err, "broken.relume: not a .relume file"));
+    const Outcome setting = session.replay({{{"wait", "settled"}}, {{"set", {{"fov", 400}}}}}, "knot.relume");
+    CHECK_EQ(setting.exitCode, 1);
+    CHECK(says(setting.err, "step 2: \"fov\": expected a number from 1 to 170, found 400"));
 }

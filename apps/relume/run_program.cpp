@@ -1,0 +1,47 @@
+#include "apps/relume/run_program.h"
+
+#include "engine/base/error.h"
+
+#include <cstdio>
+#include <iostream>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+void logToStderr(const char* name) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt(name));
+    spdlog::set_pattern("%^%l%$: %v");
+}
+
+int runProgram(CLI::App& program, int argc, char** argv, const std::function<void()>& work) {
+    try {
+        program.parse(argc, argv);
+        work();
+        std::cout.flush();
+        if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw Error("standard output: cannot be written; is its disk full, or its reader gone?");
+        return kExitDone;
+    } catch (const CLI::Success& success) { // --help, --version
+        return program.exit(success);
+    } catch (const CLI::RuntimeError& decided) {
+        return decided.get_exit_code();
+    } catch (const CLI::ParseError& wrong) {
+        program.exit(wrong);
+        return kExitUsage;
+    } catch (const UsageError& wrong) {
+        spdlog::error("{}", wrong.what());
+        return kExitUsage;
+    } catch (const NoDeviceError& none) {
+        spdlog::error("{}", none.what());
+        return kExitNoDevice;
+    } catch (const std::bad_alloc&) {
+        spdlog::error("out of memory");
+        return kExitFailed;
+    } catch (const std::exception& failure) {
+        spdlog::error("{}", failure.what());
+        return kExitFailed;
+    }
+}
+
+} // namespace relume
