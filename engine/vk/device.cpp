@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/vk/device_list.h"
+#include "engine/vk/pipeline_cache.h"
 #include "engine/vk/result.h"
 
 #include <algorithm>
@@ -111,6 +112,7 @@ Device::Device(const DeviceOptions& options) {
     try {
         pickPhysicalDevice(options.select);
         createDevice(!options.surfaceExtensions.empty());
+        mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, options.pipelineCache);
     } catch (...) {
         destroy();
         throw;
@@ -122,6 +124,7 @@ Device::~Device() { destroy(); }
 void Device::destroy() {
     if (mDevice) {
         vkDeviceWaitIdle(mDevice);
+        mPipelineCache.reset();
         vkDestroyDevice(mDevice, nullptr);
     }
     if (mMessenger) {
@@ -262,6 +265,10 @@ void Device::createDevice(bool showsImages) {
         mReadClocks = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
             vkGetDeviceProcAddr(mDevice, "vkGetCalibratedTimestampsEXT"));
 }
+
+VkPipelineCache Device::pipelineCache() const { return mPipelineCache->handle(); }
+
+void Device::savePipelineCache() const { mPipelineCache->save(); }
 
 uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
                             VkMemoryPropertyFlags preferred) const {

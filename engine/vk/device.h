@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -10,6 +11,8 @@
 #include <vulkan/vulkan.h>
 
 namespace relume::vk {
+
+class PipelineCache;
 
 // What `relume devices` shows of a device.
 struct DeviceInfo {
@@ -39,6 +42,8 @@ struct DeviceOptions {
     // What the window system's surfaces need of the instance; the device can then show images on them.
     // Empty: it draws into images of its own alone.
     std::vector<std::string> surfaceExtensions;
+    // The file that keeps what the driver compiles, for savePipelineCache(). Empty: none does.
+    std::filesystem::path pipelineCache;
 };
 
 // Owns instance, device and queue; movable in its unique_ptr only, since everything refers to it.
@@ -79,6 +84,11 @@ class Device {
     void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
 
+    // What every pipeline is made with; any thread may use it.
+    VkPipelineCache pipelineCache() const;
+    // Writes DeviceOptions::pipelineCache, whole or not at all; warns where it cannot be written.
+    void savePipelineCache() const;
+
     // Warnings and errors that the validation layer has reported; 0 without validation.
     int validationMessages() const { return mValidationMessages; }
 
@@ -102,6 +112,7 @@ class Device {
     VkPhysicalDeviceProperties mProperties{};
     VkPhysicalDeviceMemoryProperties mMemory{};
     DeviceInfo mInfo{};
+    std::unique_ptr<PipelineCache> mPipelineCache;
     std::atomic<int> mValidationMessages = 0;
     PFN_vkSetDebugUtilsObjectNameEXT mSetName = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT mBeginLabel = nullptr;

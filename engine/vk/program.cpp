@@ -129,7 +129,8 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
         create.stage.flags |= VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
         if (device.info().subgroupSizeCanBeAskedFor) create.stage.pNext = &size;
     }
-    RELUME_VK(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &mPipeline));
+    RELUME_VK(
+        vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &mPipeline));
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
 }
 
@@ -201,7 +202,8 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     create.pColorBlendState = &blending;
     create.pDynamicState = &dynamic;
     create.layout = mLayout;
-    RELUME_VK(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &mPipeline));
+    RELUME_VK(
+        vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &mPipeline));
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
 }
 

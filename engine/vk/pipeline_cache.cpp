@@ -1,0 +1,130 @@
+#include "engine/vk/pipeline_cache.h"
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/vk/result.h"
+
+#include <algorithm>
+#include <cstring>
+#include <spdlog/spdlog.h>
+
+namespace relume::vk {
+
+namespace {
+
+constexpr size_t kMostBytes = size_t(64) << 20; // of a file; what is larger is nothing that we wrote
+constexpr char kMagic[] = {'R', 'L', 'M', 'P', 'I', 'P', 'E', 'S'};
+constexpr uint32_t kVersion = 1;
+
+// Begins the file. What Vulkan's own header leaves out: the driver's version, and whether the data is whole.
+struct Header {
+    char magic[8];
+    uint32_t version;
+    uint32_t vendor, device, driverVersion;
+    uint8_t uuid[VK_UUID_SIZE];
+    uint64_t dataBytes, dataHash;
+};
+static_assert(sizeof(Header) == 56);
+
+Header headerOf(const VkPhysicalDeviceProperties& driver, std::span<const std::byte> data) {
+    Header header{};
+    std::ranges::copy(kMagic, header.magic);
+    header.version = kVersion;
+    header.vendor = driver.vendorID;
+    header.device = driver.deviceID;
+    header.driverVersion = driver.driverVersion;
+    std::ranges::copy(driver.pipelineCacheUUID, header.uuid);
+    header.dataBytes = data.size();
+    header.dataHash = hash64(data);
+    return header;
+}
+
+// Whether the data begins as Vulkan says, with this device.
+bool isOfDevice(const VkPhysicalDeviceProperties& driver, std::span<const std::byte> data) {
+    VkPipelineCacheHeaderVersionOne header;
+    if (data.size() < sizeof header) return false;
+    std::memcpy(&header, data.data(), sizeof header);
+    return header.headerSize == sizeof header &&
+           header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+           header.vendorID == driver.vendorID && header.deviceID == driver.deviceID &&
+           std::ranges::equal(header.pipelineCacheUUID, driver.pipelineCacheUUID);
+}
+
+// Empty: there is none, or it cannot be read.
+std::vector<std::byte> readIfThere(const std::filesystem::path& path) {
+    try {
+        return readFile(path, kMostBytes);
+    } catch (const Error& error) {
+        spdlog::debug("pipeline cache: {}", error.what());
+        return {};
+    }
+}
+
+} // namespace
+
+std::vector<std::byte> packPipelineCache(const VkPhysicalDeviceProperties& driver,
+                                         std::span<const std::byte> data) {
+    const Header header = headerOf(driver, data);
+    std::vector<std::byte> file(sizeof header + data.size());
+    std::memcpy(file.data(), &header, sizeof header);
+    std::ranges::copy(data, file.begin() + sizeof header);
+    return file;
+}
+
+std::span<const std::byte> unpackPipelineCache(const VkPhysicalDeviceProperties& driver,
+                                               std::span<const std::byte> file) {
+    if (file.size() < sizeof(Header)) return {};
+    const auto data = file.subspan(sizeof(Header));
+    const Header expected = headerOf(driver, data);
+    if (std::memcmp(file.data(), &expected, sizeof expected) != 0) return {};
+    return isOfDevice(driver, data) ? data : std::span<const std::byte>();
+}
+
+PipelineCache::PipelineCache(VkDevice device, const VkPhysicalDeviceProperties& driver,
+                             std::filesystem::path path)
+    : mDevice(device), mDriver(driver), mPath(std::move(path)) {
+    const std::vector<std::byte> file = mPath.empty() ? std::vector<std::byte>() : readIfThere(mPath);
+    const auto kept = unpackPipelineCache(mDriver, file);
+    if (!mPath.empty())
+        spdlog::debug("pipeline cache: {}: {} bytes of {} are of use", mPath.string(), kept.size(),
+                      file.size());
+    VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    create.initialDataSize = kept.size();
+    create.pInitialData = kept.data();
+    RELUME_VK(vkCreatePipelineCache(device, &create, nullptr, &mCache));
+}
+
+PipelineCache::~PipelineCache() { vkDestroyPipelineCache(mDevice, mCache, nullptr); }
+
+std::vector<std::byte> PipelineCache::data() const {
+    std::vector<std::byte> bytes;
+    VkResult result;
+    do { // other threads may add to it between the two calls
+        size_t size = 0;
+        RELUME_VK(vkGetPipelineCacheData(mDevice, mCache, &size, nullptr));
+        bytes.resize(size);
+        result = vkGetPipelineCacheData(mDevice, mCache, &size, bytes.data());
+        bytes.resize(size);
+    } while (result == VK_INCOMPLETE);
+    check(result, "vkGetPipelineCacheData");
+    return bytes;
+}
+
+void PipelineCache::save() const {
+    if (mPath.empty()) return;
+    const std::vector<std::byte> file = packPipelineCache(mDriver, data());
+    if (file.size() > kMostBytes) {
+        spdlog::debug("pipeline cache: {} bytes are too many to keep", file.size());
+        return;
+    }
+    std::error_code failure; // writing says what is wrong with the folder
+    if (mPath.has_parent_path()) std::filesystem::create_directories(mPath.parent_path(), failure);
+    try {
+        writeFileAtomically(mPath, file);
+    } catch (const Error& error) {
+        spdlog::warn("pipelines are not kept for the next start: {}", error.what());
+    }
+}
+
+} // namespace relume::vk
