@@ -1,11 +1,8 @@
 #include "precompute/reference/reference_image.h"
 
-#include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/math/cubemap.h"
-#include "engine/math/tangent_frame.h"
-#include "precompute/brdf/brdf.h"
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/reference/dressed_asset.h"
 
 #include <algorithm>
 #include <array>
@@ -23,38 +20,17 @@ struct LightSample {
     vec3 energy;
 };
 
-// f(ωi, ωo) in the local frame of the surface: first ωo, once per pixel, then ωi.
-using ReflectedFunction = std::function<vec3(vec3 incoming)>;
-using BrdfFunction = std::function<ReflectedFunction(vec3 outgoing)>;
-
-// A layer that a part wears, and its function.
-struct WornBrdf {
-    WornLayer layer;
-    BrdfFunction brdf;
-};
-
-struct SurfacePoint {
-    size_t part;
-    vec3 position;
-    TangentFrame frame;
-    vec3 outgoing;             // the view direction in the frame, above the horizon
-    std::vector<vec3> weights; // of the layers that the part wears
-};
-
 // What all pixels share.
 struct Renderer {
-    const Asset& asset;
     const Camera& camera;
     const ReferenceOptions& options;
     std::vector<LightSample> lights;
-    std::vector<std::vector<WornBrdf>> worn; // per part
-    std::vector<size_t> materials;           // per part: of its worn set
-    RayTracer surfaces;                      // one mesh per part
+    DressedAsset asset;
+    RayTracer surfaces; // one mesh per part
     RayTracer occluder;
     float shadowOffset;
 
     std::optional<SurfacePoint> surfaceAt(int x, int y) const;
-    std::vector<vec3> weightsAt(size_t part, vec2 uv, vec4 color) const;
     vec3 reflectedRadiance(const SurfacePoint& point) const;
 };
 
@@ -62,35 +38,7 @@ std::optional<SurfacePoint> Renderer::surfaceAt(int x, int y) const {
     const auto hit =
         surfaces.intersect(camera.eye, camera.pixelDirection(x, y, options.width, options.height));
     if (!hit) return std::nullopt;
-    const Mesh& mesh = asset.parts[hit->mesh].mesh;
-    const uvec3 corners = mesh.triangles[hit->triangle];
-    const auto interpolate = [&](const auto& values) {
-        return hit->weights.x * values[corners.x] + hit->weights.y * values[corners.y] +
-               hit->weights.z * values[corners.z];
-    };
-    const vec3 position = interpolate(mesh.positions);
-    const vec3 normal = interpolate(mesh.normals);
-    // Opposite normals can cancel out on a fold.
-    const bool isCancelled = glm::dot(normal, normal) < 1e-12f;
-    const TangentFrame frame = tangentFrame(isCancelled ? mesh.normals[corners.x] : glm::normalize(normal));
-    const vec3 outgoing = liftAboveHorizon(frame.toLocal(glm::normalize(camera.eye - position)));
-    const vec2 uv = mesh.uvs.empty() ? vec2(0) : interpolate(mesh.uvs);
-    const vec4 color = mesh.colors.empty() ? vec4(0) : interpolate(mesh.colors);
-    return SurfacePoint{hit->mesh, position, frame, outgoing, weightsAt(hit->mesh, uv, color)};
-}
-
-std::vector<vec3> Renderer::weightsAt(size_t part, vec2 uv, vec4 color) const {
-    const AssetPart& source = asset.parts[part];
-    const vec4 paint =
-        paintWeights(source.materialMap ? sample(*source.materialMap, uv) : color, materials[part]);
-    std::vector<vec3> weights;
-    for (const auto& [layer, brdf] : worn[part]) {
-        vec3 weight(layer.weight);
-        if (layer.channel >= 0) weight *= paint[layer.channel];
-        if (layer.textured) weight *= vec3(sample(*source.baseColor, uv));
-        weights.push_back(weight);
-    }
-    return weights;
+    return asset.pointAt(*hit, camera.eye);
 }
 
 // Sums over the lights above the horizon that nothing blocks, a batch of shadow rays at a time.
@@ -99,13 +47,6 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
     std::array<vec3, kBatch> directions;
     std::array<const LightSample*, kBatch> batch;
     std::array<uint8_t, kBatch> blocked;
-    std::vector<ReflectedFunction> brdfs; // of the layers, at this point
-    for (const WornBrdf& layer : worn[point.part]) brdfs.push_back(layer.brdf(point.outgoing));
-    const auto reflected = [&](vec3 incoming) {
-        vec3 f(0);
-        for (size_t i = 0; i < brdfs.size(); i++) f += point.weights[i] * brdfs[i](incoming);
-        return f;
-    };
     const vec3 origin = point.position + shadowOffset * point.frame.n;
     glm::dvec3 sum(0);
     for (auto next = lights.begin(); next != lights.end();) {
@@ -119,7 +60,7 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
         for (size_t i = 0; i < count; i++) {
             if (blocked[i]) continue;
             const vec3 incoming = point.frame.toLocal(directions[i]);
-            sum += batch[i]->energy * reflected(incoming) * incoming.z;
+            sum += batch[i]->energy * point.reflected(incoming) * incoming.z;
         }
     }
     return vec3(sum);
@@ -142,61 +83,6 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
     return image;
 }
 
-BrdfFunction exactBrdf(const AssetMaterial& material, const WornLayer& layer) {
-    const auto evaluate = [&]() -> vec3 (*)(const Brdf&, vec3, vec3) {
-        if (layer.textured)
-            return [](const Brdf& brdf, vec3 incoming, vec3 outgoing) {
-                return brdf.evaluateBase(incoming, outgoing);
-            };
-        if (material.hasBase)
-            return [](const Brdf& brdf, vec3 incoming, vec3 outgoing) {
-                return brdf.evaluate(incoming, outgoing) - brdf.evaluateBase(incoming, outgoing);
-            };
-        return
-            [](const Brdf& brdf, vec3 incoming, vec3 outgoing) { return brdf.evaluate(incoming, outgoing); };
-    }();
-    return [evaluate, brdf = std::shared_ptr<const Brdf>(makeBrdf(material.description))](vec3 outgoing) {
-        return
-            [evaluate, &brdf = *brdf, outgoing](vec3 incoming) { return evaluate(brdf, incoming, outgoing); };
-    };
-}
-
-BrdfFunction factoredBrdf(const FactoredBrdf& brdf, int layer) {
-    return [&brdf, layer](vec3 outgoing) {
-        std::vector<vec3> views; // one per term
-        for (int term = 0; term < brdf.terms; term++)
-            views.push_back(lookupMap(brdf.viewMap(layer, term), brdf.size, brdf.mapping, outgoing));
-        return [&brdf, views](vec3 incoming) {
-            vec3 sum(0);
-            for (int term = 0; term < brdf.terms; term++)
-                sum +=
-                    views[size_t(term)] * lookupMap(brdf.lightMap(term), brdf.size, brdf.mapping, incoming);
-            return sum;
-        };
-    };
-}
-
-const AssetMaterial& materialOf(const MaterialSet& set, int layer) {
-    return *std::find_if(set.materials.begin(), set.materials.end(), [&](const AssetMaterial& material) {
-        return layer >= material.layer && layer < material.layer + material.layers();
-    });
-}
-
-std::vector<WornBrdf> wornBrdfs(const AssetPart& part, const PartAppearance& appearance, ReferenceBrdf kind) {
-    const MaterialSet& set = part.sets.at(appearance.set);
-    std::vector<WornBrdf> worn;
-    for (const WornLayer& layer : wornLayers(part, appearance))
-        worn.push_back({layer, kind == ReferenceBrdf::Exact ? exactBrdf(materialOf(set, layer.layer), layer)
-                                                            : factoredBrdf(set.brdf, layer.layer)});
-    return worn;
-}
-
-std::vector<const Mesh*> partMeshes(const Asset& asset) {
-    std::vector<const Mesh*> meshes;
-    for (const AssetPart& part : asset.parts) meshes.push_back(&part.mesh);
-    return meshes;
-}
-
 Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Camera& camera,
                   const ReferenceOptions& options, const std::function<void(int)>& progress) {
     constexpr int kLargestSide = 16384;
@@ -211,19 +97,11 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
     const float offset =
         options.bakedOccluder ? asset.visibilityOffset : kFullMeshShadowOffset * boundsOf(asset).radius();
     const Appearance appearance = options.appearance.empty() ? defaultAppearance(asset) : options.appearance;
-    RELUME_CHECK_EQ(appearance.size(), asset.parts.size());
-    std::vector<std::vector<WornBrdf>> worn;
-    std::vector<size_t> materials;
-    for (size_t i = 0; i < asset.parts.size(); i++) {
-        worn.push_back(wornBrdfs(asset.parts[i], appearance[i], options.brdf));
-        materials.push_back(asset.parts[i].sets[appearance[i].set].materials.size());
-    }
-    const Renderer renderer{asset,
-                            camera,
+    MaterialBrdfs brdfs;
+    const Renderer renderer{camera,
                             options,
                             std::move(lights),
-                            std::move(worn),
-                            std::move(materials),
+                            DressedAsset(asset, appearance, options.brdf, brdfs),
                             RayTracer(meshes),
                             RayTracer(occluders),
                             offset};

@@ -3,15 +3,12 @@
 
 #include "engine/image/image.h"
 #include "engine/light/light_cube.h"
-#include "engine/render/appearance.h"
 #include "engine/scene/camera.h"
-#include "engine/transport/asset.h"
+#include "precompute/reference/worn_brdf.h"
 
 #include <functional>
 
 namespace relume {
-
-enum class ReferenceBrdf { Exact, Factored };
 
 struct ReferenceOptions {
     int width = 640, height = 480;

@@ -1,0 +1,20 @@
+#include "precompute/reference/layer_weights.h"
+
+namespace relume {
+
+std::vector<vec3> layerWeights(const AssetPart& part, size_t set, std::span<const WornLayer> layers, vec2 uv,
+                               vec4 color) {
+    std::vector<vec3> weights;
+    for (const WornLayer& layer : layers) {
+        vec3 weight(layer.weight);
+        if (layer.channel >= 0) {
+            const vec4 paint = part.materialMap ? sample(*part.materialMap, uv) : color;
+            weight *= paintWeights(paint, part.sets[set].materials.size())[layer.channel];
+        }
+        if (layer.textured) weight *= vec3(sample(*part.baseColor, uv));
+        weights.push_back(weight);
+    }
+    return weights;
+}
+
+} // namespace relume
