@@ -91,6 +91,15 @@ std::optional<RayHit> RayTracer::intersect(vec3 origin, vec3 direction) const {
     return RayHit{query.hit.geomID, query.hit.primID, vec3(1.0f - u - v, u, v), query.ray.tfar};
 }
 
+bool RayTracer::occluded(vec3 origin, vec3 direction) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray;
+    setRay(ray, origin, direction);
+    rtcOccluded1(mImpl->scene, &context, &ray);
+    return ray.tfar < 0;
+}
+
 void RayTracer::occluded(vec3 origin, std::span<const vec3> directions, std::span<uint8_t> blocked) const {
     RELUME_CHECK_EQ(directions.size(), blocked.size());
     RTCIntersectContext context;

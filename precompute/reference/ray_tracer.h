@@ -31,6 +31,9 @@ class RayTracer {
     // The nearest hit. `direction` sets the unit of the distance. Thread-safe.
     std::optional<RayHit> intersect(vec3 origin, vec3 direction) const;
 
+    // Whether a ray hits anything. Thread-safe.
+    bool occluded(vec3 origin, vec3 direction) const;
+
     // blocked[i] = whether a ray from `origin` along directions[i] hits anything. Coherent directions
     // in sequence are fastest. Thread-safe.
     void occluded(vec3 origin, std::span<const vec3> directions, std::span<uint8_t> blocked) const;

@@ -88,6 +88,7 @@ TEST_CASE("ray tracer: occlusion is whether there is a hit, for any number of ra
         for (int i = 0; i < count; i++) {
             const bool isHit = tracer.intersect({0, 0.4f, 0}, directions[size_t(i)]).has_value();
             mismatches += blocked[size_t(i)] != isHit;
+            mismatches += tracer.occluded({0, 0.4f, 0}, directions[size_t(i)]) != isHit;
             hits += isHit;
         }
         CHECK(mismatches == 0);

@@ -1,0 +1,113 @@
+#include "precompute/reference/progressive_reference.h"
+
+#include "engine/base/check.h"
+#include "precompute/reference/reference_image.h"
+#include "precompute/reference/sampled_reflection.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+bool isSame(const Camera& a, const Camera& b) {
+    return a.eye == b.eye && a.target == b.target && a.verticalFov == b.verticalFov;
+}
+
+} // namespace
+
+ProgressiveReference::ProgressiveReference(const Asset& asset, ReferenceBrdf brdf)
+    : mAsset(asset), mKind(brdf), mTracer(partMeshes(asset)),
+      mShadowOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {}
+
+void ProgressiveReference::restart(const Camera& camera, const LightCube& light, const Appearance& appearance,
+                                   int width, int height) {
+    RELUME_CHECK(width > 0 && height > 0);
+    const size_t pixels = size_t(width) * size_t(height);
+    mPasses = 0;
+    mDressed.reset();
+    mLight.emplace(light);
+    if (width != mWidth || height != mHeight || !isSame(camera, mCamera)) {
+        mCamera = camera, mWidth = width, mHeight = height;
+        mRowsSeen.assign(size_t(height), false);
+        mSurfaces.assign(pixels, std::nullopt);
+    }
+    for (auto& half : mHalves) half.assign(pixels, glm::dvec3(0));
+    mSample.resize(pixels);
+    mDressed.emplace(mAsset, appearance, mKind, mBrdfs);
+}
+
+void ProgressiveReference::findSurfaces(int y) {
+    if (mRowsSeen[size_t(y)]) return;
+    for (int x = 0; x < mWidth; x++)
+        mSurfaces[size_t(y) * size_t(mWidth) + size_t(x)] =
+            mTracer.intersect(mCamera.eye, mCamera.pixelDirection(x, y, mWidth, mHeight));
+    mRowsSeen[size_t(y)] = true;
+}
+
+void ProgressiveReference::sampleRow(int y) {
+    const size_t first = size_t(y) * size_t(mWidth);
+    for (size_t pixel = first; pixel < first + size_t(mWidth); pixel++) {
+        if (!mSurfaces[pixel]) continue;
+        HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
+        mSample[pixel] = sampleReflection(mDressed->pointAt(*mSurfaces[pixel], mCamera.eye), *mLight, mTracer,
+                                          mShadowOffset, random);
+    }
+}
+
+bool ProgressiveReference::addPass(std::stop_token stop) {
+    RELUME_CHECK(mDressed);
+    std::atomic<bool> isStopped = false;
+    tbb::parallel_for(0, mHeight, [&](int y) {
+        if (stop.stop_requested()) isStopped = true;
+        if (isStopped) return;
+        findSurfaces(y);
+        sampleRow(y);
+    });
+    if (isStopped) return false;
+    std::vector<glm::dvec3>& half = mHalves[size_t(mPasses % 2)];
+    for (size_t pixel = 0; pixel < half.size(); pixel++)
+        if (mSurfaces[pixel]) half[pixel] += mSample[pixel];
+    mPasses++;
+    return true;
+}
+
+Image ProgressiveReference::mean() const {
+    Image image(mWidth, mHeight);
+    if (mPasses == 0) return image;
+    for (size_t pixel = 0; pixel < image.pixels.size(); pixel++)
+        if (mSurfaces[pixel]) {
+            const glm::dvec3 mean = (mHalves[0][pixel] + mHalves[1][pixel]) / double(mPasses);
+            image.pixels[pixel] = vec4(glm::max(vec3(mean), vec3(0)), 1);
+        }
+    return image;
+}
+
+std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) const {
+    RELUME_CHECK_EQ(image.width, mWidth);
+    RELUME_CHECK_EQ(image.height, mHeight);
+    const double even = (mPasses + 1) / 2, odd = mPasses / 2;
+    if (odd == 0) return std::nullopt;
+    double errors = 0, squares = 0, differences = 0, count = 0;
+    for (size_t pixel = 0; pixel < image.pixels.size(); pixel++) {
+        if (!mSurfaces[pixel]) continue;
+        const glm::dvec3 a = glm::max(mHalves[0][pixel] / even, 0.0);
+        const glm::dvec3 b = glm::max(mHalves[1][pixel] / odd, 0.0);
+        const glm::dvec3 found = glm::dvec3(vec3(image.pixels[pixel]));
+        errors += glm::dot(a - found, b - found);
+        squares += glm::dot(a, b);
+        differences += glm::dot(a - b, a - b);
+        count += 3;
+    }
+    if (count == 0) return std::nullopt;
+    const auto root = [&](double sum) { return std::sqrt(std::max(sum / count, 0.0)); };
+    // Of one pass: the variance of A - B over 1 / even + 1 / odd.
+    return ReferenceError{.rmse = root(errors),
+                          .level = root(squares),
+                          .noise = root(differences * even * odd) / double(mPasses)};
+}
+
+} // namespace relume

@@ -1,0 +1,124 @@
+#include "precompute/reference/sampled_reflection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+// Counts that come to the same noise in the same time are many; these give the first picture early.
+constexpr int kFromLight = 8, kFromCosine = 4, kRays = 8;
+// BRDFs are not asked for their shape: one lobe each for broad, glossy and nearly mirroring ones.
+constexpr std::array kLobeWidths = {0.1f, 0.01f, 0.001f};
+constexpr size_t kCandidates = kFromLight + kFromCosine + kLobeWidths.size();
+
+vec3 onCone(float cosine, float turn) {
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)), angle = 2 * kPi * turn;
+    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
+
+// Of a direction at cosine c from the axis, with t = (1 - c) / 2: w (1 + w) / (4π (t + w)²). Half of all are
+// within t = w of it and the rest reach everywhere.
+float lobeDensity(float width, float t) {
+    const float reach = t + width;
+    return width * (1 + width) / (4 * kPi * reach * reach);
+}
+vec3 drawLobe(float width, float choice, float turn) {
+    return onCone(1 - 2 * choice * width / (1 + width - choice), turn);
+}
+
+struct Candidate {
+    vec3 direction;
+    vec3 share;   // radiance · BRDF · cosine, over its size
+    float weight; // that size / the sum of all densities
+};
+
+class Resampling {
+  public:
+    Resampling(const SurfacePoint& point, const LightDistribution& light)
+        : mPoint(point), mLight(light), mMirror(-point.outgoing.x, -point.outgoing.y, point.outgoing.z) {}
+
+    void drawCandidates(HashedNumbers& random) {
+        for (int i = 0; i < kFromLight; i++) {
+            const double choice = (double(i) + double(random.next())) / kFromLight;
+            const float across = random.next(), down = random.next();
+            const auto [direction, texel] = mLight.draw(choice, across, down);
+            add(direction, mPoint.frame.toLocal(direction), texel);
+        }
+        for (int i = 0; i < kFromCosine; i++) {
+            const float turn = (float(i) + random.next()) / kFromCosine;
+            addLocal(onCone(std::sqrt(1 - random.next()), turn));
+        }
+        const TangentFrame frame = tangentFrame(mMirror);
+        for (float width : kLobeWidths) {
+            const float choice = random.next(), turn = random.next();
+            addLocal(frame.toWorld(drawLobe(width, choice, turn)));
+        }
+    }
+
+    // Calls `take` with kRays candidates, in order and some repeatedly: those at equal distances, the first
+    // at `offset` of one, along all weights laid end to end.
+    void choose(float offset, const auto& take) const {
+        if (!(mSum > 0)) return;
+        float end = 0;
+        int taken = 0;
+        for (size_t i = 0; i < mCount; i++) {
+            end += mCandidates[i].weight;
+            for (; taken < kRays && (float(taken) + offset) * mSum < end * kRays; taken++)
+                take(mCandidates[i]);
+        }
+    }
+
+    float sum() const { return mSum; }
+
+  private:
+    void addLocal(vec3 local) {
+        if (!(local.z > 0)) return;
+        const vec3 direction = mPoint.frame.toWorld(local);
+        add(direction, local, mLight.texelOf(direction));
+    }
+
+    void add(vec3 direction, vec3 local, size_t texel) {
+        if (!(local.z > 0)) return;
+        const vec3 radiance = mLight.radiance(texel);
+        if (radiance == vec3(0)) return;
+        const vec3 value = radiance * mPoint.reflected(local) * local.z;
+        const float size = std::abs(value.x) + std::abs(value.y) + std::abs(value.z);
+        if (!(size > 0)) return;
+        float density = kFromLight * mLight.density(direction, texel) + kFromCosine * local.z / kPi;
+        const float t = 0.5f - 0.5f * glm::dot(local, mMirror);
+        for (float width : kLobeWidths) density += lobeDensity(width, t);
+        mCandidates[mCount++] = {direction, value / size, size / density};
+        mSum += size / density;
+    }
+
+    const SurfacePoint& mPoint;
+    const LightDistribution& mLight;
+    vec3 mMirror; // the mirror direction of the view's, in the frame
+    std::array<Candidate, kCandidates> mCandidates;
+    size_t mCount = 0;
+    float mSum = 0;
+};
+
+} // namespace
+
+vec3 sampleReflection(const SurfacePoint& point, const LightDistribution& light, const RayTracer& occluder,
+                      float shadowOffset, HashedNumbers& random) {
+    if (light.isBlack()) return vec3(0);
+    Resampling resampling(point, light);
+    resampling.drawCandidates(random);
+    const vec3 origin = point.position + shadowOffset * point.frame.n;
+    vec3 sum(0);
+    const Candidate* last = nullptr;
+    bool isBlocked = false;
+    resampling.choose(random.next(), [&](const Candidate& chosen) {
+        if (&chosen != last) isBlocked = occluder.occluded(origin, chosen.direction);
+        last = &chosen;
+        if (!isBlocked) sum += chosen.share;
+    });
+    return sum * (resampling.sum() / kRays);
+}
+
+} // namespace relume
