@@ -1,0 +1,91 @@
+#include "precompute/reference/vertex_probe.h"
+
+#include "engine/base/check.h"
+#include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
+#include "engine/math/tangent_frame.h"
+#include "precompute/reference/layer_weights.h"
+#include "precompute/reference/transport_stages.h"
+
+namespace relume {
+
+namespace {
+
+std::vector<float> visibleShares(const Asset& asset, const RayTracer& occluder, vec3 position, vec3 normal) {
+    const int size = asset.visibilitySize, side = size / asset.faceSize;
+    const std::vector<uint8_t> visibility =
+        visibilityCube(occluder, position + asset.visibilityOffset * normal, normal, size);
+    std::vector<float> shares(size_t(kCubeFaces) * size_t(asset.faceSize) * size_t(asset.faceSize), 0);
+    for (int face = 0; face < kCubeFaces; face++)
+        for (int y = 0; y < size; y++)
+            for (int x = 0; x < size; x++)
+                shares[size_t(cubeTexelIndex(face, x / side, y / side, asset.faceSize))] +=
+                    float(visibility[size_t(cubeTexelIndex(face, x, y, size))]) / float(side * side);
+    return shares;
+}
+
+// Per term.
+std::vector<vec3> viewsOf(const AssetPart& part, const PartAppearance& appearance, uint32_t vertex,
+                          vec3 outgoing) {
+    const Mesh& mesh = part.mesh;
+    const FactoredBrdf& brdf = part.sets[appearance.set].brdf;
+    const std::vector<WornLayer> layers = wornLayers(part, appearance);
+    const std::vector<vec3> weights =
+        layerWeights(part, appearance.set, layers, mesh.uvs.empty() ? vec2(0) : mesh.uvs[vertex],
+                     mesh.colors.empty() ? vec4(0) : mesh.colors[vertex]);
+    const MapPlace place = placeInMap(brdf.size, brdf.mapping, outgoing);
+    std::vector<vec3> views(size_t(brdf.terms), vec3(0));
+    for (int term = 0; term < brdf.terms; term++)
+        for (size_t i = 0; i < layers.size(); i++)
+            views[size_t(term)] += weights[i] * lookupMap(brdf.viewMap(layers[i].layer, term), place);
+    return views;
+}
+
+vec3 innerProduct(const std::vector<vec3>& coefficients, const LightVector& light) {
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < light.indices.size(); i++) {
+        const auto& value = light.values[i];
+        sum += glm::dvec3(coefficients[light.indices[i]]) * glm::dvec3(value[0], value[1], value[2]);
+    }
+    return vec3(sum * double(light.scale));
+}
+
+} // namespace
+
+VertexProbe probeVertex(const Asset& asset, const RayTracer& occluder, size_t part, uint32_t vertex, vec3 eye,
+                        const PartAppearance& appearance, const LightCube& light,
+                        const LightVector& lightVector) {
+    RELUME_CHECK_LT(part, asset.parts.size());
+    RELUME_CHECK_EQ(light.size, asset.faceSize);
+    RELUME_CHECK_EQ(lightVector.faceSize, asset.faceSize);
+    const AssetPart& source = asset.parts[part];
+    RELUME_CHECK_LT(vertex, source.mesh.vertexCount());
+    const MaterialSet& set = source.sets.at(appearance.set);
+    const vec3 position = source.mesh.positions[vertex], normal = source.mesh.normals[vertex];
+    const vec3 outgoing = liftAboveHorizon(tangentFrame(normal).toLocal(glm::normalize(eye - position)));
+
+    VertexProbe probe;
+    probe.visibility = visibleShares(asset, occluder, position, normal);
+    probe.views = viewsOf(source, appearance, vertex, outgoing);
+    probe.transport = {asset.faceSize, std::vector<vec3>(light.radiance.size(), vec3(0))};
+    std::vector<vec3>& transport = probe.transport.radiance;
+    glm::dvec3 radiance(0);
+    for (size_t term = 0; term < probe.views.size(); term++) {
+        const std::vector<vec3> coefficients =
+            coefficientsOf(set.transport, size_t(vertex) * probe.views.size() + term, transport.size());
+        for (size_t i = 0; i < transport.size(); i++) transport[i] += probe.views[term] * coefficients[i];
+        probe.tuple.push_back(innerProduct(coefficients, lightVector));
+        radiance += glm::dvec3(probe.views[term]) * glm::dvec3(probe.tuple[term]);
+    }
+    probe.radiance = vec3(radiance);
+    const size_t faceTexels = transport.size() / kCubeFaces;
+    for (size_t face = 0; face < kCubeFaces; face++)
+        haarInverse(std::span(transport).subspan(face * faceTexels, faceTexels), asset.faceSize);
+    glm::dvec3 full(0);
+    for (size_t i = 0; i < transport.size(); i++)
+        full += glm::dvec3(transport[i]) * glm::dvec3(light.radiance[i]);
+    probe.fullRadiance = vec3(full);
+    return probe;
+}
+
+} // namespace relume
