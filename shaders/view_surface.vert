@@ -5,10 +5,10 @@
 #include "shaders/shared/render.h"
 
 layout(push_constant, scalar) uniform Push { ViewSurfacePush push; };
-layout(binding = 0, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(location = 0) in vec3 position;
 layout(location = 0) flat out uint surface;
 
 void main() {
     surface = push.firstSurface + gl_VertexIndex;
-    gl_Position = push.clipFromWorld * vec4(positions[gl_VertexIndex], 1);
+    gl_Position = push.clipFromWorld * vec4(position, 1);
 }

@@ -102,6 +102,7 @@ ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptio
     : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(depthFormatOf(device)) {
     vk::GraphicsOptions surfaces{.colorFormat = kSurfaceFormat, .depthFormat = mDepthFormat};
     surfaces.stencil = vk::Stencil::Write;
+    surfaces.readsPositions = true;
     mSurfaceProgram = {device, view_surface_vert_spirv, view_surface_frag_spirv, {}, surfaces, "surfaces"};
     surfaces.cull = vk::Cull::Clockwise;
     mClosedSurfaceProgram = {device,   view_surface_vert_spirv, view_surface_frag_spirv, {},
@@ -130,7 +131,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
     if (numbered.positions.size() > mostVertices)
         throw Error("{}: {} vertices are drawn, {} counts at most {}; split the mesh into several parts",
                     source.name, numbered.positions.size(), mDevice.name(), mostVertices);
-    part.drawnPositions = uploadBindable(mDevice, numbered.positions, source.name + " drawn positions");
+    part.drawnPositions = vk::upload<vec3>(mDevice, numbered.positions, source.name + " drawn positions");
     part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
     expectTexels(mDevice, sizeof(shared::ViewVertex) / sizeof(vec4) * source.mesh.vertexCount(),
                  source.name + " vertices");
@@ -238,8 +239,9 @@ ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
 void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const {
     if (part.surfaces == 0) return;
     const bool showsNoBack = part.isClosed && footprintOf(part.bounds, frame.clipFromWorld).isWhole;
-    commands.bind(showsNoBack ? mClosedSurfaceProgram : mSurfaceProgram, {part.drawnPositions},
+    commands.bind(showsNoBack ? mClosedSurfaceProgram : mSurfaceProgram, {},
                   shared::ViewSurfacePush{frame.clipFromWorld, part.firstSurface});
+    commands.setPositions(part.drawnPositions);
     commands.setStencil(stencilOf(part));
     commands.drawIndexed(part.drawnTriangles, 3 * part.surfaces, 1);
 }

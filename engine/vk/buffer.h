@@ -9,7 +9,7 @@
 namespace relume::vk {
 
 enum class BufferUse {
-    Device,   // Lives on the device: storage, index, indirect, transfers either way
+    Device,   // Lives on the device: storage, vertex, index, indirect, transfers either way
     Upload,   // Written by the host, read by the device; mapped
     Readback, // Written by the device, read by the host; mapped
 };

@@ -41,7 +41,8 @@ StageMasks masksOf(Stage stage) {
         return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT |
                     VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                 VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
-                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                    VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                 0};
     default:
         return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT};
@@ -269,6 +270,12 @@ void Commands::drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t 
 
 void Commands::setStencil(uint32_t value) {
     vkCmdSetStencilReference(mCommands, VK_STENCIL_FACE_FRONT_AND_BACK, value);
+}
+
+void Commands::setPositions(const Buffer& positions) {
+    const VkBuffer buffer = positions.handle();
+    const VkDeviceSize start = 0;
+    vkCmdBindVertexBuffers(mCommands, 0, 1, &buffer, &start);
 }
 
 void Commands::draw(uint32_t vertices) { vkCmdDraw(mCommands, vertices, 1, 0, 0); }

@@ -88,6 +88,8 @@ class Commands {
     }
     // Inside render(), after bind(): the value that the program's stencil writes or compares with.
     void setStencil(uint32_t value);
+    // Likewise: what a program that reads positions reads, a vec3 a vertex.
+    void setPositions(const Buffer& positions);
     void drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t instances, uint32_t firstIndex = 0);
     // Vertices by number alone.
     void draw(uint32_t vertices);

@@ -1,6 +1,7 @@
 #include "engine/vk/program.h"
 
 #include "engine/base/check.h"
+#include "engine/math/vector.h"
 #include "engine/vk/image.h"
 #include "engine/vk/result.h"
 
@@ -145,8 +146,12 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     const VkPipelineShaderStageCreateInfo stages[] = {
         vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialisation.info),
         fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT, specialisation.info)};
-    const VkPipelineVertexInputStateCreateInfo input{
-        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    const VkVertexInputBindingDescription tight{0, sizeof(vec3), VK_VERTEX_INPUT_RATE_VERTEX};
+    const VkVertexInputAttributeDescription position{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    input.vertexBindingDescriptionCount = input.vertexAttributeDescriptionCount = options.readsPositions;
+    input.pVertexBindingDescriptions = &tight;
+    input.pVertexAttributeDescriptions = &position;
     VkPipelineInputAssemblyStateCreateInfo assembly{
         VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;

@@ -60,10 +60,11 @@ struct GraphicsOptions {
     bool depthWrite = true; // false where all depths compare: no depth test
     Cull cull = Cull::None;
     Stencil stencil = Stencil::None; // else the depth format must have one
+    bool readsPositions = false;     // attribute 0 is a vec3 of Commands::setPositions()
 };
 
 // A vertex and a fragment shader drawing triangle lists, viewport and scissor dynamic,
-// vertices pulled from storage buffers.
+// vertices pulled from storage buffers but for positions.
 class GraphicsProgram : public Program {
   public:
     GraphicsProgram() = default;
