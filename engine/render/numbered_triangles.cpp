@@ -4,30 +4,70 @@
 
 namespace relume {
 
-NumberedTriangles numberTriangles(const Mesh& mesh) {
-    constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-    NumberedTriangles numbered;
-    std::vector<uint32_t> copies(mesh.vertexCount(), kNone); // one of each vertex that has any
-    for (const uvec3& triangle : mesh.triangles) {
-        // A vertex without a copy first, so that few are needed in the end.
-        int first = 0;
-        while (first < 2 && copies[triangle[first]] != kNone) first++;
-        if (copies[triangle[first]] != kNone) first = 0;
-        const auto number = uint32_t(numbered.positions.size());
-        numbered.positions.push_back(mesh.positions[triangle[first]]);
-        copies[triangle[first]] = number;
-        // Of the mesh's vertices for now, but for the first.
-        numbered.triangles.emplace_back(number, triangle[(first + 1) % 3], triangle[(first + 2) % 3]);
-    }
-    for (uvec3& triangle : numbered.triangles)
-        for (int c = 1; c < 3; c++) {
-            uint32_t& copy = copies[triangle[c]];
-            if (copy == kNone) {
-                copy = uint32_t(numbered.positions.size());
-                numbered.positions.push_back(mesh.positions[triangle[c]]);
-            }
-            triangle[c] = copy;
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+// Triangles after which devices no longer hold what was made of a vertex: about what they hold, and the
+// least vertices on lavapipe.
+constexpr uint32_t kHeld = 32;
+
+// A copy of a vertex that begins a triangle, or none does.
+struct Copy {
+    uint32_t number = kNone, lastTriangle = 0;
+};
+
+// Per triangle the next one that begins with the same vertex, per vertex the first.
+struct Beginnings {
+    explicit Beginnings(const std::vector<uvec3>& triangles, size_t vertices)
+        : next(triangles.size(), kNone), first(vertices, kNone) {
+        for (auto t = uint32_t(triangles.size()); t-- > 0;) {
+            next[t] = first[triangles[t].x];
+            first[triangles[t].x] = t;
         }
+    }
+    std::vector<uint32_t> next, first;
+};
+
+// The corners of every triangle turned so that few vertices begin none.
+std::vector<uvec3> turned(const Mesh& mesh) {
+    std::vector<uvec3> triangles;
+    triangles.reserve(mesh.triangleCount());
+    std::vector<bool> begins(mesh.vertexCount(), false);
+    for (const uvec3& triangle : mesh.triangles) {
+        int first = 0;
+        while (first < 2 && begins[triangle[first]]) first++;
+        if (begins[triangle[first]]) first = 0;
+        begins[triangle[first]] = true;
+        triangles.emplace_back(triangle[first], triangle[(first + 1) % 3], triangle[(first + 2) % 3]);
+    }
+    return triangles;
+}
+
+} // namespace
+
+NumberedTriangles numberTriangles(const Mesh& mesh) {
+    NumberedTriangles numbered{{}, turned(mesh)};
+    for (const uvec3& triangle : numbered.triangles) numbered.positions.push_back(mesh.positions[triangle.x]);
+    auto [next, coming] = Beginnings(numbered.triangles, mesh.vertexCount());
+    std::vector<Copy> copies(mesh.vertexCount()); // that were used last
+    for (uint32_t t = 0; t < numbered.triangles.size(); t++) {
+        uvec3& triangle = numbered.triangles[t];
+        copies[triangle.x] = {t, t};
+        coming[triangle.x] = next[t];
+        triangle.x = t;
+        for (int c = 1; c < 3; c++) {
+            const uint32_t vertex = triangle[c];
+            Copy& copy = copies[vertex];
+            if ((copy.number == kNone || t - copy.lastTriangle > kHeld) && coming[vertex] != kNone)
+                copy.number = coming[vertex];
+            if (copy.number == kNone) {
+                copy.number = uint32_t(numbered.positions.size());
+                numbered.positions.push_back(mesh.positions[vertex]);
+            }
+            copy.lastTriangle = t;
+            triangle[c] = copy.number;
+        }
+    }
     return numbered;
 }
 

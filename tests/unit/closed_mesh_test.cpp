@@ -4,6 +4,7 @@
 #include "engine/scene/builtin_mesh.h"
 
 #include <algorithm>
+#include <deque>
 #include <doctest/doctest.h>
 
 using namespace relume;
@@ -85,4 +86,20 @@ TEST_CASE("numbered triangles: each begins with the vertex of its number, and is
             CHECK(same);
         }
     }
+}
+
+TEST_CASE("numbered triangles: neighbours share vertices while devices hold them") {
+    const Mesh mesh = makePlane(1, 100);
+    const NumberedTriangles numbered = numberTriangles(mesh);
+    // Vertices made where the last 32 are held; no order makes fewer than one a triangle.
+    std::deque<uint32_t> held;
+    size_t made = 0;
+    for (const uvec3& triangle : numbered.triangles)
+        for (int c = 0; c < 3; c++)
+            if (std::ranges::find(held, triangle[c]) == held.end()) {
+                made++;
+                held.push_back(triangle[c]);
+                if (held.size() > 32) held.pop_front();
+            }
+    CHECK_LT(made, mesh.triangleCount() * 21 / 20);
 }
