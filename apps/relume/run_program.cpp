@@ -4,10 +4,25 @@
 
 #include <cstdio>
 #include <iostream>
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
+
+namespace {
+
+// Software drivers allocate what they need for a frame and free it afterwards. As glibc would have it the
+// system gets it back between the frames, and finding it again costs as much as processing the vertices
+// (docs/view_speed.md).
+void keepFreedMemory() {
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); // what it would grow to by itself, had the other not been set
+#endif
+}
+
+} // namespace
 
 void logToStderr(const char* name) {
     spdlog::set_default_logger(spdlog::stderr_color_mt(name));
@@ -15,6 +30,7 @@ void logToStderr(const char* name) {
 }
 
 int runProgram(CLI::App& program, int argc, char** argv, const std::function<void()>& work) {
+    keepFreedMemory();
     try {
         program.parse(argc, argv);
         work();
