@@ -6,6 +6,7 @@
 // on lavapipe that takes a fraction of the time of loads.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/barycentric.glsl"
 #include "shaders/lib/disk_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
 #include "shaders/shared/render.h"
@@ -13,6 +14,7 @@
 layout(constant_id = 0) const uint kTerms = 4;
 layout(constant_id = 1) const bool kGrey = false; // all view maps are: ViewMapTexture
 layout(constant_id = 2) const uint kLook = 0;
+layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGrey ? kQuads : (3 * kTerms + 3) / 4;
@@ -49,6 +51,14 @@ Quad mapsOf(vec2 place, uint firstMap, uint quad) {
     return q;
 }
 
+// The first `terms`; the others are zero.
+void keepTerms(inout Quad q, uint terms) {
+    const vec4 kept = vec4(lessThan(uvec4(0, 1, 2, 3), uvec4(terms)));
+    q.a *= kept.xxxy;
+    q.b *= kept.yyzz;
+    q.c *= kept.zwww;
+}
+
 void addTuple(inout Quad sum, float weight, uint vertex, uint quad) {
     if (kWholeQuads) {
         const int first = int((vertex * kQuads + quad) * 3);
@@ -82,12 +92,8 @@ vec3 shade(uint triangle, vec3 direction) {
         low[c] = texelFetch(vertices, int(corners[c] * 3));
         high[c] = texelFetch(vertices, int(corners[c] * 3 + 1));
     }
-    // Barycentric weights where the ray meets the triangle's plane (Möller and Trumbore 1997), moved to the nearest
-    // edge if rounding puts them outside.
-    const vec3 e1 = low[1].xyz - low[0].xyz, e2 = low[2].xyz - low[0].xyz, s = push.eye - low[0].xyz;
-    const vec3 p = cross(direction, e2), q = cross(s, e1);
-    const float determinant = dot(e1, p), scale = determinant != 0 ? 1 / determinant : 0;
-    vec3 weights = vec3(0, dot(s, p) * scale, dot(direction, q) * scale);
+    // Moved to the nearest edge if rounding puts them outside.
+    vec3 weights = barycentricWeights(push.rays.eye, direction, vec3[3](low[0].xyz, low[1].xyz, low[2].xyz));
     weights.yz = clamp(weights.yz, 0, 1);
     weights.yz /= max(1, weights.y + weights.z);
     weights.x = 1 - weights.y - weights.z;
@@ -112,7 +118,8 @@ vec3 shade(uint triangle, vec3 direction) {
         base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
     }
     Quad sum = Quad(vec4(0), vec4(0), vec4(0));
-    for (uint quad = 0; quad < kQuads; quad++) {
+    const uint quads = kAllTerms ? kQuads : (push.terms + 3) / 4;
+    for (uint quad = 0; quad < quads; quad++) {
         Quad maps = Quad(vec4(0), vec4(0), vec4(0));
         if (kLook == kSingleLook)
             maps = mapsOf(place, push.firstMap, quad);
@@ -128,6 +135,7 @@ vec3 shade(uint triangle, vec3 direction) {
                 maps.b += weight.gbrg * layer.b;
                 maps.c += weight.brgb * layer.c;
             }
+        if (!kAllTerms) keepTerms(maps, push.terms - 4 * quad);
         Quad tuple = Quad(vec4(0), vec4(0), vec4(0));
         for (int c = 0; c < 3; c++) addTuple(tuple, weights[c], corners[c], quad);
         sum.a += maps.a * tuple.a;
@@ -142,7 +150,7 @@ void main() {
     const uint triangle = surface - push.firstSurface;
     // The stencil tells most pixels of other parts before the shader runs.
     if (surface < push.firstSurface || triangle >= push.surfaces) discard;
-    const vec3 direction = push.corner + gl_FragCoord.x * push.right + gl_FragCoord.y * push.down;
+    const vec3 direction = push.rays.corner + gl_FragCoord.x * push.rays.right + gl_FragCoord.y * push.rays.down;
     // A truncated sum of products can be negative.
     radiance = vec4(max(shade(triangle, direction), 0), 1);
 }

@@ -21,6 +21,7 @@ struct Arguments {
     AppearanceArguments appearance;
     DeviceArguments device;
     LightSelection selection;
+    int terms = 0; // 0: all
     int frames = 1;
     float rate = 24; // frames a second of light that moves
     std::string turn = "camera";
@@ -101,6 +102,7 @@ void run(const Arguments& arguments) {
     relighter.setMode(arguments.mode);
     ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
     view.setAppearance(appearance);
+    view.setTerms(arguments.terms);
 
     const bool turnsBoth = arguments.turn == "both";
     const bool turnsLight = turnsBoth || arguments.turn == "light";
@@ -174,6 +176,9 @@ void addRenderCommand(CLI::App& program) {
         ->excludes(threshold);
     command->add_flag("--area-weighted", arguments->selection.areaWeighted,
                       "Weigh light coefficients by the area of their functions when selecting");
+    command->add_option("--terms", arguments->terms, "Sum the first of the bake's K terms only")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1, 1024));
     arguments->camera.add(*command);
     command
         ->add_option("--frames", arguments->frames,

@@ -19,6 +19,8 @@ struct LightSelection {
     // Or, instead, the so many of the largest weight; of equals those of lower index. At least 1.
     std::optional<int> count = std::nullopt;
     bool areaWeighted = false;
+
+    bool operator==(const LightSelection&) const = default;
 };
 
 // The share of the largest weight that a kept entry has at least.

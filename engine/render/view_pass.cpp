@@ -5,6 +5,7 @@
 #include "engine/render/numbered_triangles.h"
 #include "engine/scene/closed_mesh.h"
 #include "engine/vk/upload.h"
+#include "shaders/view_inspect_frag.h"
 #include "shaders/view_shade_frag.h"
 #include "shaders/view_shade_vert.h"
 #include "shaders/view_surface_frag.h"
@@ -42,6 +43,15 @@ void expectTexels(const vk::Device& device, uint64_t texels, const std::string& 
                     name, texels, device.name(), device.limits().maxTexelBufferElements, orElse);
 }
 
+// Of what pixels show where the stencil says that they may.
+vk::GraphicsOptions shadeOptions(VkFormat depthFormat) {
+    return {.colorFormat = kColorFormat,
+            .depthFormat = depthFormat,
+            .depthCompare = VK_COMPARE_OP_ALWAYS,
+            .depthWrite = false,
+            .stencil = vk::Stencil::Equal};
+}
+
 template <typename T>
 vk::Buffer uploadBindable(const vk::Device& device, const std::vector<T>& values, const std::string& name) {
     const uint64_t bytes = std::span(values).size_bytes();
@@ -66,6 +76,19 @@ std::vector<glm::u32vec4> cornersOf(const Mesh& mesh) {
     corners.reserve(mesh.triangleCount());
     for (const uvec3& triangle : mesh.triangles) corners.emplace_back(triangle, 0);
     return corners;
+}
+
+float medianAreaOf(const Asset& asset) {
+    std::vector<float> areas;
+    for (const AssetPart& part : asset.parts)
+        for (const uvec3& t : part.mesh.triangles) {
+            const std::vector<vec3>& p = part.mesh.positions;
+            areas.push_back(0.5f * glm::length(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x])));
+        }
+    if (areas.empty()) return 0;
+    const auto middle = areas.begin() + std::ptrdiff_t(areas.size() / 2);
+    std::nth_element(areas.begin(), middle, areas.end());
+    return *middle;
 }
 
 // The least of the shader's ways that serves these layers.
@@ -190,17 +213,12 @@ void ViewPass::setAppearance(const Appearance& appearance) {
     }
 }
 
-const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uint32_t look) {
-    vk::GraphicsProgram& program = mShadePrograms[{terms, uint32_t(grey), look}];
-    const vk::GraphicsOptions options{.colorFormat = kColorFormat,
-                                      .depthFormat = mDepthFormat,
-                                      .depthCompare = VK_COMPARE_OP_ALWAYS,
-                                      .depthWrite = false,
-                                      .stencil = vk::Stencil::Equal};
+const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms) {
+    vk::GraphicsProgram& program = mShadePrograms[{terms, uint32_t(grey), look, uint32_t(allTerms)}];
     if (!program.pipeline())
         program = vk::GraphicsProgram(mDevice, view_shade_vert_spirv, view_shade_frag_spirv,
-                                      {terms, uint32_t(grey), look}, options,
-                                      fmt::format("view of {} terms", terms));
+                                      {terms, uint32_t(grey), look, uint32_t(allTerms)},
+                                      shadeOptions(mDepthFormat), fmt::format("view of {} terms", terms));
     return program;
 }
 
@@ -246,19 +264,43 @@ void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Pa
     commands.drawIndexed(part.drawnTriangles, 3 * part.surfaces, 1);
 }
 
-void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& part,
-                     const vk::Buffer& tuples) const {
-    const Set& set = wornSet(part);
+std::optional<shared::ViewRays> ViewPass::raysOf(const Frame& frame, const Part& part) {
     const Footprint footprint = footprintOf(part.bounds, frame.clipFromWorld);
     const vec2 low = glm::max(footprint.low - frame.pixel, vec2(-1)),
                high = glm::min(footprint.high + frame.pixel, vec2(1));
-    if (part.surfaces == 0 || low.x >= high.x || low.y >= high.y) return;
+    if (part.surfaces == 0 || low.x >= high.x || low.y >= high.y) return std::nullopt;
+    return shared::ViewRays{frame.eye, frame.corner, frame.right, frame.down,
+                            vec4(low.x, low.y, high.x, high.y)};
+}
+
+void ViewPass::inspect(vk::Commands& commands, const Frame& frame, const Part& part) {
+    static_assert(uint32_t(Inspect::Wireframe) == shared::kInspectWireframe &&
+                  uint32_t(Inspect::Normals) == shared::kInspectNormals &&
+                  uint32_t(Inspect::Density) == shared::kInspectDensity);
+    const std::optional<shared::ViewRays> rays = raysOf(frame, part);
+    if (!rays) return;
+    if (!mInspectProgram.pipeline()) {
+        mInspectProgram = {mDevice, view_shade_vert_spirv,      view_inspect_frag_spirv,
+                           {},      shadeOptions(mDepthFormat), "inspect"};
+        mMedianArea = medianAreaOf(mAsset);
+    }
+    commands.bind(
+        mInspectProgram,
+        {{mSurfaces, mPixelSampler},
+         vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
+         vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT)},
+        shared::ViewInspectPush{*rays, part.firstSurface, part.surfaces, uint32_t(mInspect), mMedianArea});
+    commands.setStencil(stencilOf(part));
+    commands.draw(6);
+}
+
+void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& part, const vk::Buffer& tuples) {
+    const Set& set = wornSet(part);
+    const std::optional<shared::ViewRays> rays = raysOf(frame, part);
+    if (!rays) return;
+    const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
     const bool isSingle = part.look == shared::kSingleLook;
-    const shared::ViewShadePush push{frame.eye,
-                                     frame.corner,
-                                     frame.right,
-                                     frame.down,
-                                     vec4(low.x, low.y, high.x, high.y),
+    const shared::ViewShadePush push{*rays,
                                      part.firstSurface,
                                      part.surfaces,
                                      uint32_t(set.mapping),
@@ -266,8 +308,10 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
                                      isSingle ? part.wornLayers[0].weight : 0,
                                      uint32_t(part.wornLayers.size()),
                                      part.worn.painted ? part.paint : shared::kUnpainted,
-                                     set.materials};
-    commands.bind(*set.programs[part.look],
+                                     set.materials,
+                                     usesAll ? set.terms : uint32_t(mTerms)};
+    commands.bind(usesAll ? *set.programs[part.look]
+                          : shadeProgram(set.terms, set.viewMaps.isGrey, part.look, false),
                   {{mSurfaces, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
@@ -282,7 +326,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
     commands.draw(6);
 }
 
-void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) const {
+void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const Frame frame = frameOf(camera);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
@@ -304,7 +348,10 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
         commands.barrier(Stage::Color, Stage::Color);
         commands.render({.color = &mColor, .depth = &mDepth, .keepsDepth = true}, [&] {
             for (size_t i = 0; i < mParts.size(); i++)
-                shade(commands, frame, mParts[i], relighter.tuples(i, mParts[i].worn.set));
+                if (mInspect == Inspect::Off)
+                    shade(commands, frame, mParts[i], relighter.tuples(i, mParts[i].worn.set));
+                else
+                    inspect(commands, frame, mParts[i]);
         });
         commands.transition(mColor, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Stage::Color, Stage::Transfer);
@@ -325,7 +372,7 @@ Image ViewPass::read() const {
     return image;
 }
 
-Image ViewPass::render(const Camera& camera, const Relighter& relighter) const {
+Image ViewPass::render(const Camera& camera, const Relighter& relighter) {
     vk::Commands commands(mDevice, "view");
     commands.begin();
     record(commands, camera, relighter);

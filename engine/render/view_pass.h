@@ -16,6 +16,10 @@ struct ViewOptions {
     int width = 640, height = 480;
 };
 
+// What an image shows instead of radiance: triangles' edges; normals, as normal maps are coloured; how much
+// smaller (red) or larger (blue) triangles are than the asset's median.
+enum class Inspect { Off, Wireframe, Normals, Density };
+
 class ViewPass {
   public:
     // Uploads meshes, view maps and textures. `asset` must outlive this. Throws OutOfMemory, or
@@ -29,8 +33,13 @@ class ViewPass {
     // travels with the commands.
     void setAppearance(const Appearance& appearance);
 
+    // From the next record() on every part shows the first `terms` of its K only; 0 or K and more: all.
+    void setTerms(int terms) { mTerms = terms; }
+    // From the next record() on.
+    void setInspect(Inspect inspect) { mInspect = inspect; }
+
     // Pass "view": draws the asset with the tuples recorded before.
-    void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) const;
+    void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter);
 
     // RGBA32F, linear, alpha 1 where covered, 0 elsewhere; in TRANSFER_SRC_OPTIMAL after record(). It can be
     // sampled as well.
@@ -40,7 +49,7 @@ class ViewPass {
     Image read() const;
 
     // One submission of record(), read back.
-    Image render(const Camera& camera, const Relighter& relighter) const;
+    Image render(const Camera& camera, const Relighter& relighter);
 
   private:
     struct Set {
@@ -69,7 +78,7 @@ class ViewPass {
     struct Frame {
         mat4 clipFromWorld;
         vec3 eye;
-        vec3 corner, right, down; // shared::ViewShadePush
+        vec3 corner, right, down; // shared::ViewRays
         vec2 pixel;               // its size in clip space
     };
 
@@ -80,19 +89,26 @@ class ViewPass {
     uint32_t stencilOf(const Part& part) const { return uint32_t(&part - mParts.data()) % 255 + 1; }
     Frame frameOf(const Camera& camera) const;
     void drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const;
-    void shade(vk::Commands& commands, const Frame& frame, const Part& part, const vk::Buffer& tuples) const;
+    void shade(vk::Commands& commands, const Frame& frame, const Part& part, const vk::Buffer& tuples);
+    void inspect(vk::Commands& commands, const Frame& frame, const Part& part);
+    // None: it is not seen.
+    static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Part& part);
     // `look`: shared::kSingleLook and so on.
-    const vk::GraphicsProgram& shadeProgram(uint32_t terms, bool grey, uint32_t look);
+    const vk::GraphicsProgram& shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms = true);
 
     const vk::Device& mDevice;
     const Asset& mAsset;
     Bounds mBounds;
     VkFormat mDepthFormat;
     vk::GraphicsProgram mSurfaceProgram, mClosedSurfaceProgram;
-    std::map<std::array<uint32_t, 3>, vk::GraphicsProgram> mShadePrograms; // by shadeProgram()'s arguments
+    std::map<std::array<uint32_t, 4>, vk::GraphicsProgram> mShadePrograms; // by shadeProgram()'s arguments
+    vk::GraphicsProgram mInspectProgram;                                   // made when it is first asked for
     vk::Sampler mPixelSampler;
     vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
     std::vector<Part> mParts;
+    int mTerms = 0;
+    Inspect mInspect = Inspect::Off;
+    float mMedianArea = 0;
     vk::Image mColor, mSurfaces, mDepth;
 };
 

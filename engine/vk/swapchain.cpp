@@ -3,6 +3,7 @@
 #include "engine/vk/result.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace relume::vk {
 
@@ -34,13 +35,12 @@ VkPresentModeKHR modeOf(VkPhysicalDevice physical, VkSurfaceKHR surface, bool wa
 } // namespace
 
 Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface, bool waitsForDisplay)
-    : mDevice(device), mSurface(surface) {
+    : mDevice(device), mSurface(surface), mWaitsForDisplay(waitsForDisplay) {
     VkBool32 canShow = VK_FALSE;
     RELUME_VK(
         vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &canShow));
     if (!canShow) throw NoDeviceError("{}: cannot show images in this window; name another", device.name());
     mFormat = formatOf(device.physical(), surface);
-    mMode = modeOf(device.physical(), surface, waitsForDisplay);
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mAcquired));
 }
@@ -60,6 +60,8 @@ void Swapchain::destroy() {
     vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
     mSwapchain = VK_NULL_HANDLE;
 }
+
+bool Swapchain::setWaitsForDisplay(bool waits) { return std::exchange(mWaitsForDisplay, waits) != waits; }
 
 bool Swapchain::resize(uint32_t width, uint32_t height) {
     destroy();
@@ -88,7 +90,7 @@ bool Swapchain::resize(uint32_t width, uint32_t height) {
     create.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                 ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                 : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    create.presentMode = mMode;
+    create.presentMode = modeOf(mDevice.physical(), mSurface, mWaitsForDisplay);
     create.clipped = VK_FALSE; // screenshots show what is behind other windows too
     RELUME_VK(vkCreateSwapchainKHR(mDevice.handle(), &create, nullptr, &mSwapchain));
     uint32_t count = 0;

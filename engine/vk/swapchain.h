@@ -23,6 +23,9 @@ class Swapchain {
     // then there is nothing to draw on.
     bool resize(uint32_t width, uint32_t height);
 
+    // As the constructor's. True: it is another choice than before, for which resize() must be called.
+    bool setWaitsForDisplay(bool waits);
+
     // Of 8 bits a channel, not converted: values are written as the display takes them (sRGB).
     VkFormat format() const { return mFormat.format; }
     uint32_t width() const { return mExtent.width; }
@@ -42,7 +45,7 @@ class Swapchain {
     const Device& mDevice;
     VkSurfaceKHR mSurface;
     VkSurfaceFormatKHR mFormat;
-    VkPresentModeKHR mMode = VK_PRESENT_MODE_FIFO_KHR;
+    bool mWaitsForDisplay;
     VkSwapchainKHR mSwapchain = VK_NULL_HANDLE;
     VkExtent2D mExtent{0, 0};
     std::vector<Image> mImages;

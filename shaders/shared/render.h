@@ -144,10 +144,16 @@ struct ViewSurfacePush {
 };
 RELUME_SHARED_SIZE(ViewSurfacePush, 68)
 
-struct ViewShadePush {
+// The pixels that a part may cover, and where they look.
+struct ViewRays {
     vec3 eye;
     vec3 corner, right, down; // a pixel's direction: corner + x · right + y · down, not normalised
-    vec4 rectangle; // of the pixels that the part may cover, in clip space: left, top, right, bottom
+    vec4 rectangle;           // of these pixels, in clip space: left, top, right, bottom
+};
+RELUME_SHARED_SIZE(ViewRays, 64)
+
+struct ViewShadePush {
+    ViewRays rays;
     uint firstSurface, surfaces;
     uint mapping;   // of the view maps: DiskMapping
     uint firstMap;  // kSingleLook: of the layer,
@@ -155,8 +161,30 @@ struct ViewShadePush {
     uint layers;    // that are worn
     uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
     uint materials; // of the worn set: no more than these share the paint
+    uint terms;     // that are summed, the first ones: 1 to K
 };
-RELUME_SHARED_SIZE(ViewShadePush, 96)
+RELUME_SHARED_SIZE(ViewShadePush, 100)
+
+// What view_inspect.frag shows, in the order of Inspect.
+const uint kInspectWireframe = 1, kInspectNormals = 2, kInspectDensity = 3;
+
+struct ViewInspectPush {
+    ViewRays rays;
+    uint firstSurface, surfaces;
+    uint mode;        // kInspectWireframe and so on
+    float medianArea; // of the asset's triangles
+};
+RELUME_SHARED_SIZE(ViewInspectPush, 80)
+
+// How compare.frag puts two images together, in the order of CompareMode.
+const uint kCompareSplit = 0, kCompareDifference = 1;
+
+struct ComparePush {
+    uint mode;
+    float split; // column that the second image begins at
+    float scale; // of differences: 1 is the hottest colour
+};
+RELUME_SHARED_SIZE(ComparePush, 12)
 
 // Tone curves, in the order of ToneCurve.
 const uint kToneNone = 0, kToneAces = 1, kToneAgx = 2;

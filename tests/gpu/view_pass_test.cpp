@@ -368,7 +368,7 @@ TEST_CASE("view pass: another size is another image") {
     const TestScene scene(device, asset, defaultAppearance(asset));
     const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, 1.5f);
     ViewPass resized(device, asset, {.width = 20, .height = 90});
-    const ViewPass made(device, asset, {.width = 60, .height = 40});
+    ViewPass made(device, asset, {.width = 60, .height = 40});
     resized.render(camera, scene.relighter);
     resized.resize(60, 40);
     CHECK(resized.render(camera, scene.relighter).pixels == made.render(camera, scene.relighter).pixels);
@@ -407,4 +407,65 @@ TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
     view.resize(30, 20);
     CHECK_EQ(view.render({{0, 3, 0}, {0, 0, 0}, 1.2f}, relighter).at(15, 10).x,
              doctest::Approx(0.5 * 2 * 3 * 64));
+}
+
+TEST_CASE("view pass: the first terms of K are what is left when the maps of the others are zero") {
+    const TestDevice device;
+    const Camera camera = orbitCamera(boundsOf(makeAsset(1, 1)), 0.5f, 0.6f, 0.7f, 1, 1.5f);
+    for (const int terms : {4, 6}) {
+        const Asset asset = makeAsset(terms, 3);
+        const TestScene scene(device, asset, defaultAppearance(asset));
+        ViewPass cut(device, asset, {.width = 40, .height = 40});
+        const Image whole = cut.render(camera, scene.relighter);
+        Image last;
+        for (const int kept : {1, 2, 5}) {
+            CAPTURE(terms);
+            CAPTURE(kept);
+            Asset zeroed = asset;
+            for (AssetPart& part : zeroed.parts) {
+                FactoredBrdf& brdf = part.sets[0].brdf;
+                for (int term = kept; term < brdf.terms; term++)
+                    std::ranges::fill(
+                        std::span(brdf.viewMaps).subspan(size_t(term) * brdf.mapTexels(), brdf.mapTexels()),
+                        vec3(0));
+            }
+            ViewPass expected(device, zeroed, {.width = 40, .height = 40});
+            cut.setTerms(kept);
+            last = cut.render(camera, scene.relighter);
+            const Image without = expected.render(camera, scene.relighter);
+            for (size_t i = 0; i < last.pixels.size(); i++) // compilers may fuse products with sums
+                CHECK_LE(glm::distance(last.pixels[i], without.pixels[i]),
+                         1e-5f * (1 + glm::length(without.pixels[i])));
+        }
+        CHECK((last.pixels == whole.pixels) == (terms == 4));
+        cut.setTerms(0);
+        CHECK(cut.render(camera, scene.relighter).pixels == whole.pixels);
+    }
+}
+
+TEST_CASE("view pass: inspected, a plane shows its edges, its normal, and that its triangles are alike") {
+    const TestDevice device;
+    Asset asset;
+    asset.parts.push_back(makePart(makePlane(2, 2), 1, DiskMapping::Orthographic, 4));
+    const TestScene scene(device, asset, defaultAppearance(asset));
+    ViewPass view(device, asset, {.width = 64, .height = 64});
+    const auto shown = [&](Inspect inspect) {
+        view.setInspect(inspect);
+        return view.render({{0, 3, 0}, {0, 0, 0}, 0.5f}, scene.relighter); // within the plane
+    };
+    const Image normals = shown(Inspect::Normals), density = shown(Inspect::Density),
+                wires = shown(Inspect::Wireframe);
+    const float half = std::pow(0.5f, 2.2f);
+    size_t edges = 0;
+    for (size_t i = 0; i < normals.pixels.size(); i++) {
+        CHECK_LT(glm::distance(normals.pixels[i], vec4(half, 1, half, 1)), 1e-3f);
+        const vec4 d = density.pixels[i];
+        CHECK(d.x == d.z);
+        CHECK_GT(d.x, 0.8f);
+        edges += wires.pixels[i].x > 0.4f;
+    }
+    // A cross of two pixels' width, and two diagonals.
+    CHECK_GT(edges, 64u * 2);
+    CHECK_LT(edges, 64u * 64 / 4);
+    CHECK(shown(Inspect::Off).pixels != normals.pixels);
 }

@@ -32,7 +32,7 @@ Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
     Relighter relighter(device, asset);
-    const ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
+    ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
     vk::Commands commands(device, "render test");
     commands.begin();
     light.record(commands, 0, {threshold});

@@ -1,0 +1,13 @@
+// Where a ray meets a triangle's plane. C++ twin: Embree, in precompute/reference/ray_tracer.h.
+#ifndef RELUME_SHADERS_LIB_BARYCENTRIC_GLSL
+#define RELUME_SHADERS_LIB_BARYCENTRIC_GLSL
+
+// Barycentric weights there (Möller and Trumbore 1997); outside the triangle some are negative.
+vec3 barycentricWeights(vec3 eye, vec3 direction, vec3 corners[3]) {
+    const vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], s = eye - corners[0];
+    const vec3 p = cross(direction, e2), q = cross(s, e1);
+    const float determinant = dot(e1, p), scale = determinant != 0 ? 1 / determinant : 0;
+    const vec2 yz = vec2(dot(s, p), dot(direction, q)) * scale;
+    return vec3(1 - yz.x - yz.y, yz);
+}
+#endif

@@ -1,0 +1,53 @@
+#version 460
+// What the mesh is like where a pixel sees it, instead of radiance: its triangles, normals, how dense it is.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/barycentric.glsl"
+#include "shaders/shared/render.h"
+
+layout(push_constant, scalar) uniform Push { ViewInspectPush push; };
+layout(binding = 0) uniform usampler2DArray surfaces; // as view_shade.frag
+layout(binding = 1) uniform usamplerBuffer triangles;
+layout(binding = 2) uniform samplerBuffer vertices;
+
+layout(location = 0) out vec4 radiance;
+
+const vec3 kLine = vec3(0.9, 0.45, 0.05);
+
+// 1 on a triangle's edges, 0 from a pixel off them.
+float edge(vec3 direction, vec3 corners[3], vec3 weights) {
+    const vec3 perX = barycentricWeights(push.rays.eye, direction + push.rays.right, corners) - weights;
+    const vec3 perY = barycentricWeights(push.rays.eye, direction + push.rays.down, corners) - weights;
+    const vec3 pixels = weights / max(sqrt(perX * perX + perY * perY), vec3(1e-20));
+    return 1 - clamp(min(min(pixels.x, pixels.y), pixels.z), 0, 1);
+}
+
+// Blue: sixteen times the median area and more; white: the median; red: a sixteenth and less.
+vec3 densityColor(float area) {
+    const float density = clamp(log2(push.medianArea / max(area, 1e-30)) / 4, -1, 1);
+    return mix(vec3(0.85), density < 0 ? vec3(0.02, 0.1, 0.8) : vec3(0.8, 0.03, 0.02), abs(density));
+}
+
+void main() {
+    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
+    const uint triangle = surface - push.firstSurface;
+    if (surface < push.firstSurface || triangle >= push.surfaces) discard;
+    const vec3 direction = push.rays.corner + gl_FragCoord.x * push.rays.right + gl_FragCoord.y * push.rays.down;
+    const uvec3 numbers = texelFetch(triangles, int(triangle)).xyz;
+    vec3 corners[3], normals[3];
+    for (int c = 0; c < 3; c++) {
+        const vec4 low = texelFetch(vertices, int(numbers[c] * 3));
+        corners[c] = low.xyz;
+        normals[c] = vec3(low.w, texelFetch(vertices, int(numbers[c] * 3 + 1)).xy);
+    }
+    const vec3 weights = barycentricWeights(push.rays.eye, direction, corners);
+    const vec3 normal = normalize(weights.x * normals[0] + weights.y * normals[1] + weights.z * normals[2]);
+    const float facing = abs(dot(normal, normalize(direction)));
+    vec3 color = mix(vec3(0.04 + 0.2 * facing), kLine, edge(direction, corners, weights));
+    // Stored so that displays show 0.5 + 0.5 n, as normal maps do.
+    if (push.mode == kInspectNormals) color = pow(0.5 + 0.5 * normal, vec3(2.2));
+    if (push.mode == kInspectDensity)
+        color = (0.3 + 0.7 * facing) *
+                densityColor(0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0])));
+    radiance = vec4(color, 1);
+}
