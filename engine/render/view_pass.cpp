@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 namespace relume {
@@ -32,6 +33,10 @@ VkFormat depthFormatOf(const vk::Device& device) {
     return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
                ? VK_FORMAT_D24_UNORM_S8_UINT
                : VK_FORMAT_D32_SFLOAT_S8_UINT;
+}
+
+float pixelFraction(const vk::Device& device) {
+    return std::exp2(-float(device.limits().subPixelPrecisionBits));
 }
 
 // `orElse`: what helps besides.
@@ -161,6 +166,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
     expectTexels(mDevice, source.mesh.triangleCount(), source.name + " triangles");
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
     part.triangles = vk::upload<glm::u32vec4>(mDevice, cornersOf(source.mesh), source.name + " triangles");
+    part.clusters = TriangleClusters(source.mesh);
     part.firstSurface = firstSurface;
     part.surfaces = uint32_t(source.mesh.triangleCount());
     part.paint = source.paintedByColors ? shared::kPaintedByColors
@@ -261,7 +267,10 @@ void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Pa
                   shared::ViewSurfacePush{frame.clipFromWorld, part.firstSurface});
     commands.setPositions(part.drawnPositions);
     commands.setStencil(stencilOf(part));
-    commands.drawIndexed(part.drawnTriangles, 3 * part.surfaces, 1);
+    const float focalLength = 1 / glm::length(frame.right);
+    for (const TriangleRun& run : part.clusters.visible(
+             {frame.clipFromWorld, frame.eye, focalLength, pixelFraction(mDevice), showsNoBack}))
+        commands.drawIndexed(part.drawnTriangles, 3 * run.count, 1, 3 * run.first);
 }
 
 std::optional<shared::ViewRays> ViewPass::raysOf(const Frame& frame, const Part& part) {

@@ -7,6 +7,7 @@
 #include "engine/render/appearance.h"
 #include "engine/render/map_texture.h"
 #include "engine/render/relighter.h"
+#include "engine/render/triangle_clusters.h"
 #include "engine/scene/camera.h"
 #include "shaders/shared/render.h"
 
@@ -65,8 +66,9 @@ class ViewPass {
         bool isClosed = false;
         vk::Buffer drawnPositions, drawnTriangles; // NumberedTriangles
         vk::Buffer vertices, triangles;            // shared::ViewVertex and corners, looked up by pixels
-        uint32_t firstSurface = 0, surfaces = 0;   // triangles, numbered over all parts from 1 on
-        uint32_t paint = 0;                        // how it is painted where it is
+        TriangleClusters clusters;
+        uint32_t firstSurface = 0, surfaces = 0; // triangles, numbered over all parts from 1 on
+        uint32_t paint = 0;                      // how it is painted where it is
         vk::Image baseColor, materialMap;
         std::vector<Set> sets;
         vk::Buffer layers; // shared::ViewLayer, as many as can be worn

@@ -362,6 +362,39 @@ TEST_CASE("view pass: backs are seen from inside, and through holes") {
     CHECK_LT(whole * 3 / 4, covered(outside));
 }
 
+TEST_CASE("view pass: leaving clusters of triangles out changes no pixel") {
+    const TestDevice device;
+    for (const bool isClosed : {true, false}) {
+        Asset ordered;
+        Mesh mesh = makeKnot(6000);
+        if (!isClosed) mesh.triangles.pop_back();
+        ordered.parts.push_back(makePart(mesh, 1, DiskMapping::EqualArea, 5));
+        // Clusters from everywhere, of which none can be left out.
+        Asset shuffled = ordered;
+        std::mt19937 random(4);
+        std::ranges::shuffle(shuffled.parts[0].mesh.triangles, random);
+        const TestScene scene(device, ordered, defaultAppearance(ordered));
+        ViewPass less(device, ordered, {.width = 90, .height = 60});
+        ViewPass all(device, shuffled, {.width = 90, .height = 60});
+        const Bounds bounds = boundsOf(mesh);
+        const vec3 surface = mesh.positions[0], normal = mesh.normals[0];
+        std::vector<Camera> cameras = {
+            {surface + 0.02f * normal, surface, 0.8f}, // nearer than the near plane of some of it
+            {surface - 0.05f * normal, surface, 2.0f}, // inside
+            {bounds.centre(), bounds.centre() + vec3(1, 0.3f, 0.2f), 1.2f},
+            {bounds.centre() + vec3(0, 0, 30), bounds.centre(), 0.1f},
+            {bounds.centre() + vec3(3, 0, 0), bounds.centre() + vec3(9, 0, 0), 0.8f}}; // all behind
+        for (int i = 0; i < 8; i++)
+            cameras.push_back(orbitCamera(bounds, 0.8f * float(i), 0.3f * float(i) - 1,
+                                          0.3f + 0.1f * float(i), 0.8f, 1.5f));
+        for (size_t i = 0; i < cameras.size(); i++) {
+            CAPTURE(i);
+            CHECK(less.render(cameras[i], scene.relighter).pixels ==
+                  all.render(cameras[i], scene.relighter).pixels);
+        }
+    }
+}
+
 TEST_CASE("view pass: another size is another image") {
     const TestDevice device;
     const Asset asset = makeAsset(4, 1);
