@@ -5,6 +5,7 @@
 #include "shaders/lib/tone_map.glsl"
 #include "shaders/shared/render.h"
 
+layout(constant_id = 0) const uint kCurve = 0;
 layout(push_constant, scalar) uniform Push { DisplayPush push; };
 layout(binding = 0) uniform sampler2DArray image; // as large as the target
 
@@ -12,9 +13,5 @@ layout(location = 0) out vec4 display;
 
 void main() {
     const vec4 pixel = texelFetch(image, ivec3(gl_FragCoord.xy, 0), 0);
-    if (pixel.a == 0) {
-        display = vec4(push.background, 1);
-        return;
-    }
-    display = vec4(toneMap(pixel.rgb, push.curve, push.scale), 1);
+    display = vec4(pixel.a == 0 ? push.background : toneMap(pixel.rgb, kCurve, push.scale), 1);
 }

@@ -4,6 +4,8 @@
 #include "engine/render/tone_map.h"
 #include "engine/vk/commands.h"
 
+#include <array>
+
 namespace relume {
 
 struct DisplayOptions {
@@ -23,7 +25,7 @@ class DisplayPass {
                 const DisplayOptions& options) const;
 
   private:
-    vk::GraphicsProgram mProgram;
+    std::array<vk::GraphicsProgram, 3> mPrograms; // by curve
     vk::Sampler mSampler;
 };
 

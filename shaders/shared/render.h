@@ -192,9 +192,8 @@ const uint kToneNone = 0, kToneAces = 1, kToneAgx = 2;
 struct DisplayPush {
     vec3 background; // display values
     float scale;     // of radiance, before the curve
-    uint curve;
 };
-RELUME_SHARED_SIZE(DisplayPush, 20)
+RELUME_SHARED_SIZE(DisplayPush, 16)
 
 RELUME_SHARED_END
 

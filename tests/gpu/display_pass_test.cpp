@@ -81,6 +81,7 @@ TEST_CASE("display pass: shows what tone mapping on the CPU gives, over the back
                     const float expected = image.pixels[i].w == 0 ? kBackground : right.pixels[i][c];
                     worst = std::max(worst, std::abs(shown.pixels[i][c] - expected));
                 }
-            CHECK_LT(worst, 0.51f / 255 + 2e-3f); // rounding, and lavapipe's powers
+            // Rounding; the shader's own logarithm and power, or lavapipe's.
+            CHECK_LT(worst, 0.51f / 255 + (curve == ToneCurve::Agx ? 4e-4f : 2e-3f));
         }
 }
