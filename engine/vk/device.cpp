@@ -4,6 +4,7 @@
 #include "engine/vk/device_list.h"
 #include "engine/vk/pipeline_cache.h"
 #include "engine/vk/result.h"
+#include "engine/vk/shader_replacement.h"
 
 #include <algorithm>
 #include <cstring>
@@ -269,6 +270,29 @@ void Device::createDevice(bool showsImages) {
 VkPipelineCache Device::pipelineCache() const { return mPipelineCache->handle(); }
 
 void Device::savePipelineCache() const { mPipelineCache->save(); }
+
+std::vector<uint32_t> Device::shader(std::span<const uint32_t> builtIn) const {
+    const std::lock_guard lock(mShaderMutex);
+    const auto replaced = mReplacedShaders.find(builtIn.data());
+    return replaced == mReplacedShaders.end() ? std::vector(builtIn.begin(), builtIn.end())
+                                              : replaced->second;
+}
+
+size_t Device::replaceShaders(std::span<const ShaderReplacement> replacements) {
+    for (const ShaderReplacement& replacement : replacements) expectSameInterface(replacement);
+    size_t changed = 0;
+    const std::lock_guard lock(mShaderMutex);
+    for (const ShaderReplacement& replacement : replacements) {
+        const auto replaced = mReplacedShaders.find(replacement.builtIn.data());
+        const bool isNew = replaced == mReplacedShaders.end()
+                               ? !std::ranges::equal(replacement.builtIn, replacement.spirv)
+                               : replaced->second != replacement.spirv;
+        if (!isNew) continue;
+        mReplacedShaders[replacement.builtIn.data()] = replacement.spirv;
+        changed++;
+    }
+    return changed;
+}
 
 uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
                             VkMemoryPropertyFlags preferred) const {

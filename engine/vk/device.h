@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +15,7 @@
 namespace relume::vk {
 
 class PipelineCache;
+struct ShaderReplacement;
 
 // What `relume devices` shows of a device.
 struct DeviceInfo {
@@ -89,6 +92,14 @@ class Device {
     // Writes DeviceOptions::pipelineCache, whole or not at all; warns where it cannot be written.
     void savePipelineCache() const;
 
+    // What programs are made of where `builtIn`, an array of shaders/*.h, is given: its replacement if it has
+    // one, else itself.
+    std::vector<uint32_t> shader(std::span<const uint32_t> builtIn) const;
+    // Replaces shaders in the programs that are made from now on, by any thread. Throws Error, and replaces
+    // none, when one has another interface than what it replaces. Returns how many differ from what was in
+    // use.
+    size_t replaceShaders(std::span<const ShaderReplacement> replacements);
+
     // Warnings and errors that the validation layer has reported; 0 without validation.
     int validationMessages() const { return mValidationMessages; }
 
@@ -113,6 +124,8 @@ class Device {
     VkPhysicalDeviceMemoryProperties mMemory{};
     DeviceInfo mInfo{};
     std::unique_ptr<PipelineCache> mPipelineCache;
+    mutable std::mutex mShaderMutex;
+    std::map<const uint32_t*, std::vector<uint32_t>> mReplacedShaders; // by the built-in array
     std::atomic<int> mValidationMessages = 0;
     PFN_vkSetDebugUtilsObjectNameEXT mSetName = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT mBeginLabel = nullptr;

@@ -111,13 +111,14 @@ void Program::destroy() {
 
 ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> spirv,
                                const Constants& constants, std::string_view name, Subgroups subgroups) {
-    const ShaderInterface interface = reflect(spirv, constants);
+    const std::vector<uint32_t> used = device.shader(spirv);
+    const ShaderInterface interface = reflect(used, constants);
     createLayout(device, {&interface, 1}, name);
     mGroupSize = interface.groupSize;
     RELUME_CHECK_LE(mGroupSize[0] * mGroupSize[1] * mGroupSize[2],
                     device.limits().maxComputeWorkGroupInvocations);
 
-    const Module module(device, spirv, name);
+    const Module module(device, used, name);
     const Specialisation specialisation(constants);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialisation.info);
@@ -138,10 +139,12 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
 GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t> vertexSpirv,
                                  std::span<const uint32_t> fragmentSpirv, const Constants& constants,
                                  const GraphicsOptions& options, std::string_view name) {
-    const ShaderInterface interfaces[] = {reflect(vertexSpirv, constants), reflect(fragmentSpirv, constants)};
+    const std::vector<uint32_t> usedVertex = device.shader(vertexSpirv);
+    const std::vector<uint32_t> usedFragment = device.shader(fragmentSpirv);
+    const ShaderInterface interfaces[] = {reflect(usedVertex, constants), reflect(usedFragment, constants)};
     createLayout(device, interfaces, name);
 
-    const Module vertex(device, vertexSpirv, name), fragment(device, fragmentSpirv, name);
+    const Module vertex(device, usedVertex, name), fragment(device, usedFragment, name);
     const Specialisation specialisation(constants);
     const VkPipelineShaderStageCreateInfo stages[] = {
         vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialisation.info),
