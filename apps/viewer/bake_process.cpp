@@ -75,9 +75,13 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
     if (mProcess < 0) throw Error("a bake cannot be begun: {}", std::strerror(errno));
 }
 
+void BakeProcess::stop() {
+    if (mProcess > 0) kill(mProcess, SIGTERM);
+}
+
 BakeProcess::~BakeProcess() {
     if (mProcess > 0) {
-        kill(mProcess, SIGTERM);
+        stop();
         waitpid(mProcess, nullptr, 0);
     }
     end();

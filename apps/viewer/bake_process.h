@@ -14,6 +14,8 @@ struct BakeProgress {
     std::string stage;
     double fraction = 0;
     double secondsLeft = -1; // below 0: not known yet
+
+    bool operator==(const BakeProgress&) const = default;
 };
 
 class BakeProcess {
@@ -22,13 +24,16 @@ class BakeProcess {
     // `relume bake`'s. Throws Error when the program `relume` is not beside this one.
     BakeProcess(const std::filesystem::path& input, const std::filesystem::path& output,
                 const std::vector<std::string>& options);
-    // Stops it; what it baked is kept for the next time.
+    // Stops it, and waits for that; what it baked is kept for the next time.
     ~BakeProcess();
     BakeProcess(const BakeProcess&) = delete;
     BakeProcess& operator=(const BakeProcess&) = delete;
 
     // Reads what the bake has said since; never waits. True: the output is there anew.
     bool poll();
+
+    // Asks it to end; what it baked is kept. It still runs until a poll() after that finds it ended.
+    void stop();
 
     const std::filesystem::path& input() const { return mInput; }
     const std::filesystem::path& output() const { return mOutput; }

@@ -8,6 +8,11 @@ namespace relume {
 namespace {
 
 constexpr float kDegreesPerWidth = 360; // of the light, for a drag across the window
+constexpr double kDoubleClick = 0.4;    // seconds
+constexpr float kNear = 6;              // pixels
+
+Compare next(Compare compare) { return Compare((int(compare) + 1) % (int(Compare::Difference) + 1)); }
+Inspect next(Inspect inspect) { return Inspect((int(inspect) + 1) % (int(Inspect::Density) + 1)); }
 
 } // namespace
 
@@ -16,18 +21,25 @@ std::vector<KeyHelp> keyHelp() {
         {"Left drag", "orbit"},
         {"Middle drag, Shift + left drag", "move the view"},
         {"Wheel", "nearer, farther, towards the cursor"},
+        {"Double click", "look at what is there"},
         {"Shift + right drag", "turn the light"},
+        {"Left drag of a lamp", "move it around the object"},
         {"Enter", "the default view"},
         {"1 to 9, Ctrl + 1 to 9", "go to a kept view, keep this one"},
         {"T", "turntable"},
-        {"E", "the next environment"},
-        {"M", "the next material"},
-        {"Space", "play and pause a light that moves"},
-        {"Tab", "panels"},
-        {"H", "this help"},
+        {"Space", "play and pause the light: a file's time, the day, else a turn"},
+        {"E, M, B", "the next environment, material, bake"},
+        {"- and =", "fewer and more terms of the K"},
+        {"C", "compare: split, the reference alone, the difference, off"},
+        {"I", "inspect: wireframe, normals, density of triangles, off"},
+        {"L", "the light vector, as given and as kept"},
+        {"W", "why the vertex under the cursor has its colour"},
+        {"Tab, H", "panels, this help"},
+        {"F5", "build the shaders anew"},
         {"F9", "start and stop a timing capture"},
         {"F11", "full screen"},
         {"F12", "screenshot: .png as it is seen, .exr of linear radiance"},
+        {"Ctrl + F12", "start and stop recording images"},
         {"Ctrl + Q", "quit"},
         {"Drop files", ".relume, meshes, scenes; environments and lights (.exr, .hdr, .json)"},
     };
@@ -36,26 +48,10 @@ std::vector<KeyHelp> keyHelp() {
 Command Controls::take(const InputEvent& event, SceneState& state, ivec2 size, const Bounds* model) {
     switch (event.kind) {
     case InputEvent::Kind::Button:
-        if (event.isDown && mHeld < 0) {
-            mHeld = event.code;
-            mModifiers = event.modifiers;
-        } else if (!event.isDown && event.code == mHeld)
-            mHeld = -1;
-        mCursor = event.place;
+        return takeButton(event, state, size);
+    case InputEvent::Kind::Move:
+        takeMove(event.place, state, size);
         return Command::None;
-    case InputEvent::Kind::Move: {
-        const vec2 moved = event.place - mCursor;
-        mCursor = event.place;
-        const bool withShift = mModifiers & GLFW_MOD_SHIFT;
-        if (mHeld == GLFW_MOUSE_BUTTON_RIGHT && withShift)
-            state.light.rotation =
-                std::remainder(state.light.rotation + kDegreesPerWidth * moved.x / float(size.x), 360.0f);
-        if (!state.orbit) return Command::None;
-        if (mHeld == GLFW_MOUSE_BUTTON_LEFT && !withShift) state.orbit->turn(moved, float(size.y));
-        if (mHeld == GLFW_MOUSE_BUTTON_MIDDLE || (mHeld == GLFW_MOUSE_BUTTON_LEFT && withShift))
-            state.orbit->pan(moved, float(size.y));
-        return Command::None;
-    }
     case InputEvent::Kind::Scroll:
         if (state.orbit && model)
             state.orbit->zoom(event.place.y, 2.0f * mCursor / vec2(size) - 1.0f,
@@ -66,6 +62,44 @@ Command Controls::take(const InputEvent& event, SceneState& state, ivec2 size, c
     default:
         return Command::None;
     }
+}
+
+Command Controls::takeButton(const InputEvent& event, const SceneState& state, ivec2 size) {
+    mCursor = event.place;
+    if (!event.isDown) {
+        if (event.code == mHeld) mHeld = -1;
+        return Command::None;
+    }
+    if (mHeld >= 0) return Command::None;
+    mHeld = event.code;
+    mModifiers = event.modifiers;
+    const bool isPlain = event.code == GLFW_MOUSE_BUTTON_LEFT && !event.modifiers;
+    mDragsSplit = isPlain && state.compare == Compare::Split &&
+                  std::abs(event.place.x - state.split * float(size.x)) < kNear;
+    if (!isPlain) return Command::None;
+    const bool isDouble =
+        event.seconds - mLastClickTime < kDoubleClick && glm::distance(event.place, mLastClick) < kNear;
+    mLastClick = isDouble ? vec2(-1e6f) : event.place; // three clicks are not two doubles
+    mLastClickTime = event.seconds;
+    return isDouble ? Command::Focus : Command::None;
+}
+
+void Controls::takeMove(vec2 place, SceneState& state, ivec2 size) {
+    const vec2 moved = place - mCursor;
+    mCursor = place;
+    if (glm::distance(place, mLastClick) >= kNear) mLastClick = vec2(-1e6f);
+    const bool withShift = mModifiers & GLFW_MOD_SHIFT;
+    if (mHeld == GLFW_MOUSE_BUTTON_RIGHT && withShift)
+        state.light.rotation =
+            std::remainder(state.light.rotation + kDegreesPerWidth * moved.x / float(size.x), 360.0f);
+    if (mHeld == GLFW_MOUSE_BUTTON_LEFT && mDragsSplit) {
+        state.split = glm::clamp(place.x / float(size.x), 0.0f, 1.0f);
+        return;
+    }
+    if (!state.orbit) return;
+    if (mHeld == GLFW_MOUSE_BUTTON_LEFT && !withShift) state.orbit->turn(moved, float(size.y));
+    if (mHeld == GLFW_MOUSE_BUTTON_MIDDLE || (mHeld == GLFW_MOUSE_BUTTON_LEFT && withShift))
+        state.orbit->pan(moved, float(size.y));
 }
 
 Command Controls::takeKey(const InputEvent& event, SceneState& state) {
@@ -101,12 +135,31 @@ Command Controls::takeKey(const InputEvent& event, SceneState& state) {
         return Command::NextEnvironment;
     case GLFW_KEY_M:
         return Command::NextMaterial;
+    case GLFW_KEY_B:
+        return Command::NextModel;
+    case GLFW_KEY_MINUS:
+        return Command::FewerTerms;
+    case GLFW_KEY_EQUAL:
+        return Command::MoreTerms;
+    case GLFW_KEY_C:
+        state.compare = next(state.compare);
+        return Command::None;
+    case GLFW_KEY_I:
+        state.inspect = next(state.inspect);
+        return Command::None;
+    case GLFW_KEY_L:
+        state.showsLight = !state.showsLight;
+        return Command::None;
+    case GLFW_KEY_W:
+        return Command::Why;
+    case GLFW_KEY_F5:
+        return Command::ReloadShaders;
     case GLFW_KEY_F9:
         return Command::Capture;
     case GLFW_KEY_F11:
         return Command::FullScreen;
     case GLFW_KEY_F12:
-        return Command::Screenshot;
+        return withControl ? Command::Record : Command::Screenshot;
     case GLFW_KEY_Q:
         return withControl ? Command::Quit : Command::None;
     default:

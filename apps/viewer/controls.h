@@ -9,7 +9,22 @@
 namespace relume {
 
 // What a control asks for beyond changes of the state.
-enum class Command { None, Screenshot, Capture, FullScreen, NextMaterial, NextEnvironment, Quit };
+enum class Command {
+    None,
+    Focus, // on what is under the cursor
+    Why,   // explain what is under the cursor
+    Screenshot,
+    Record,
+    Capture,
+    ReloadShaders,
+    FullScreen,
+    NextMaterial,
+    NextEnvironment,
+    NextModel,
+    FewerTerms,
+    MoreTerms,
+    Quit
+};
 
 // A key, and what it does, as the help shows it.
 struct KeyHelp {
@@ -23,12 +38,18 @@ class Controls {
     Command take(const InputEvent& event, SceneState& state, ivec2 size, const Bounds* model);
 
     bool isDragging() const { return mHeld >= 0; }
+    vec2 cursor() const { return mCursor; }
 
   private:
+    Command takeButton(const InputEvent& event, const SceneState& state, ivec2 size);
+    void takeMove(vec2 place, SceneState& state, ivec2 size);
     Command takeKey(const InputEvent& event, SceneState& state);
 
     int mHeld = -1, mModifiers = 0; // the button of a drag, and what was held with it
+    bool mDragsSplit = false;       // the line between two images
     vec2 mCursor{0};
+    vec2 mLastClick{-1e6f}; // where the left button was pressed last, and when
+    double mLastClickTime = 0;
     std::array<std::optional<Orbit>, 9> mViews; // that number keys keep
 };
 

@@ -16,16 +16,16 @@ int main(int argc, char** argv) {
                        "Bakes (.relume); meshes and scenes, which are baked in view; environments and lights "
                        "(.exr, .hdr, .json). Default: a built-in scene");
     std::string size;
-    program
-        .add_option("--size", size, fmt::format("Window size (default {}x{})", options.width, options.height))
+    program.add_option("--size", size, "Window size (default: as the last time, or 1280x720)")
         ->type_name("WxH")
         ->each([&options](const std::string& text) {
+            ivec2 found(0);
             char rest;
-            if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
-                options.width < 320 || options.height < 240 || options.width > 16384 ||
-                options.height > 16384)
+            if (std::sscanf(text.c_str(), "%dx%d%c", &found.x, &found.y, &rest) != 2 || found.x < 320 ||
+                found.y < 240 || found.x > 16384 || found.y > 16384)
                 throw UsageError("--size: expected WIDTHxHEIGHT, from 320x240 to 16384x16384, found \"{}\"",
                                  text);
+            options.size = found;
         });
     program.add_flag("!--no-vsync", options.waitsForDisplay, "Show frames as soon as they are drawn");
     program.add_option("--script", options.script, "Replay inputs and settings (.json): docs/viewer.md")

@@ -1,9 +1,47 @@
 #include "apps/viewer/model.h"
 
+#include <algorithm>
+
 namespace relume {
+
+namespace {
+
+RayTracer surfacesOf(const Asset& asset) {
+    std::vector<const Mesh*> meshes;
+    for (const AssetPart& part : asset.parts) meshes.push_back(&part.mesh);
+    return RayTracer(meshes);
+}
+
+RayTracer occluderOf(const Asset& asset) {
+    const Mesh* const occluder = &asset.occluder;
+    return RayTracer({&occluder, 1});
+}
+
+} // namespace
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
     : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), appearance(defaultAppearance(asset)),
-      light(device, asset.faceSize), relighter(device, asset), view(device, asset) {}
+      light(device, asset.faceSize), relighter(device, asset), view(device, asset),
+      surfaces(surfacesOf(asset)), occluder(occluderOf(asset)) {}
+
+int termsOf(const Model& model) {
+    int terms = 0;
+    for (const AssetPart& part : model.asset.parts) terms = std::max(terms, part.sets[0].brdf.terms);
+    return terms;
+}
+
+std::optional<RayHit> pick(const Model& model, const Camera& camera, vec2 pixel, ivec2 size) {
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= float(size.x) || pixel.y >= float(size.y))
+        return std::nullopt;
+    return model.surfaces.intersect(camera.eye,
+                                    camera.pixelDirection(int(pixel.x), int(pixel.y), size.x, size.y));
+}
+
+vec3 positionOf(const Model& model, const RayHit& hit) {
+    const Mesh& mesh = model.asset.parts[hit.mesh].mesh;
+    const uvec3 corners = mesh.triangles[hit.triangle];
+    return hit.weights.x * mesh.positions[corners.x] + hit.weights.y * mesh.positions[corners.y] +
+           hit.weights.z * mesh.positions[corners.z];
+}
 
 } // namespace relume

@@ -1,7 +1,8 @@
-// A bake on the device, ready to be drawn.
+// A bake on the device, ready to be drawn, and on the host, ready to be asked.
 #pragma once
 
 #include "engine/render/view_pass.h"
+#include "precompute/reference/ray_tracer.h"
 
 #include <filesystem>
 
@@ -20,6 +21,17 @@ struct Model {
     LightPass light;
     Relighter relighter;
     ViewPass view;
+    RayTracer surfaces; // one mesh per part
+    RayTracer occluder; // what cast the shadows of the bake
 };
+
+// The largest K of its parts' first sets.
+int termsOf(const Model& model);
+
+// What a pixel's ray meets, the pixel given from the upper left of an image of this size; none: nothing.
+std::optional<RayHit> pick(const Model& model, const Camera& camera, vec2 pixel, ivec2 size);
+
+// Where that is.
+vec3 positionOf(const Model& model, const RayHit& hit);
 
 } // namespace relume

@@ -1,11 +1,11 @@
 #include "apps/viewer/opened_file.h"
 
+#include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -18,12 +18,6 @@ bool isScene(const std::filesystem::path& file) {
     const nlohmann::json content = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
     if (!content.is_object()) throw Error("{}: expected a JSON object: a scene or a light", file.string());
     return content.contains("parts");
-}
-
-std::filesystem::path cacheFolder() {
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return folder;
-    if (const char* home = std::getenv("HOME"); home && *home) return std::filesystem::path(home) / ".cache";
-    return std::filesystem::temp_directory_path();
 }
 
 } // namespace
@@ -45,7 +39,7 @@ FileKind kindOf(const std::filesystem::path& file) {
 
 std::filesystem::path bakePath(const std::filesystem::path& input) {
     std::error_code failure;
-    const std::filesystem::path folder = cacheFolder() / "relume" / "bakes";
+    const std::filesystem::path folder = cacheFolder() / "bakes";
     std::filesystem::create_directories(folder, failure);
     if (failure) throw Error("{}: cannot be made: {}", folder.string(), failure.message());
     if (input.empty()) return folder / "built-in.relume";

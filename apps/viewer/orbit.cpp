@@ -46,6 +46,16 @@ void Orbit::zoom(float steps, vec2 cursor, float aspect, float radius) {
     target += moved * (cursor.x * aspect * axes.right - cursor.y * axes.up);
 }
 
+std::optional<vec2> pixelOf(vec3 point, const Camera& camera, ivec2 size) {
+    const vec3 forward = glm::normalize(camera.target - camera.eye);
+    const vec3 right = glm::normalize(glm::cross(forward, vec3(0, 1, 0)));
+    const vec3 up = glm::cross(right, forward), arm = point - camera.eye;
+    const float depth = glm::dot(arm, forward);
+    if (depth <= 0) return std::nullopt;
+    const float perUnit = 0.5f * float(size.y) / (std::tan(0.5f * camera.verticalFov) * depth);
+    return 0.5f * vec2(size) + perUnit * vec2(glm::dot(arm, right), -glm::dot(arm, up));
+}
+
 Orbit defaultOrbit(const Bounds& bounds, float verticalFov, float aspect) {
     const Camera camera = defaultCamera(bounds, verticalFov, aspect);
     const vec3 arm = camera.eye - camera.target;

@@ -3,6 +3,8 @@
 
 #include "engine/scene/camera.h"
 
+#include <optional>
+
 namespace relume {
 
 // About a target, at a distance from it. Angles in radians, azimuth and elevation as orbitCamera() has them.
@@ -22,6 +24,9 @@ struct Orbit {
     // 1], from the image's middle, y down.
     void zoom(float steps, vec2 cursor, float aspect, float radius);
 };
+
+// Where a point is seen in an image of this size, in pixels from the upper left; none: behind the eye.
+std::optional<vec2> pixelOf(vec3 point, const Camera& camera, ivec2 size);
 
 // What defaultCamera() shows.
 Orbit defaultOrbit(const Bounds& bounds, float verticalFov, float aspect);

@@ -1,40 +1,57 @@
 // What is written over the view: panels, times, help, what is under way.
 #pragma once
 
+#include "apps/viewer/content.h"
 #include "apps/viewer/frame_times.h"
+#include "apps/viewer/pictures.h"
 #include "apps/viewer/scene_state.h"
-
-#include <functional>
+#include "apps/viewer/why.h"
+#include "precompute/reference/progressive_reference.h"
 
 namespace relume {
 
 // What panels show beside the state they change.
 struct PanelFacts {
-    std::string file;                   // of the model; empty: none
-    std::vector<std::string> materials; // that can be worn
-    uint64_t vertices = 0, triangles = 0, transportBytes = 0;
-    std::optional<float> bakedShare; // of a preview
-    std::string device;
-    std::optional<uint32_t> lightCoefficients;
-    float lightError = 0;
-    uint32_t allCoefficients = 0;
+    const Content* content = nullptr;
     const FrameTimes* times = nullptr;
-    // Under way: what, how far (below 0: not to be told), seconds left (below 0 likewise).
-    std::string task;
-    double fraction = -1, secondsLeft = -1;
-    bool canCancel = false;
-    bool isCapturing = false;
+    const Pictures* pictures = nullptr;
+    std::vector<std::string> materials;                 // that can be worn
+    std::vector<std::vector<std::string>> materialSets; // those that can be blended
+    std::map<std::string, Picture> swatches;            // by material
+    std::vector<Picture> environments;                  // by choice; of no size: not there yet
+    Picture lightMap, lightGiven, lightKept;            // of the light as it was recorded last
+    std::optional<LightStats> light;
+    std::string device;
+    uint64_t memory = 0; // bytes of the program
+    // Of the reference: passes so far, and the relit image's error.
+    int passes = 0;
+    std::optional<ReferenceError> error;
+    const Why* why = nullptr;
+    Picture visibility, transport, contributions; // of it
+    bool isCapturing = false, isRecording = false;
     std::string notice; // what just happened
     bool isFailure = false;
 };
 
 // What was pressed.
 struct PanelWishes {
-    bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, resetsView = false,
-         dismissesNotice = false;
+    bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, togglesRecording = false,
+         resetsView = false, dismissesNotice = false, savesLight = false, reloadsShaders = false;
+    std::optional<std::filesystem::path> opens;
+    std::optional<size_t> shows, closes; // models
 };
 
 // Between Ui::begin() and end(). Changes `state` as it is told to.
 PanelWishes drawPanels(SceneState& state, const PanelFacts& facts);
+
+// The parts of the main panel, and windows of their own.
+void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes);
+void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes);
+void drawMaterialPanel(SceneState& state, const PanelFacts& facts);
+void drawViewPanel(SceneState& state, PanelWishes& wishes);
+void drawTrustPanel(SceneState& state, const PanelFacts& facts);
+void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes);
+void drawLightVectorWindow(SceneState& state, const PanelFacts& facts);
+void drawWhyWindow(SceneState& state, const PanelFacts& facts);
 
 } // namespace relume

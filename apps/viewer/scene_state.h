@@ -1,59 +1,40 @@
 // What is looked at, and how: what controls and scripts change, and frames show.
 #pragma once
 
+#include "apps/viewer/light_choice.h"
 #include "apps/viewer/orbit.h"
-#include "engine/light/light_selection.h"
-#include "engine/light/moving_light.h"
+#include "engine/render/appearance.h"
 #include "engine/render/tone_map.h"
-
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include "engine/render/view_pass.h"
 
 namespace relume {
 
-// An environment that can be chosen.
-struct EnvironmentChoice {
-    std::string name;
-    std::filesystem::path file;             // empty: the built-in sky
-    std::shared_ptr<const Environment> map; // prepared; null until it was read
-    bool isRead = false;                    // or being read
-};
+// What is shown of the reference image of the same view (comparison.h).
+enum class Compare { Off, Split, Reference, Difference };
 
-// A lamp as it is dragged: degrees; radiance such that white that faces it is lit to `brightness` times
-// `color`.
-struct LampChoice {
-    float azimuth = 40, elevation = 40, radius = 8;
-    vec3 color{1, 0.9f, 0.75f};
-    float brightness = 1;
-
-    bool operator==(const LampChoice&) const = default;
-};
-Lamp lampOf(const LampChoice& choice);
-
-struct LightState {
-    std::vector<EnvironmentChoice> environments;
-    size_t environment = 0;
-    float rotation = 0; // degrees, as `relume render --rotate`
-    float environmentGain = 1;
-    std::vector<LampChoice> lamps;
-    std::shared_ptr<MovingLight> file; // a light file, instead of environment and lamps
-    std::filesystem::path fileName;
-    double seconds = 0; // of a light that moves
-    bool plays = false;
-    LightSelection selection;
+// What paints on the environment. Degrees.
+struct Brush {
+    bool isInHand = false;
+    float radius = 15, brightness = 2, opacity = 1;
+    vec3 color{1};
 };
 
 struct SceneState {
     std::optional<Orbit> orbit; // none: the model's default view
     float fovDegrees = 35;
     LightState light;
-    std::string material; // empty: as it was baked
+    Brush brush;
+    std::vector<WeightedMaterial> material; // a blend; empty: as it was baked
+    int terms = 0;                          // that are summed, of a model's K; 0: all
     ToneCurve tone = ToneCurve::Agx;
     float exposure = 0; // stops
-    bool turns = false; // turntable
+    Inspect inspect = Inspect::Off;
+    Compare compare = Compare::Off;
+    float split = 0.5f;          // of the window's width: relit left of it, the reference right
+    bool turns = false;          // turntable
+    bool showsLight = false;     // the panel of the light vector
+    bool showsWhy = false;       // the panel of the probed vertex
+    bool waitsForDisplay = true; // vertical synchronisation
     bool showsPanels = true, showsHelp = false, isDark = true;
 };
 

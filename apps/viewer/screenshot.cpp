@@ -14,21 +14,33 @@ Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkForm
     return image;
 }
 
-std::optional<std::string> renderCommand(const SceneState& state, const std::filesystem::path& bake,
-                                         int width, int height) {
+bool needsLightFile(const LightState& light) {
+    return !light.file &&
+           (light.isDay() || !light.lamps.empty() || !light.strokes.empty() || light.environmentGain != 1);
+}
+
+std::string renderCommand(const SceneState& state, const std::filesystem::path& bake, int width, int height,
+                          const std::filesystem::path& lightFile) {
     const LightState& light = state.light;
-    if (!light.file && (!light.lamps.empty() || light.environmentGain != 1)) return std::nullopt;
     const Camera camera = state.orbit->camera();
     std::string command = fmt::format(
-        "relume render '{}' -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={} "
-        "--threshold {}",
+        "relume render '{}' -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
         bake.string(), width, height, camera.eye.x, camera.eye.y, camera.eye.z, camera.target.x,
-        camera.target.y, camera.target.z, state.fovDegrees, light.rotation, light.selection.threshold);
+        camera.target.y, camera.target.z, state.fovDegrees, light.rotation);
+    if (light.selection.count)
+        command += fmt::format(" --coefficients {}", *light.selection.count);
+    else
+        command += fmt::format(" --threshold {}", light.selection.threshold);
     if (light.file)
         command += fmt::format(" --light '{}' --time {}", light.fileName.string(), light.seconds);
-    else if (const EnvironmentChoice& choice = light.environments[light.environment]; !choice.file.empty())
-        command += fmt::format(" -e '{}'", choice.file.string());
-    if (!state.material.empty()) command += fmt::format(" -m '{}'", state.material);
+    else if (needsLightFile(light))
+        command += fmt::format(" --light '{}'", lightFile.string());
+    else if (!light.chosen().file.empty())
+        command += fmt::format(" -e '{}'", light.chosen().file.string());
+    for (const WeightedMaterial& worn : state.material)
+        command += state.material.size() == 1 ? fmt::format(" -m '{}'", worn.name)
+                                              : fmt::format(" -m '{}={}'", worn.name, worn.weight);
+    if (state.terms > 0) command += fmt::format(" --terms {}", state.terms);
     return command;
 }
 

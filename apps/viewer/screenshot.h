@@ -12,9 +12,12 @@ namespace relume {
 // The display values of pixels as a swapchain of this format has them: four bytes each.
 Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkFormat format);
 
-// The command line that draws the same view of `bake`, bit for bit; none where only a light file could say
-// what lights it. `state` has its orbit.
-std::optional<std::string> renderCommand(const SceneState& state, const std::filesystem::path& bake,
-                                         int width, int height);
+// Whether lightFileOf() must be written for a command to say what lights the object.
+bool needsLightFile(const LightState& light);
+
+// The command line that draws the same view of `bake`, bit for bit. `state` has its orbit; `light` is where
+// lightFileOf() was written, if it was needed.
+std::string renderCommand(const SceneState& state, const std::filesystem::path& bake, int width, int height,
+                          const std::filesystem::path& light);
 
 } // namespace relume

@@ -37,15 +37,19 @@ std::pair<std::string, int> splitModifiers(std::string text) {
     return {text, modifiers};
 }
 
-// A letter, a digit, F1 to F12, Enter, Space.
+// A letter, a digit, a sign, F1 to F12, Enter, Space, Tab.
 int keyOf(const std::string& name) {
     if (name.size() == 1 && name[0] >= 'A' && name[0] <= 'Z') return GLFW_KEY_A + (name[0] - 'A');
     if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
     for (int i = 1; i <= 12; i++)
         if (name == fmt::format("F{}", i)) return GLFW_KEY_F1 + i - 1;
+    if (name == "-") return GLFW_KEY_MINUS;
+    if (name == "=") return GLFW_KEY_EQUAL;
     if (name == "Enter") return GLFW_KEY_ENTER;
     if (name == "Space") return GLFW_KEY_SPACE;
-    throw Error("expected a key, found \"{}\"; A to Z, 0 to 9, F1 to F12, Enter and Space are", name);
+    if (name == "Tab") return GLFW_KEY_TAB;
+    throw Error("expected a key, found \"{}\"; A to Z, 0 to 9, -, =, F1 to F12, Enter, Space and Tab are",
+                name);
 }
 
 vec2 pairOf(const json& step, const char* name) {
@@ -81,18 +85,21 @@ bool Script::run(ScriptTarget& target, const json& step) {
     if (step.contains("drag")) return drag(target, step);
     const bool isFirst = mFrame++ == 0;
     if (step.contains("frames")) return mFrame > step["frames"].get<int>();
-    if (step.contains("wait")) {
-        if (step["wait"] != "settled") throw Error("\"wait\": expected \"settled\"");
-        return target.isSettled();
-    }
+    if (step.contains("wait")) return hasWaited(target, step["wait"]);
     // What takes one frame: done in it, over with the next.
     if (!isFirst) return true;
     if (step.contains("set")) {
         for (const auto& [name, value] : step["set"].items()) target.set(name, value);
     } else if (step.contains("key")) {
         const auto [name, modifiers] = splitModifiers(step["key"].get<std::string>());
+        if (step.contains("at")) target.input({InputEvent::Kind::Move, 0, false, 0, pairOf(step, "at")});
         for (const bool isDown : {true, false})
             target.input({InputEvent::Kind::Key, keyOf(name), isDown, modifiers});
+    } else if (step.contains("double-click")) {
+        const vec2 place = pairOf(step, "double-click");
+        target.input({InputEvent::Kind::Move, 0, false, 0, place});
+        for (const bool isDown : {true, false, true, false})
+            target.input({InputEvent::Kind::Button, GLFW_MOUSE_BUTTON_LEFT, isDown, 0, place});
     } else if (step.contains("wheel")) {
         if (step.contains("at")) target.input({InputEvent::Kind::Move, 0, false, 0, pairOf(step, "at")});
         target.input({InputEvent::Kind::Scroll, 0, false, 0, {0, step["wheel"].get<float>()}});
@@ -108,10 +115,23 @@ bool Script::run(ScriptTarget& target, const json& step) {
     } else if (step.contains("quit")) {
         target.quit();
     } else
-        throw Error("expected one of drag, drop, frames, key, quit, resize, screenshot, set, wait, wheel; "
+        throw Error("expected one of double-click, drag, drop, frames, key, quit, resize, screenshot, set, "
+                    "wait, wheel; "
                     "found {}",
                     step.dump());
     return false;
+}
+
+// Until all is settled, so many passes of the reference are there, or so many seconds have passed.
+bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
+    if (mFrame == 1) mWaitsSince = std::chrono::steady_clock::now();
+    if (wait == "settled") return target.isSettled();
+    if (wait.is_number())
+        return std::chrono::steady_clock::now() - mWaitsSince >=
+               std::chrono::duration<double>(wait.get<double>());
+    if (!wait.is_object() || !wait.contains("passes"))
+        throw Error("\"wait\": expected \"settled\", seconds, or {{\"passes\": N}} of a comparison");
+    return target.comparedPasses() >= wait["passes"].get<int>();
 }
 
 // Pressed at `from`, moved by an equal part of `by` in each of `over` frames, released.

@@ -3,6 +3,7 @@
 
 #include "apps/viewer/window.h"
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -18,6 +19,8 @@ class ScriptTarget {
     virtual void set(const std::string& name, const nlohmann::json& value) = 0;
     // Nothing is being read or baked, and the newest of it is shown.
     virtual bool isSettled() const = 0;
+    // Of the reference that is shown.
+    virtual int comparedPasses() const = 0;
     virtual void quit() = 0;
 };
 
@@ -36,11 +39,13 @@ class Script {
     // One step's inputs of this frame; true: it has ended.
     bool run(ScriptTarget& target, const nlohmann::json& step);
     bool drag(ScriptTarget& target, const nlohmann::json& step);
+    bool hasWaited(const ScriptTarget& target, const nlohmann::json& wait);
 
     std::filesystem::path mFile;
     nlohmann::json mSteps;
     size_t mStep = 0;
     int mFrame = 0; // of the step
+    std::chrono::steady_clock::time_point mWaitsSince;
 };
 
 } // namespace relume

@@ -1,9 +1,12 @@
 #include "apps/viewer/settings.h"
 
 #include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
+#include "engine/light/light_vector.h"
 
 #include <algorithm>
-#include <map>
+#include <fmt/ranges.h>
+#include <functional>
 
 namespace relume {
 
@@ -17,21 +20,201 @@ float numberOf(const std::string& name, const json& value, float low, float high
     return value.get<float>();
 }
 
-LampChoice lampFrom(const json& value) {
+vec3 colorOf(const std::string& name, const json& value, float high) {
+    if (!value.is_array() || value.size() != 3)
+        throw Error("\"{}\": expected three numbers, found {}", name, value.dump());
+    return {numberOf(name, value[0], 0, high), numberOf(name, value[1], 0, high),
+            numberOf(name, value[2], 0, high)};
+}
+
+struct Setting {
+    std::string name;
+    std::function<void(SceneState&, const json&)> set;
+    std::function<json(const SceneState&)> get = nullptr; // null: not kept for the next time
+};
+
+constexpr bool kKept = true;
+
+// A member of the state, or of its light.
+template <typename State, typename Owner, typename Value>
+auto& memberOf(State& state, Value Owner::*member) {
+    if constexpr (std::is_same_v<Owner, LightState>)
+        return state.light.*member;
+    else
+        return state.*member;
+}
+
+template <typename Owner, typename Number>
+Setting number(const std::string& name, Number Owner::*member, float low, float high, bool isKept = false) {
+    Setting setting{name, [=](SceneState& state, const json& value) {
+                        memberOf(state, member) = Number(numberOf(name, value, low, high));
+                    }};
+    if (isKept) setting.get = [=](const SceneState& state) { return json(memberOf(state, member)); };
+    return setting;
+}
+
+template <typename Owner>
+Setting flag(const std::string& name, bool Owner::*member, bool isKept = false) {
+    Setting setting{name, [=](SceneState& state, const json& value) {
+                        if (!value.is_boolean())
+                            throw Error("\"{}\": expected true or false, found {}", name, value.dump());
+                        memberOf(state, member) = value.get<bool>();
+                    }};
+    if (isKept) setting.get = [=](const SceneState& state) { return json(memberOf(state, member)); };
+    return setting;
+}
+
+// One of `names`, in the order of an enumeration.
+template <typename Owner, typename Choice>
+Setting choice(const std::string& name, Choice Owner::*member, const std::vector<std::string>& names,
+               bool isKept = false) {
+    Setting setting{
+        name, [=](SceneState& state, const json& value) {
+            const auto found = std::ranges::find(names, value.is_string() ? value.get<std::string>() : "");
+            if (found == names.end())
+                throw Error("\"{}\": expected {}, found {}", name, fmt::join(names, " or "), value.dump());
+            memberOf(state, member) = Choice(found - names.begin());
+        }};
+    if (isKept)
+        setting.get = [=](const SceneState& state) { return json(names[size_t(memberOf(state, member))]); };
+    return setting;
+}
+
+// Calls `read` with every key of an object.
+template <typename Read>
+void forEachKey(const std::string& name, const json& object, Read read) {
+    if (!object.is_object()) throw Error("\"{}\": expected an object, found {}", name, object.dump());
+    for (const auto& [key, value] : object.items())
+        if (!read(key, value))
+            throw Error("\"{}\": there is no \"{}\"; docs/viewer.md lists what there is", name, key);
+}
+
+LampChoice lampFrom(const json& values) {
     LampChoice lamp;
-    for (const auto& [name, number] : value.items()) {
-        if (name == "azimuth")
-            lamp.azimuth = numberOf(name, number, -360, 360);
-        else if (name == "elevation")
-            lamp.elevation = numberOf(name, number, -90, 90);
-        else if (name == "radius")
-            lamp.radius = numberOf(name, number, 0.5f, 60);
-        else if (name == "brightness")
-            lamp.brightness = numberOf(name, number, 0, 1000);
+    forEachKey("lamps", values, [&](const std::string& key, const json& value) {
+        if (key == "azimuth")
+            lamp.azimuth = numberOf(key, value, -360, 360);
+        else if (key == "elevation")
+            lamp.elevation = numberOf(key, value, -90, 90);
+        else if (key == "radius")
+            lamp.radius = numberOf(key, value, 0.5f, 60);
+        else if (key == "brightness")
+            lamp.brightness = numberOf(key, value, 0, 1000);
+        else if (key == "color")
+            lamp.color = colorOf(key, value, 1);
         else
-            throw Error("\"lamps\": expected azimuth, elevation, radius and brightness, found \"{}\"", name);
-    }
+            return false;
+        return true;
+    });
     return lamp;
+}
+
+StrokeChoice strokeFrom(const json& values) {
+    StrokeChoice stroke;
+    forEachKey("strokes", values, [&](const std::string& key, const json& value) {
+        if (key == "azimuth")
+            stroke.azimuth = numberOf(key, value, -360, 360);
+        else if (key == "elevation")
+            stroke.elevation = numberOf(key, value, -90, 90);
+        else if (key == "radius")
+            stroke.radius = numberOf(key, value, 0.5f, 180);
+        else if (key == "radiance")
+            stroke.radiance = colorOf(key, value, 1e6f);
+        else if (key == "opacity")
+            stroke.opacity = numberOf(key, value, 0, 1);
+        else
+            return false;
+        return true;
+    });
+    return stroke;
+}
+
+void setSky(SceneState& state, const json& values) {
+    DaySkyChoice& sky = state.light.sky;
+    forEachKey("day-sky", values, [&](const std::string& key, const json& value) {
+        if (key == "day")
+            sky.dayOfYear = int(numberOf(key, value, 1, 365));
+        else if (key == "hour")
+            sky.hour = numberOf(key, value, 0, 24);
+        else if (key == "latitude")
+            sky.latitude = numberOf(key, value, -90, 90);
+        else if (key == "turbidity")
+            sky.turbidity = numberOf(key, value, 2, 10);
+        else
+            return false;
+        return true;
+    });
+    const auto isDay = [](const EnvironmentChoice& c) { return c.kind == EnvironmentChoice::Kind::DaySky; };
+    const auto& choices = state.light.environments;
+    state.light.environment = size_t(std::ranges::find_if(choices, isDay) - choices.begin());
+    state.light.file.reset();
+}
+
+void setThreshold(SceneState& state, const json& value) {
+    state.light.selection = {.threshold = int(numberOf("threshold", value, 0, float(kLightMaximum)))};
+}
+
+// 0: by threshold.
+void setCoefficients(SceneState& state, const json& value) {
+    const int count = int(numberOf("coefficients", value, 0, float(kMaximumLightEntries)));
+    state.light.selection.count = count > 0 ? std::optional(count) : std::nullopt;
+}
+
+json coefficientsOf(const SceneState& state) { return state.light.selection.count.value_or(0); }
+
+// A name, "" for what was baked, or weights by name.
+void setMaterial(SceneState& state, const json& value) {
+    std::vector<WeightedMaterial> blend;
+    if (value.is_string() && value != "") blend.push_back({value.get<std::string>()});
+    if (value.is_object())
+        for (const auto& [name, weight] : value.items())
+            blend.push_back({name, numberOf(name, weight, 0, 1e6f)});
+    if (!value.is_string() && blend.empty())
+        throw Error("\"material\": expected a name, or weights by name, found {}", value.dump());
+    state.material = blend;
+}
+
+template <typename Element>
+void setList(const std::string& name, std::vector<Element>& list, Element (*from)(const json&),
+             const json& values) {
+    if (!values.is_array() || values.size() > kMostSources)
+        throw Error("\"{}\": expected a list of at most {} objects", name, kMostSources);
+    list.clear();
+    for (const json& value : values) list.push_back(from(value));
+}
+
+void setLamps(SceneState& state, const json& value) { setList("lamps", state.light.lamps, lampFrom, value); }
+
+void setStrokes(SceneState& state, const json& value) {
+    setList("strokes", state.light.strokes, strokeFrom, value);
+}
+
+const std::vector<Setting>& settings() {
+    static const std::vector<Setting> all = {
+        number("rotation", &LightState::rotation, -1e6f, 1e6f),
+        number("gain", &LightState::environmentGain, 0, 1e6f),
+        number("seconds", &LightState::seconds, 0, 1e6f),
+        number("exposure", &SceneState::exposure, -100, 100, kKept),
+        number("terms", &SceneState::terms, 0, 1024),
+        number("split", &SceneState::split, 0, 1),
+        choice("tone", &SceneState::tone, {"none", "aces", "agx"}, kKept),
+        choice("compare", &SceneState::compare, {"off", "split", "reference", "difference"}),
+        choice("inspect", &SceneState::inspect, {"off", "wireframe", "normals", "density"}),
+        flag("play", &LightState::plays),
+        flag("turntable", &SceneState::turns),
+        flag("light-vector", &SceneState::showsLight),
+        flag("panels", &SceneState::showsPanels, kKept),
+        flag("help", &SceneState::showsHelp),
+        flag("dark", &SceneState::isDark, kKept),
+        flag("vsync", &SceneState::waitsForDisplay, kKept),
+        {"coefficients", setCoefficients, coefficientsOf},
+        {"threshold", setThreshold},
+        {"lamps", setLamps},
+        {"strokes", setStrokes},
+        {"day-sky", setSky},
+        {"material", setMaterial},
+    };
+    return all;
 }
 
 // True: it was one of the camera.
@@ -52,34 +235,20 @@ bool applyToCamera(SceneState& state, const std::string& name, const json& value
 } // namespace
 
 void applySetting(SceneState& state, const std::string& name, const json& value, const Bounds* model) {
-    const std::map<std::string, bool*> flags = {{"panels", &state.showsPanels},
-                                                {"help", &state.showsHelp},
-                                                {"dark", &state.isDark},
-                                                {"turntable", &state.turns}};
     if (applyToCamera(state, name, value, model)) return;
-    if (const auto flag = flags.find(name); flag != flags.end())
-        *flag->second = value.get<bool>();
-    else if (name == "rotation")
-        state.light.rotation = numberOf(name, value, -1e6f, 1e6f);
-    else if (name == "threshold")
-        state.light.selection.threshold = int(numberOf(name, value, 0, float(kLightMaximum)));
-    else if (name == "environment") // "sky"
-        state.light.environment = 0;
-    else if (name == "lamps") {
-        state.light.lamps.clear();
-        for (const json& lamp : value) state.light.lamps.push_back(lampFrom(lamp));
-    } else if (name == "seconds")
-        state.light.seconds = double(numberOf(name, value, 0, 1e6f));
-    else if (name == "material")
-        state.material = value.get<std::string>();
-    else if (name == "exposure")
-        state.exposure = numberOf(name, value, -100, 100);
-    else if (name == "tone") {
-        const std::optional<ToneCurve> curve = toneCurveFromName(value.get<std::string>());
-        if (!curve) throw Error("\"tone\": expected none, aces or agx, found {}", value.dump());
-        state.tone = *curve;
-    } else
-        throw Error("no setting is called \"{}\"; docs/viewer.md lists them", name);
+    const auto setting = std::ranges::find(settings(), name, &Setting::name);
+    if (setting != settings().end()) return setting->set(state, value);
+    std::vector<std::string_view> names = {"azimuth", "elevation", "distance", "fov", "environment", "model"};
+    for (const Setting& known : settings()) names.push_back(known.name);
+    throw Error("no setting is called \"{}\"; did you mean \"{}\"? docs/viewer.md lists them", name,
+                nearestName(name, names));
+}
+
+json keptSettings(const SceneState& state) {
+    json kept = json::object();
+    for (const Setting& setting : settings())
+        if (setting.get) kept[setting.name] = setting.get(state);
+    return kept;
 }
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Settings as scripts give them: docs/viewer.md lists them.
+// Settings as scripts give them and the program remembers them: docs/viewer.md lists them.
 #pragma once
 
 #include "apps/viewer/scene_state.h"
@@ -11,5 +11,8 @@ namespace relume {
 // setting that there is not, or a value that it cannot have.
 void applySetting(SceneState& state, const std::string& name, const nlohmann::json& value,
                   const Bounds* model);
+
+// Those that are the same the next time, by name.
+nlohmann::json keptSettings(const SceneState& state);
 
 } // namespace relume

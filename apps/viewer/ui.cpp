@@ -62,6 +62,7 @@ Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swap
     ImFontConfig font;
     font.SizePixels = std::floor(13 * mScale);
     io.Fonts->AddFontDefault(&font);
+    mPictures = std::make_unique<Pictures>(device);
     setDark(true);
     ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
     ImGui_ImplVulkan_InitInfo info{};
@@ -70,6 +71,7 @@ Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swap
     info.Device = device.handle();
     info.QueueFamily = device.queueFamily();
     info.Queue = device.queue();
+    info.PipelineCache = device.pipelineCache();
     info.DescriptorPool = mDescriptors;
     info.MinImageCount = info.ImageCount = 2;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;

@@ -1,9 +1,12 @@
 // Dear ImGui on a swapchain.
 #pragma once
 
+#include "apps/viewer/pictures.h"
 #include "apps/viewer/window.h"
 #include "engine/vk/commands.h"
 #include "engine/vk/swapchain.h"
+
+#include <memory>
 
 namespace relume {
 
@@ -33,6 +36,9 @@ class Ui {
 
     void setDark(bool dark);
 
+    Pictures& pictures() { return *mPictures; }
+    const Pictures& pictures() const { return *mPictures; }
+
     // As of the last frame.
     static UiWants wants();
 
@@ -42,6 +48,7 @@ class Ui {
     const vk::Device& mDevice;
     const vk::Swapchain& mSwapchain;
     float mScale;
+    std::unique_ptr<Pictures> mPictures;
     VkDescriptorPool mDescriptors = VK_NULL_HANDLE;
     VkRenderPass mRenderPass = VK_NULL_HANDLE;
     std::vector<VkFramebuffer> mFramebuffers;

@@ -1,6 +1,7 @@
 // The interactive program: a window, what is in it, and the loop that keeps it so.
 #pragma once
 
+#include "engine/math/vector.h"
 #include "engine/vk/device.h"
 
 #include <filesystem>
@@ -12,7 +13,7 @@ namespace relume {
 struct ViewerOptions {
     vk::DeviceOptions device;
     std::vector<std::filesystem::path> files; // bakes, meshes, scenes; environments and lights
-    int width = 1280, height = 720;
+    std::optional<ivec2> size;                // of the window; none: as the last time
     bool waitsForDisplay = true;
     std::optional<int> exitFrame;     // frames to draw before it ends by itself
     std::filesystem::path screenshot; // of the last of these; empty: none

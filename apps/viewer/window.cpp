@@ -34,7 +34,7 @@ vec2 cursorOf(GLFWwindow* window) {
 
 } // namespace
 
-Window::Window(const std::string& title, int width, int height) {
+Window::Window(const std::string& title, ivec2 size) {
     constexpr const char* kNoDisplay =
         "no window can be opened: {}; is a display there (DISPLAY or WAYLAND_DISPLAY)? `relume render` draws "
         "without one";
@@ -45,7 +45,7 @@ Window::Window(const std::string& title, int width, int height) {
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    mWindow = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    mWindow = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (!mWindow) {
         const std::string why = lastError();
         glfwTerminate();
@@ -55,7 +55,8 @@ Window::Window(const std::string& title, int width, int height) {
     glfwSetWindowUserPointer(mWindow, this);
     using Kind = InputEvent::Kind;
     glfwSetMouseButtonCallback(mWindow, [](GLFWwindow* window, int button, int action, int modifiers) {
-        of(window).add({Kind::Button, button, action == GLFW_PRESS, modifiers, cursorOf(window)});
+        of(window).add(
+            {Kind::Button, button, action == GLFW_PRESS, modifiers, cursorOf(window), {}, glfwGetTime()});
     });
     glfwSetCursorPosCallback(mWindow, [](GLFWwindow* window, double x, double y) {
         of(window).add({Kind::Move, 0, false, 0, cursorOf(window, x, y)});

@@ -20,12 +20,14 @@ struct InputEvent {
     int modifiers = 0;
     vec2 place{0};                                 // of the cursor; of Scroll: how far the wheel was turned
     std::vector<std::filesystem::path> files = {}; // that were dropped
+    double seconds = 0;                            // of a clock; of a script: 0
+    bool isScripted = false;                       // no panel is in its way
 };
 
 class Window {
   public:
     // Throws NoDeviceError when there is no display, or Vulkan cannot draw on it.
-    Window(const std::string& title, int width, int height);
+    Window(const std::string& title, ivec2 size);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;

@@ -39,6 +39,11 @@ bool Worker::isIdle() const {
     return mInHand.empty() && mWaiting.empty() && mResults.empty();
 }
 
+void Worker::wait() {
+    std::unique_lock lock(mMutex);
+    mDone.wait(lock, [&] { return mInHand.empty() && mWaiting.empty(); });
+}
+
 void Worker::run(std::stop_token stop) {
     for (;;) {
         Job job;
@@ -60,6 +65,7 @@ void Worker::run(std::stop_token stop) {
             mResults.push_back(std::move(result));
             mInHand.clear();
         }
+        mDone.notify_all();
         mWake();
     }
 }

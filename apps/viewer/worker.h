@@ -34,6 +34,8 @@ class Worker {
     // Of the work in hand, else of what waits; empty: none.
     std::string title() const;
     bool isIdle() const;
+    // Until nothing is in hand and nothing waits.
+    void wait();
 
   private:
     struct Job {
@@ -45,7 +47,7 @@ class Worker {
 
     std::function<void()> mWake;
     mutable std::mutex mMutex;
-    std::condition_variable_any mChanged;
+    std::condition_variable_any mChanged, mDone;
     std::deque<Job> mWaiting;
     std::vector<Result> mResults;
     std::string mInHand;

@@ -1,0 +1,168 @@
+#include "apps/viewer/cube_images.h"
+#include "apps/viewer/panel_items.h"
+#include "apps/viewer/panels.h"
+#include "engine/light/light_vector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+constexpr float kMapWidth = 25; // lines
+constexpr int kThumbnailsPerRow = 4;
+
+void drawLamp(LampChoice& lamp, size_t number, std::optional<size_t>& removed) {
+    ImGui::PushID(int(number));
+    ImGui::ColorEdit3("##color", &lamp.color.x, ImGuiColorEditFlags_NoInputs);
+    explain("Colour");
+    ImGui::SameLine();
+    text(fmt::format("Lamp {}", number + 1));
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - 4 * line());
+    if (ImGui::SmallButton("Remove")) removed = number;
+    ImGui::SliderFloat("Azimuth", &lamp.azimuth, -180, 180, "%.0f deg");
+    explain("Or drag its handle on the sphere around the object");
+    ImGui::SliderFloat("Elevation", &lamp.elevation, -90, 90, "%.0f deg");
+    ImGui::SliderFloat("Radius", &lamp.radius, 0.5f, 60, "%.1f deg");
+    explain("Angular radius: small lamps cast hard shadows");
+    ImGui::SliderFloat("Brightness", &lamp.brightness, 0, 4, "%.2f");
+    explain("1 lights white that faces it to radiance 1");
+    ImGui::Separator();
+    ImGui::PopID();
+}
+
+void drawLamps(std::vector<LampChoice>& lamps) {
+    std::optional<size_t> removed;
+    for (size_t i = 0; i < lamps.size(); i++) drawLamp(lamps[i], i, removed);
+    if (removed) lamps.erase(lamps.begin() + std::ptrdiff_t(*removed));
+    if (ImGui::Button("Add lamp") && lamps.size() < kMostSources) {
+        lamps.emplace_back();
+        lamps.back().azimuth = std::remainder(40 + 75 * float(lamps.size() - 1), 360.0f);
+    }
+    explain("A distant sphere that lights the object too; drag it in the view");
+}
+
+void drawEnvironments(LightState& light, const PanelFacts& facts) {
+    const float width = (kMapWidth * line() - 3 * ImGui::GetStyle().ItemSpacing.x) / kThumbnailsPerRow - 5;
+    int shown = 0;
+    for (size_t i = 0; i < light.environments.size(); i++) {
+        const Picture picture = i < facts.environments.size() ? facts.environments[i] : Picture{};
+        if (!picture) continue;
+        if (shown++ % kThumbnailsPerRow) ImGui::SameLine();
+        if (facts.pictures->drawButton(fmt::format("environment {}", i).c_str(), picture, width,
+                                       i == light.environment))
+            light.environment = i;
+        explain(light.environments[i].name.c_str());
+    }
+    if (ImGui::BeginCombo("Environment", light.chosen().name.c_str())) {
+        for (size_t i = 0; i < light.environments.size(); i++)
+            if (ImGui::Selectable(light.environments[i].name.c_str(), i == light.environment))
+                light.environment = i;
+        ImGui::EndCombo();
+    }
+    explain("E: the next one. Drop .exr or .hdr files to add some");
+    ImGui::SliderFloat("Brightness", &light.environmentGain, 0, 4, "%.2f");
+}
+
+void drawSky(DaySkyChoice& sky) {
+    ImGui::SliderFloat("Hour", &sky.hour, 0, 24, "%.2f h");
+    explain("Solar time: the sun is highest at 12. Space lets the day pass");
+    ImGui::SliderInt("Day", &sky.dayOfYear, 1, 365, "day %d");
+    ImGui::SliderFloat("Latitude", &sky.latitude, -90, 90, "%.0f deg");
+    ImGui::SliderFloat("Haze", &sky.turbidity, 2, 10, "%.1f");
+    explain("Turbidity: 2 is clear, 10 hazy");
+}
+
+// The light as it was recorded; the brush touches it where the mouse drags.
+void drawMap(LightState& light, const Brush& b, const PanelFacts& facts) {
+    if (!facts.lightMap) return;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{kMapWidth * line(), 0.5f * kMapWidth * line()};
+    facts.pictures->draw(facts.lightMap, size.x);
+    if (light.file) return;
+    const bool isHovered = ImGui::IsItemHovered();
+    if (!b.isInHand) return explain("What lights the object, as a map of all directions");
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const MapAngles angles = anglesAt({(mouse.x - corner.x) / size.x, (mouse.y - corner.y) / size.y});
+    if (!isHovered) return;
+    const float across = b.radius / 180 * size.y;
+    ImGui::GetWindowDrawList()->AddCircle(mouse, across, IM_COL32(255, 255, 255, 200));
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
+    const StrokeChoice stroke{std::remainder(angles.azimuth - light.rotation, 360.0f), angles.elevation,
+                              b.radius, b.brightness * b.color, b.opacity};
+    // A touch that is hardly beside the last one adds little and counts as much.
+    const bool isNew =
+        light.strokes.empty() || ImGui::IsMouseClicked(ImGuiMouseButton_Left) ||
+        glm::dot(directionAt(light.strokes.back().azimuth, light.strokes.back().elevation),
+                 directionAt(stroke.azimuth, stroke.elevation)) < std::cos(glm::radians(0.4f * b.radius));
+    if (isNew && light.strokes.size() < kMostSources) light.strokes.push_back(stroke);
+}
+
+void drawBrush(LightState& light, Brush& b) {
+    ImGui::Checkbox("Paint", &b.isInHand);
+    explain("Drag over the map above");
+    if (!light.strokes.empty()) {
+        ImGui::SameLine();
+        if (ImGui::Button("Undo")) light.strokes.pop_back();
+        ImGui::SameLine();
+        if (ImGui::Button("Clear")) light.strokes.clear();
+        ImGui::SameLine();
+        ImGui::TextDisabled("%zu of %zu touches", light.strokes.size(), kMostSources);
+    }
+    if (!b.isInHand) return;
+    ImGui::ColorEdit3("Colour", &b.color.x, ImGuiColorEditFlags_NoInputs);
+    ImGui::SliderFloat("Brush", &b.radius, 2, 90, "%.0f deg");
+    ImGui::SliderFloat("Radiance", &b.brightness, 0, 50, "%.2f", ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderFloat("Opacity", &b.opacity, 0, 1, "%.2f");
+}
+
+void drawFile(LightState& light) {
+    text(light.fileName.filename().string());
+    if (light.file->moves()) {
+        float seconds = float(light.seconds);
+        if (ImGui::DragFloat("Time", &seconds, 0.05f, 0, 1e6f, "%.2f s")) light.seconds = seconds;
+    }
+    if (ImGui::Button("Back to environments")) light.file.reset();
+    explain("Leave the light file for environments, sky and lamps");
+}
+
+void drawSelection(LightSelection& selection) {
+    if (!selection.count) {
+        ImGui::SliderInt("Threshold", &selection.threshold, 0, kLightMaximum, "%d",
+                         ImGuiSliderFlags_Logarithmic);
+        return explain("Light coefficients below this are dropped, where the largest is 32767");
+    }
+    int count = *selection.count;
+    if (ImGui::SliderInt("Coefficients", &count, 1, int(kMaximumLightEntries), "%d",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        selection.count = count;
+    explain("The so many largest of the light are kept: fewer are faster, and further from the light");
+}
+
+} // namespace
+
+void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
+    LightState& light = state.light;
+    if (light.file)
+        drawFile(light);
+    else {
+        drawEnvironments(light, facts);
+        if (light.isDay()) drawSky(light.sky);
+    }
+    drawMap(light, state.brush, facts);
+    if (!light.file) {
+        drawBrush(light, state.brush);
+        drawLamps(light.lamps);
+        ImGui::SameLine();
+        if (ImGui::Button("Save light")) wishes.savesLight = true;
+        explain("Write it as a light file, for `relume render --light`");
+    }
+    ImGui::Checkbox("Play", &light.plays);
+    explain("Space: a light file's time passes, the day does, else all of the light turns");
+    ImGui::SliderFloat("Turn", &light.rotation, -180, 180, "%.1f deg");
+    explain("Shift + right drag in the view turns the light too");
+    drawSelection(light.selection);
+}
+
+} // namespace relume

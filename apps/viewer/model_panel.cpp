@@ -1,0 +1,47 @@
+#include "apps/viewer/panel_items.h"
+#include "apps/viewer/panels.h"
+
+#include <algorithm>
+
+namespace relume {
+
+void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
+    const auto& models = facts.content->models();
+    const auto& shown = facts.content->shown();
+    for (size_t i = 0; i < models.size(); i++) {
+        ImGui::PushID(int(i));
+        if (ImGui::RadioButton(models[i]->file.filename().string().c_str(), models[i] == shown))
+            wishes.shows = i;
+        explain(models[i]->file.string().c_str());
+        if (models.size() > 1) {
+            ImGui::SameLine();
+            if (ImGui::SmallButton("Close")) wishes.closes = i;
+        }
+        ImGui::PopID();
+    }
+    if (models.size() > 1) ImGui::TextDisabled("B: the next one");
+    if (shown) {
+        uint64_t vertices = 0, triangles = 0, bytes = 0;
+        for (const AssetPart& part : shown->asset.parts) {
+            vertices += part.mesh.vertexCount();
+            triangles += part.mesh.triangleCount();
+            for (const MaterialSet& set : part.sets) bytes += bytesOf(set.transport);
+        }
+        text(fmt::format("{} vertices, {} triangles", vertices, triangles));
+        text(fmt::format("transport: {:.1f} MB, {:.0f} bytes a vertex", double(bytes) * 1e-6,
+                         double(bytes) / double(std::max<uint64_t>(1, vertices))));
+        if (const std::optional<float> share = shown->asset.provenance.bakedShare)
+            text(fmt::format("a preview: {:.0f} % is baked", 100 * *share));
+    }
+    const auto& recent = facts.content->recent();
+    if (!recent.empty() && ImGui::BeginCombo("Recent", "open again")) {
+        for (const std::filesystem::path& file : recent) {
+            if (ImGui::Selectable(file.filename().string().c_str())) wishes.opens = file;
+            explain(file.string().c_str());
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::TextDisabled("Drop files to open them");
+}
+
+} // namespace relume

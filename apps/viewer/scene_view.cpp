@@ -1,0 +1,182 @@
+#include "apps/viewer/scene_view.h"
+
+#include "engine/base/error.h"
+#include "engine/vk/upload.h"
+
+#include <algorithm>
+
+namespace relume {
+
+namespace {
+
+// Of a difference that the hottest colour stands for, where 1 is what a display shows as white.
+constexpr float kHottest = 0.25f;
+
+bool operator==(const WeightedMaterial& a, const WeightedMaterial& b) {
+    return a.name == b.name && a.weight == b.weight;
+}
+
+} // namespace
+
+SceneView::SceneView(const vk::Device& device, std::function<void()> wake, Tell tell)
+    : mDevice(device), mTell(std::move(tell)),
+      mFeed(wake, [this](const std::string& why) { mTell(why, true); }), mComparison(wake),
+      mComparePass(std::in_place, device) {}
+
+bool SceneView::poll() {
+    bool hasNews = mFeed.poll();
+    std::optional<Comparison::Result> result = mComparison.take();
+    if (result && !result->failure.empty()) mTell(result->failure, true);
+    if (result && result->failure.empty()) {
+        const Image& image = result->reference;
+        mReference = vk::uploadImage(mDevice,
+                                     {.width = uint32_t(image.width),
+                                      .height = uint32_t(image.height),
+                                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                               VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+                                     std::as_bytes(std::span(image.pixels)), "reference");
+        mReferenceIsNew = true;
+        mCompared = {result->passes, {}, result->error, ""};
+        hasNews = true;
+    }
+    return hasNews;
+}
+
+void SceneView::record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model,
+                       ivec2 size) {
+    if (model != mModel) begin(model, state);
+    if (!state.orbit)
+        state.orbit =
+            defaultOrbit(mModel->bounds, glm::radians(state.fovDegrees), float(size.x) / float(size.y));
+    const uint64_t light = mLightVersion, view = mViewVersion;
+    wearChosen(state);
+    recordLight(commands, state);
+    if (!mLit) return;
+    recordView(commands, state, size);
+    mIsStill = light == mLightVersion && view == mViewVersion;
+    mImage = &mModel->view.image();
+    recordCompared(commands, state);
+}
+
+void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
+    // The same object stays where it is, another one is looked at as a whole.
+    const bool isSame = mModel && glm::distance(mModel->bounds.centre(), model->bounds.centre()) <
+                                      1e-3f * model->bounds.radius();
+    if (mModel && !isSame) state.orbit.reset();
+    mModel = model;
+    mLit.reset();
+    mSeen.reset();
+    mLightStats.reset();
+    mWorn.clear();
+    mImage = nullptr;
+    mModel->appearance = defaultAppearance(mModel->asset);
+    mModel->view.setAppearance(mModel->appearance);
+    const std::vector<std::string> names = materialNames(mModel->asset);
+    std::erase_if(state.material, [&](const WeightedMaterial& worn) {
+        return std::ranges::find(names, worn.name) == names.end();
+    });
+}
+
+void SceneView::wearChosen(SceneState& state) {
+    if (std::ranges::equal(mWorn, state.material, [](const auto& a, const auto& b) { return a == b; }))
+        return;
+    Appearance appearance = defaultAppearance(mModel->asset);
+    std::vector<WeightedMaterial> blend = state.material;
+    float sum = 0;
+    for (const WeightedMaterial& worn : blend) sum += worn.weight;
+    for (WeightedMaterial& worn : blend) worn.weight /= sum; // as `relume render` does
+    try {
+        if (!blend.empty()) wear(appearance, mModel->asset, blend);
+    } catch (const Error& why) {
+        mTell(why.what(), true);
+        state.material = mWorn;
+        return;
+    }
+    mWorn = state.material;
+    // Another set's tuples are of the light before.
+    const bool isRelit =
+        !std::ranges::equal(appearance, mModel->appearance, {}, &PartAppearance::set, &PartAppearance::set);
+    mModel->appearance = std::move(appearance);
+    mModel->view.setAppearance(mModel->appearance);
+    if (isRelit) mLit.reset();
+    mSeen.reset();
+}
+
+void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
+    LightState& light = state.light;
+    if (light.file) mFeed.want(light.file, light.seconds);
+    if (light.file && !mFeed.light() && mFeed.isNewest()) light.file.reset(); // it cannot be read
+    const std::shared_ptr<const Light> fromFile = light.file ? mFeed.light() : nullptr;
+    // The light before, until the one chosen is there.
+    if (light.file ? !fromFile : !light.isReady()) return;
+    if (mLit == light && mLitFile == fromFile) return;
+    mModel->light.setLight(fromFile ? *fromFile : lightOf(light));
+    mModel->light.record(commands, glm::radians(light.rotation), light.selection);
+    mModel->relighter.record(commands, mModel->light, mModel->appearance);
+    mLit = light;
+    mLitFile = fromFile;
+    mSeen.reset();
+    mLightStats.reset();
+    mLightVersion++;
+}
+
+void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec2 size) {
+    const Seen now{state.orbit->camera(), size, state.terms, state.inspect};
+    if (mSeen && mSeen->camera.eye == now.camera.eye && mSeen->camera.target == now.camera.target &&
+        mSeen->camera.verticalFov == now.camera.verticalFov && mSeen->size == size &&
+        mSeen->terms == now.terms && mSeen->inspect == now.inspect)
+        return;
+    const vk::ImageOptions& options = mModel->view.image().options();
+    if (ivec2(int(options.width), int(options.height)) != size) mModel->view.resize(size.x, size.y);
+    mModel->view.setTerms(now.terms);
+    mModel->view.setInspect(now.inspect);
+    mModel->view.record(commands, now.camera, mModel->relighter);
+    mSeen = now;
+    mViewVersion++;
+}
+
+bool SceneView::compares(const SceneState& state) {
+    return state.compare != Compare::Off && state.inspect == Inspect::Off;
+}
+
+void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) {
+    if (!compares(state) || mComparedVersion != mViewVersion) {
+        if (mComparedVersion != 0) mComparison.stop();
+        mComparedVersion = 0;
+        mCompared = {};
+        return;
+    }
+    if (mCompared.passes == 0) return;
+    if (mReferenceIsNew)
+        commands.transition(mReference, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, vk::Stage::Transfer, vk::Stage::Draw);
+    mReferenceIsNew = false;
+    mImage = &mReference;
+    if (state.compare == Compare::Reference) return;
+    const CompareMode mode = state.compare == Compare::Split ? CompareMode::Split : CompareMode::Difference;
+    mComparePass->record(commands, mModel->view.image(), mReference,
+                         {mode, state.split, std::exp2(state.exposure) / kHottest});
+    mImage = &mComparePass->image();
+}
+
+void SceneView::submitted(const SceneState& state) {
+    if (!mModel || !mLit) return;
+    if (!mLightStats) mLightStats = mModel->light.readStats();
+    if (!mIsStill || !compares(state) || mComparedVersion == mViewVersion) return;
+    mComparison.begin(
+        {mModel, mSeen->camera, mModel->light.readCube(), mModel->appearance, mModel->view.read()});
+    mComparedVersion = mViewVersion;
+}
+
+const vk::Image* SceneView::image() const { return mImage; }
+
+bool SceneView::isFalseColor(const SceneState& state) const {
+    return state.inspect != Inspect::Off ||
+           (state.compare == Compare::Difference && mImage == &mComparePass->image());
+}
+
+bool SceneView::isSettled(const SceneState& state) const {
+    return mLit && (state.light.file ? mFeed.isNewest() : state.light.isReady());
+}
+
+} // namespace relume

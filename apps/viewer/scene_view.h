@@ -1,0 +1,79 @@
+// The view that the window shows: draws of it what has changed since the last frame.
+#pragma once
+
+#include "apps/viewer/comparison.h"
+#include "apps/viewer/content.h"
+#include "apps/viewer/light_feed.h"
+#include "apps/viewer/scene_state.h"
+#include "engine/render/compare_pass.h"
+
+namespace relume {
+
+class SceneView {
+  public:
+    using Tell = std::function<void(const std::string& words, bool isFailure)>;
+    // `wake` is called from other threads when there is something new to be shown.
+    SceneView(const vk::Device& device, std::function<void()> wake, Tell tell);
+
+    // Takes in what other threads have found. True: a frame is to be drawn.
+    bool poll();
+
+    // Records what is to be drawn anew of a model, at this size. Corrects in `state` what cannot be.
+    void record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model, ivec2 size);
+    // After that was submitted, and has ended.
+    void submitted(const SceneState& state);
+
+    // With the shaders that the device has now.
+    void remakePrograms() { mComparePass.emplace(mDevice); }
+
+    // Linear, in TRANSFER_SRC_OPTIMAL; null: nothing is there yet.
+    const vk::Image* image() const;
+    // Image() is not radiance, but has colours of its own.
+    bool isFalseColor(const SceneState& state) const;
+
+    // The newest light is shown.
+    bool isSettled(const SceneState& state) const;
+    // They count changes of the light and of what is seen. The view is still: the last frame changed neither.
+    uint64_t lightVersion() const { return mLightVersion; }
+    uint64_t viewVersion() const { return mViewVersion; }
+    bool isStill() const { return mIsStill; }
+
+    const std::optional<LightStats>& lightStats() const { return mLightStats; }
+    // Of the reference of what is seen; no passes: none is there.
+    const Comparison::Result& compared() const { return mCompared; }
+
+  private:
+    struct Seen {
+        Camera camera;
+        ivec2 size{0};
+        int terms = 0;
+        Inspect inspect = Inspect::Off;
+    };
+    void begin(const std::shared_ptr<Model>& model, SceneState& state);
+    void wearChosen(SceneState& state);
+    void recordLight(vk::Commands& commands, SceneState& state);
+    void recordView(vk::Commands& commands, const SceneState& state, ivec2 size);
+    void recordCompared(vk::Commands& commands, const SceneState& state);
+    static bool compares(const SceneState& state);
+
+    const vk::Device& mDevice;
+    Tell mTell;
+    LightFeed mFeed;
+    Comparison mComparison;
+    std::optional<ComparePass> mComparePass;
+    std::shared_ptr<Model> mModel;
+    std::vector<WeightedMaterial> mWorn;
+    std::optional<LightState> mLit; // what the tuples on the device were made for
+    std::shared_ptr<const Light> mLitFile;
+    std::optional<Seen> mSeen;
+    std::optional<LightStats> mLightStats;
+    uint64_t mLightVersion = 0, mViewVersion = 0;
+    uint64_t mComparedVersion = 0; // that the comparison is of; 0: none is under way
+    bool mIsStill = false;
+    vk::Image mReference;
+    bool mReferenceIsNew = false; // still in SHADER_READ_ONLY_OPTIMAL
+    Comparison::Result mCompared; // without its image
+    const vk::Image* mImage = nullptr;
+};
+
+} // namespace relume

@@ -1,0 +1,46 @@
+#include "apps/viewer/panel_items.h"
+#include "apps/viewer/panels.h"
+
+#include <algorithm>
+
+namespace relume {
+
+void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
+    const FrameTimes& times = *facts.times;
+    ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - 0.5f * line(), 0.5f * line()}, ImGuiCond_Always,
+                            {1, 0});
+    ImGui::Begin("Times", nullptr,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoMove);
+    text(fmt::format("{:.1f} frames/s", times.framesPerSecond()));
+    explain("When frames follow each other. Where nothing changes, none is drawn");
+    const std::vector<float> milliseconds = times.milliseconds();
+    float highest = 20;
+    for (const float time : milliseconds) highest = std::max(highest, time);
+    ImGui::PlotLines("##frames", milliseconds.data(), int(milliseconds.size()), 0,
+                     fmt::format("up to {:.0f} ms", highest).c_str(), 0, highest, {17 * line(), 3 * line()});
+    for (const auto& [name, seconds] : times.passes()) {
+        text(name);
+        ImGui::SameLine(11 * line());
+        text(fmt::format("{:7.2f} ms", 1e3 * seconds));
+    }
+    if (facts.light) {
+        text(fmt::format("{} coefficients of light", facts.light->kept));
+        explain("That were kept for relighting; the rest counts as zero");
+    }
+    text(fmt::format("{:.0f} MB of memory", double(facts.memory) * 1e-6));
+    ImGui::PushTextWrapPos(17 * line());
+    ImGui::TextDisabled("%s", facts.device.c_str());
+    ImGui::PopTextWrapPos();
+    if (ImGui::SmallButton(facts.isCapturing ? "Stop capture" : "Capture")) wishes.togglesCapture = true;
+    explain("F9: write what every frame spends its time on, for trace viewers");
+    ImGui::SameLine();
+    if (ImGui::SmallButton(facts.isRecording ? "Stop recording" : "Record")) wishes.togglesRecording = true;
+    explain("Ctrl + F12: write every frame as an image, thirty to a second of the scene's time");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Shaders")) wishes.reloadsShaders = true;
+    explain("F5: build the shaders anew from their sources");
+    ImGui::End();
+}
+
+} // namespace relume

@@ -1,0 +1,28 @@
+#include "apps/viewer/panel_items.h"
+#include "apps/viewer/panels.h"
+
+namespace relume {
+
+void drawViewPanel(SceneState& state, PanelWishes& wishes) {
+    ImGui::SliderFloat("Exposure", &state.exposure, -8, 8, "%.1f stops");
+    constexpr const char* kCurves[] = {"None", "ACES", "AgX"};
+    int curve = int(state.tone);
+    if (ImGui::Combo("Tone", &curve, kCurves, 3)) state.tone = ToneCurve(curve);
+    explain("How radiance becomes what a display shows");
+    if (ImGui::SliderFloat("Field of view", &state.fovDegrees, 10, 100, "%.0f deg") && state.orbit)
+        state.orbit->verticalFov = glm::radians(state.fovDegrees);
+    ImGui::Checkbox("Turntable", &state.turns);
+    explain("T");
+    ImGui::SameLine();
+    if (ImGui::Button("Reset")) wishes.resetsView = true;
+    explain("Enter: the default view");
+    ImGui::SameLine();
+    if (ImGui::Button("Screenshot")) wishes.takesScreenshot = true;
+    explain("F12: .png as it is seen, .exr of linear radiance, in the folder this was started in");
+    ImGui::Checkbox("Dark panels", &state.isDark);
+    ImGui::SameLine();
+    ImGui::Checkbox("Vsync", &state.waitsForDisplay);
+    explain("Show frames when the display asks for them: no tearing, no more frames than it shows");
+}
+
+} // namespace relume
