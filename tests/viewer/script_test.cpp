@@ -28,7 +28,8 @@ class Session {
         std::ofstream(mFolder.path() / "script.json") << script;
         return runProgram(mFolder, RELUME_VIEWER,
                           "--script script.json --validation core,sync --size 480x360 " + arguments,
-                          mDisplay.environment() + " XDG_CACHE_HOME=cache LP_NUM_THREADS=0 timeout 300");
+                          mDisplay.environment() + " XDG_CACHE_HOME=" + path("cache").string() +
+                              " XDG_STATE_HOME=" + path("state").string() + " LP_NUM_THREADS=0 timeout 300");
     }
     Outcome relume(const std::string& arguments) { return runRelume(mFolder, arguments); }
     std::filesystem::path path(const std::string& file) const { return mFolder.path() / file; }
@@ -158,7 +159,7 @@ TEST_CASE("viewer: says what is wrong with a script, and that there is no displa
     Session session;
     const Outcome wrong = session.replay({{{"frames", 1}}, {{"jump", 3}}}, "knot.relume");
     CHECK_EQ(wrong.exitCode, 1);
-    CHECK(says(wrong.err, "script.json: step 2: expected one of drag"));
+    CHECK(says(wrong.err, "script.json: step 2: expected one of double-click, drag"));
     const TemporaryFolder folder;
     const Outcome blind = runProgram(folder, RELUME_VIEWER, "", "env -u DISPLAY -u WAYLAND_DISPLAY");
     CHECK_EQ(blind.exitCode, 4);
