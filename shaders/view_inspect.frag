@@ -14,12 +14,15 @@ layout(location = 0) out vec4 radiance;
 
 const vec3 kLine = vec3(0.9, 0.45, 0.05);
 
-// 1 on a triangle's edges, 0 from a pixel off them.
+// 1 on a triangle's edges, 0 from a pixel off them; less where triangles are a few pixels high, so that these do
+// not drown in lines.
 float edge(vec3 direction, vec3 corners[3], vec3 weights) {
     const vec3 perX = barycentricWeights(push.rays.eye, direction + push.rays.right, corners) - weights;
     const vec3 perY = barycentricWeights(push.rays.eye, direction + push.rays.down, corners) - weights;
-    const vec3 pixels = weights / max(sqrt(perX * perX + perY * perY), vec3(1e-20));
-    return 1 - clamp(min(min(pixels.x, pixels.y), pixels.z), 0, 1);
+    const vec3 heights = 1 / max(sqrt(perX * perX + perY * perY), vec3(1e-20)); // in pixels
+    const vec3 pixels = weights * heights;
+    const float fade = clamp(min(min(heights.x, heights.y), heights.z) / 6, 0.2, 1);
+    return fade * (1 - clamp(min(min(pixels.x, pixels.y), pixels.z), 0, 1));
 }
 
 // Blue: sixteen times the median area and more; white: the median; red: a sixteenth and less.

@@ -107,7 +107,7 @@ void LampHandles::draw(const LightState& light, const Camera& camera, const Boun
         if (!place) continue;
         const vec3 c =
             lamp.color / std::max(1e-3f, std::max(lamp.color.x, std::max(lamp.color.y, lamp.color.z)));
-        const ImU32 color = ImGui::GetColorU32({c.x, c.y, c.z, 1});
+        const ImU32 color = ImGui::GetColorU32({c.x, c.y, c.z, 0.6f});
         const float pixels = handleRadius(lamp, camera, model, size);
         if (isBehind(direction, camera, model)) {
             list.AddCircle({place->x, place->y}, pixels, kShadow, 0, 4);

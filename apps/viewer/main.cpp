@@ -2,6 +2,7 @@
 #include "apps/relume/run_program.h"
 #include "apps/viewer/viewer.h"
 #include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 
 using namespace relume;
 
@@ -45,7 +46,8 @@ int main(int argc, char** argv) {
         ->type_name("FILE");
     DeviceArguments device;
     device.add(program);
-    program.footer("H shows all keys. Exit codes: 0 done, 1 failed, 2 usage, 4 no usable device or display.");
+    program.footer("H shows all keys. Exit codes: 0 done, 1 failed, 2 usage, 4 no usable device or display, "
+                   "130 and 143 stopped by Ctrl-C and SIGTERM.");
     return runProgram(program, argc, argv, [&] {
         const std::string image = options.screenshot.extension();
         if (!options.screenshot.empty() && image != ".png" && image != ".exr")
@@ -53,5 +55,6 @@ int main(int argc, char** argv) {
                              options.screenshot.string());
         options.device = device.options;
         runViewer(options);
+        if (caughtInterrupt()) throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
     });
 }

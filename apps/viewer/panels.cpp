@@ -9,19 +9,23 @@ namespace {
 
 constexpr float kPanelWidth = 27; // lines
 
+bool beginSection(const char* name, bool& isOpen) {
+    ImGui::SetNextItemOpen(isOpen);
+    return isOpen = ImGui::CollapsingHeader(name);
+}
+
 void drawMain(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
     const float highest = ImGui::GetIO().DisplaySize.y - line();
     ImGui::SetNextWindowPos({0.5f * line(), 0.5f * line()}, ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSizeConstraints({kPanelWidth * line(), 0}, {kPanelWidth * line(), highest});
     ImGui::Begin("Relume", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PushItemWidth(14 * line());
-    constexpr ImGuiTreeNodeFlags kOpen = ImGuiTreeNodeFlags_DefaultOpen;
-    if (ImGui::CollapsingHeader("Model")) drawModelPanel(facts, wishes);
-    if (ImGui::CollapsingHeader("Light", kOpen)) drawLightPanel(state, facts, wishes);
-    if (!facts.materials.empty() && ImGui::CollapsingHeader("Material", kOpen))
+    if (beginSection("Model", state.opensModel)) drawModelPanel(facts, wishes);
+    if (beginSection("Light", state.opensLight)) drawLightPanel(state, facts, wishes);
+    if (!facts.materials.empty() && beginSection("Material", state.opensMaterial))
         drawMaterialPanel(state, facts);
-    if (ImGui::CollapsingHeader("View")) drawViewPanel(state, wishes);
-    if (facts.content->shown() && ImGui::CollapsingHeader("Trust", kOpen)) drawTrustPanel(state, facts);
+    if (beginSection("View", state.opensView)) drawViewPanel(state, wishes);
+    if (facts.content->shown() && beginSection("Trust", state.opensTrust)) drawTrustPanel(state, facts);
     ImGui::TextDisabled("H: keys    Tab: hide panels");
     ImGui::PopItemWidth();
     ImGui::End();

@@ -36,6 +36,8 @@ struct SceneState {
     bool showsWhy = false;       // the panel of the probed vertex
     bool waitsForDisplay = true; // vertical synchronisation
     bool showsPanels = true, showsHelp = false, isDark = true;
+    // Sections of the main panel that are unfolded.
+    bool opensModel = false, opensLight = true, opensMaterial = true, opensView = false, opensTrust = true;
 };
 
 } // namespace relume

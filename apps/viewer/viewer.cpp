@@ -17,6 +17,7 @@
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/interrupt.h"
 #include "engine/image/image_file.h"
 #include "engine/render/display_pass.h"
 #include "engine/vk/timing_capture.h"
@@ -35,6 +36,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr float kTurntableDegrees = 20; // a second
 constexpr int kFramesAfterInput = 3;    // until panels have taken it in
+constexpr double kNoticeSeconds = 8;    // that good news are shown
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -54,6 +56,10 @@ vk::DeviceOptions deviceOptions(const ViewerOptions& options, const Window& wind
     device.surfaceExtensions = window.surfaceExtensions();
     device.pipelineCache = cacheFolder() / "pipelines";
     return device;
+}
+
+std::unique_ptr<Surface> makeSurface(const Window& window, const vk::Device& device) {
+    return std::make_unique<Surface>(device.instance(), window.makeSurface(device.instance()));
 }
 
 // Sessions that nobody watches are the same whatever was done before.
@@ -123,7 +129,7 @@ class Viewer : public ScriptTarget {
     Habits mHabits;
     Window mWindow;
     vk::Device mDevice;
-    Surface mSurface;
+    std::unique_ptr<Surface> mSurface;
     vk::Swapchain mSwapchain;
     Ui mUi;
     std::unique_ptr<DisplayPass> mDisplay;
@@ -144,6 +150,7 @@ class Viewer : public ScriptTarget {
     std::vector<std::filesystem::path> mScreenshots;
     vk::Buffer mScreen; // of the window, on its way to a file
     std::string mNotice;
+    Clock::time_point mNoticeTime;
     bool mIsFailure = false;
     bool mNeedsSwapchain = true;
     int mFramesWanted = kFramesAfterInput;
@@ -155,8 +162,8 @@ class Viewer : public ScriptTarget {
 Viewer::Viewer(const ViewerOptions& options)
     : mOptions(options), mHabits(hasHabits(options) ? readHabits() : Habits{}),
       mWindow("Relume", firstSize(options, mHabits)), mDevice(deviceOptions(options, mWindow)),
-      mSurface(mDevice.instance(), mWindow.makeSurface(mDevice.instance())),
-      mSwapchain(mDevice, mSurface.handle, options.waitsForDisplay), mUi(mWindow, mDevice, mSwapchain),
+      mSurface(makeSurface(mWindow, mDevice)), mSwapchain(mDevice, mSurface->handle, options.waitsForDisplay),
+      mUi(mWindow, mDevice, mSwapchain),
       mDisplay(std::make_unique<DisplayPass>(mDevice, mSwapchain.format())), mCommands(mDevice, "frame"),
       mContent(
           mDevice, options.device.select, mState.light,
@@ -384,7 +391,8 @@ void Viewer::set(const std::string& name, const nlohmann::json& value) {
 // The loop
 
 void Viewer::run() {
-    while (!mWindow.wantsClose()) {
+    catchInterrupts();
+    while (!mWindow.wantsClose() && !caughtInterrupt()) {
         mWindow.poll(wantsFrame() ? 0 : waitSeconds());
         if (mScript) mScript->step(*this);
         takeEvents();
@@ -411,6 +419,10 @@ void Viewer::run() {
 
 void Viewer::poll() {
     const Model* const before = mContent.shown().get();
+    if (!mNotice.empty() && !mIsFailure && secondsSince(mNoticeTime) > kNoticeSeconds) {
+        mNotice.clear();
+        wantFrames(1);
+    }
     mWorker.apply();
     if (mContent.poll()) wantFrames(kFramesAfterInput);
     if (mView.poll()) wantFrames(1);
@@ -435,8 +447,9 @@ bool Viewer::wantsFrame() const {
            (mScript && !mScript->hasEnded() && !mScript->isWaiting());
 }
 
+// A bake and a script are asked how they are; a signal is seen within a second.
 double Viewer::waitSeconds() const {
-    return mContent.isBaking() || (mScript && mScript->isWaiting()) ? 0.05 : 3600;
+    return mContent.isBaking() || (mScript && mScript->isWaiting()) ? 0.05 : 1;
 }
 
 bool Viewer::isSettled() const {
@@ -455,6 +468,12 @@ void Viewer::advance(double seconds) {
 
 // False: there is nothing to draw on.
 bool Viewer::prepareSwapchain() {
+    if (mSwapchain.hasLostSurface()) {
+        std::unique_ptr<Surface> surface = makeSurface(mWindow, mDevice);
+        mSwapchain.setSurface(surface->handle);
+        mSurface = std::move(surface);
+        mNeedsSwapchain = true;
+    }
     if (mSwapchain.setWaitsForDisplay(mState.waitsForDisplay)) mNeedsSwapchain = true;
     if (!mNeedsSwapchain) return true;
     const ivec2 size = mWindow.size();
@@ -643,6 +662,7 @@ void Viewer::tell(const std::string& words, bool isFailure) {
     else
         spdlog::info("{}", words);
     mNotice = words;
+    mNoticeTime = Clock::now();
     mIsFailure = isFailure;
     wantFrames(2);
 }

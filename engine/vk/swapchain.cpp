@@ -61,12 +61,26 @@ void Swapchain::destroy() {
     mSwapchain = VK_NULL_HANDLE;
 }
 
+bool Swapchain::isGood(VkResult result, const char* call) {
+    mHasLostSurface |= result == VK_ERROR_SURFACE_LOST_KHR;
+    if (result == VK_ERROR_SURFACE_LOST_KHR || result == VK_ERROR_OUT_OF_DATE_KHR) return false;
+    check(result, call);
+    return true;
+}
+
+void Swapchain::setSurface(VkSurfaceKHR surface) {
+    destroy();
+    mSurface = surface;
+    mHasLostSurface = false;
+}
+
 bool Swapchain::setWaitsForDisplay(bool waits) { return std::exchange(mWaitsForDisplay, waits) != waits; }
 
 bool Swapchain::resize(uint32_t width, uint32_t height) {
     destroy();
     VkSurfaceCapabilitiesKHR can;
-    RELUME_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(mDevice.physical(), mSurface, &can));
+    const VkResult answer = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(mDevice.physical(), mSurface, &can);
+    if (!isGood(answer, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR")) return false;
     mExtent = can.currentExtent;
     if (mExtent.width == UINT32_MAX)
         mExtent = {std::clamp(width, can.minImageExtent.width, can.maxImageExtent.width),
@@ -108,8 +122,7 @@ std::optional<uint32_t> Swapchain::acquire() {
     uint32_t image = 0;
     const VkResult result =
         vkAcquireNextImageKHR(mDevice.handle(), mSwapchain, UINT64_MAX, VK_NULL_HANDLE, mAcquired, &image);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
-    if (result != VK_SUBOPTIMAL_KHR) check(result, "vkAcquireNextImageKHR");
+    if (result != VK_SUBOPTIMAL_KHR && !isGood(result, "vkAcquireNextImageKHR")) return std::nullopt;
     RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mAcquired, VK_TRUE, UINT64_MAX));
     RELUME_VK(vkResetFences(mDevice.handle(), 1, &mAcquired));
     return image;
@@ -125,9 +138,7 @@ bool Swapchain::present(uint32_t image) {
         const auto lock = mDevice.lockQueue();
         result = vkQueuePresentKHR(mDevice.queue(), &present);
     }
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
-    check(result, "vkQueuePresentKHR");
-    return true;
+    return result != VK_SUBOPTIMAL_KHR && isGood(result, "vkQueuePresentKHR");
 }
 
 } // namespace relume::vk

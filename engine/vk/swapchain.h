@@ -18,6 +18,11 @@ class Swapchain {
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
+    // The window system has taken the surface away: nothing can be drawn until another is set.
+    bool hasLostSurface() const { return mHasLostSurface; }
+    // Another surface of the same kind, for which resize() must be called. The one before may go after this.
+    void setSurface(VkSurfaceKHR surface);
+
     // Images anew, as large as the surface; of this size where it leaves that open. Call at first, and
     // whenever acquire() or present() say so. False where the surface has no area, as a minimised window's:
     // then there is nothing to draw on.
@@ -41,11 +46,13 @@ class Swapchain {
 
   private:
     void destroy();
+    // As check(), but for what another surface or size mends; then false.
+    bool isGood(VkResult result, const char* call);
 
     const Device& mDevice;
     VkSurfaceKHR mSurface;
     VkSurfaceFormatKHR mFormat;
-    bool mWaitsForDisplay;
+    bool mWaitsForDisplay, mHasLostSurface = false;
     VkSwapchainKHR mSwapchain = VK_NULL_HANDLE;
     VkExtent2D mExtent{0, 0};
     std::vector<Image> mImages;
