@@ -196,7 +196,8 @@ Viewer::Viewer(const ViewerOptions& options)
 Viewer::~Viewer() {
     mDevice.savePipelineCache();
     if (!hasHabits(mOptions)) return;
-    if (!mWindow.isFullScreen()) mHabits.size = mWindow.size();
+    // A window is made as large as this times its scale.
+    if (!mWindow.isFullScreen()) mHabits.size = ivec2(vec2(mWindow.size()) / mWindow.scale());
     mHabits.recent = mContent.recent();
     mHabits.environments.clear();
     for (const EnvironmentChoice& choice : mState.light.environments)
