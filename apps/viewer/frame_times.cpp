@@ -7,11 +7,11 @@ namespace relume {
 void FrameTimes::add(double seconds, const vk::PassTimes& passes) {
     mSeconds[mCount++ % kFrames] = float(seconds);
     for (const auto& [name, time] : passes) {
-        const auto known = std::ranges::find(mPasses, name, &std::pair<std::string, double>::first);
+        const auto known = std::ranges::find(mPasses, name, &Pass::name);
         if (known == mPasses.end())
-            mPasses.emplace_back(name, time);
+            mPasses.push_back({name, time, mCount});
         else
-            known->second = time;
+            *known = {name, time, mCount};
     }
 }
 

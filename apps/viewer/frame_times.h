@@ -17,15 +17,21 @@ class FrameTimes {
 
     // Milliseconds of the last frames, the newest last.
     std::vector<float> milliseconds() const;
-    // Of the newest frame that had each of these.
-    const vk::PassTimes& passes() const { return mPasses; }
+    // Of every pass that some frame had, the newest.
+    struct Pass {
+        std::string name;
+        double seconds;
+        uint64_t frame; // that had it; isOfLastFrame()
+    };
+    const std::vector<Pass>& passes() const { return mPasses; }
+    bool isOfLastFrame(const Pass& pass) const { return pass.frame == mCount; }
     // If frames followed each other: by those of the last second of drawing.
     double framesPerSecond() const;
 
   private:
     std::array<float, kFrames> mSeconds{};
     uint64_t mCount = 0;
-    vk::PassTimes mPasses;
+    std::vector<Pass> mPasses;
 };
 
 } // namespace relume

@@ -34,6 +34,7 @@ void drawMain(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
 void drawHelp(SceneState& state) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(1);
     ImGui::Begin("Keys", &state.showsHelp, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
     for (const KeyHelp& help : keyHelp()) {
         text(help.keys);

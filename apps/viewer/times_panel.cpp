@@ -19,11 +19,15 @@ void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
     for (const float time : milliseconds) highest = std::max(highest, time);
     ImGui::PlotLines("##frames", milliseconds.data(), int(milliseconds.size()), 0,
                      fmt::format("up to {:.0f} ms", highest).c_str(), 0, highest, {17 * line(), 3 * line()});
-    for (const auto& [name, seconds] : times.passes()) {
-        text(name);
+    for (const FrameTimes::Pass& pass : times.passes()) {
+        const bool isOld = !times.isOfLastFrame(pass);
+        if (isOld) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        text(pass.name);
         ImGui::SameLine(11 * line());
-        text(fmt::format("{:7.2f} ms", 1e3 * seconds));
+        text(fmt::format("{:7.2f} ms", 1e3 * pass.seconds));
+        if (isOld) ImGui::PopStyleColor();
     }
+    explain("Device time of each pass; grey: of the last frame that needed it");
     if (facts.light) {
         text(fmt::format("{} coefficients of light", facts.light->kept));
         explain("That were kept for relighting; the rest counts as zero");
