@@ -7,7 +7,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kCrossWidth = 14; // lines
+constexpr float kCrossWidth = 12; // lines
 
 void drawDot(vec3 value) { text(fmt::format("{:9.4f} {:9.4f} {:9.4f}", value.x, value.y, value.z)); }
 
@@ -16,6 +16,7 @@ bool beginAtRight(const char* name, bool& isOpen, float fromRight) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x - fromRight * line(), size.y - 0.5f * line()}, ImGuiCond_FirstUseEver,
                             {1, 1});
+    ImGui::SetNextWindowBgAlpha(1); // other panels may be behind
     return ImGui::Begin(name, &isOpen,
                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
 }
@@ -91,7 +92,7 @@ void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
         explain("The environment in grey; coloured: light times what it counts for, yellow most");
         text(fmt::format("radiance {:.4f} {:.4f} {:.4f}; its {} terms:", why.radiance.x, why.radiance.y,
                          why.radiance.z, why.tuple.size()));
-        if (ImGui::BeginChild("terms", {0, std::min<float>(6, float(why.tuple.size())) *
+        if (ImGui::BeginChild("terms", {0, std::min<float>(4, float(why.tuple.size())) *
                                                    ImGui::GetTextLineHeightWithSpacing() +
                                                line()}))
             for (const vec3& term : why.tuple) drawDot(term);
