@@ -105,11 +105,13 @@ void Controls::takeMove(vec2 place, SceneState& state, ivec2 size) {
 Command Controls::takeKey(const InputEvent& event, SceneState& state) {
     const bool withControl = event.modifiers & GLFW_MOD_CONTROL;
     if (event.code >= GLFW_KEY_1 && event.code <= GLFW_KEY_9) {
-        std::optional<Orbit>& view = mViews[size_t(event.code - GLFW_KEY_1)];
-        if (withControl)
-            view = state.orbit;
-        else if (view)
-            state.orbit = view;
+        KeptView& view = mViews[size_t(event.code - GLFW_KEY_1)];
+        if (withControl) {
+            view = {state.orbit, state.fovDegrees};
+        } else if (view.orbit) {
+            state.orbit = view.orbit;
+            state.fovDegrees = view.fovDegrees;
+        }
         return Command::None;
     }
     switch (event.code) {

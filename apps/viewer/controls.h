@@ -50,7 +50,11 @@ class Controls {
     vec2 mCursor{0};
     vec2 mLastClick{-1e6f}; // where the left button was pressed last, and when
     double mLastClickTime = 0;
-    std::array<std::optional<Orbit>, 9> mViews; // that number keys keep
+    struct KeptView {
+        std::optional<Orbit> orbit;
+        float fovDegrees = 0;
+    };
+    std::array<KeptView, 9> mViews; // of number keys
 };
 
 } // namespace relume
