@@ -381,11 +381,10 @@ void Viewer::saveLight() {
 
 void Viewer::set(const std::string& name, const nlohmann::json& value) {
     wantFrames(kFramesAfterInput);
-    if (name == "environment" && value != "sky")
-        mState.light.environment = mContent.addEnvironment(value.get<std::string>());
-    else if (name == "environment")
-        mState.light.environment = 0;
-    else
+    if (name == "environment") {
+        mState.light.environment = value == "sky" ? 0 : mContent.addEnvironment(value.get<std::string>());
+        mState.light.file.reset();
+    } else
         applySetting(mState, name, value, hasView() ? &mContent.shown()->bounds : nullptr);
 }
 
