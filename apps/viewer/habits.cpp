@@ -16,13 +16,25 @@ constexpr size_t kMostBytes = 1 << 20, kMostFiles = 64;
 
 std::filesystem::path habitsFile() { return stateFolder() / "viewer.json"; }
 
-std::vector<std::filesystem::path> filesOf(const json& object, const char* name) {
+// Of an object; null: it is not there.
+json memberOf(const json& object, const char* name) { return object.value(name, json()); }
+
+std::vector<std::filesystem::path> filesOf(const json& list) {
     std::vector<std::filesystem::path> files;
-    const json list = object.value(name, json::array());
+    if (!list.is_array()) return files;
+    std::error_code failure;
     for (const json& file : list)
-        if (file.is_string() && files.size() < kMostFiles && std::filesystem::exists(file.get<std::string>()))
+        if (file.is_string() && files.size() < kMostFiles &&
+            std::filesystem::exists(file.get<std::string>(), failure))
             files.emplace_back(file.get<std::string>());
     return files;
+}
+
+std::optional<ivec2> sizeOf(const json& width, const json& height) {
+    if (!width.is_number_integer() || !height.is_number_integer()) return std::nullopt;
+    const auto x = width.get<int64_t>(), y = height.get<int64_t>();
+    if (x < 320 || y < 240 || x > 16384 || y > 16384) return std::nullopt;
+    return ivec2(int(x), int(y));
 }
 
 json listOf(const std::vector<std::filesystem::path>& files) {
@@ -41,12 +53,11 @@ Habits readHabits() {
         const std::vector<std::byte> bytes = readFile(file, kMostBytes);
         const char* const text = reinterpret_cast<const char*>(bytes.data());
         const json object = json::parse(text, text + bytes.size());
-        const ivec2 size(object.at("width").get<int>(), object.at("height").get<int>());
-        if (size.x >= 320 && size.y >= 240 && size.x <= 16384 && size.y <= 16384) habits.size = size;
-        habits.recent = filesOf(object, "recent");
-        habits.environments = filesOf(object, "environments");
-        habits.settings = object.value("settings", json::object());
-        if (!habits.settings.is_object()) habits.settings = json::object();
+        habits.size = sizeOf(memberOf(object, "width"), memberOf(object, "height"));
+        habits.recent = filesOf(memberOf(object, "recent"));
+        habits.environments = filesOf(memberOf(object, "environments"));
+        if (const json settings = memberOf(object, "settings"); settings.is_object())
+            habits.settings = settings;
     } catch (const std::exception& why) {
         spdlog::debug("what was remembered is left out: {}", why.what());
     }
