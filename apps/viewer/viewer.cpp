@@ -607,6 +607,7 @@ void Viewer::saveScreenshot(const std::filesystem::path& file, const Image& scre
     if (!mView.image()) throw Error("{}: nothing is shown yet", file.string());
     const Model& model = *mContent.shown();
     writeExr(file, model.view.read());
+    if (mState.inspect != Inspect::Off) return; // no command draws it
     std::filesystem::path light = file;
     light.replace_extension(".light.json");
     if (needsLightFile(mState.light)) {
