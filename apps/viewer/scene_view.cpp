@@ -60,8 +60,9 @@ void SceneView::record(vk::Commands& commands, SceneState& state, const std::sha
 
 void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
     // The same object stays where it is, another one is looked at as a whole.
-    const bool isSame = mModel && glm::distance(mModel->bounds.centre(), model->bounds.centre()) <
-                                      1e-3f * model->bounds.radius();
+    const float slack = 1e-3f * model->bounds.radius();
+    const bool isSame = mModel && glm::distance(mModel->bounds.low, model->bounds.low) < slack &&
+                        glm::distance(mModel->bounds.high, model->bounds.high) < slack;
     if (mModel && !isSame) state.orbit.reset();
     mModel = model;
     mLit.reset();
