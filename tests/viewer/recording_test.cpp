@@ -1,0 +1,42 @@
+// Numbered images of what the window shows.
+#include "tests/support/viewer_session.h"
+
+using namespace relume;
+using namespace relume::test;
+using nlohmann::json;
+
+TEST_CASE("viewer: a recording has every frame, numbered, as large as the window") {
+    Session& session = sharedSession();
+    std::filesystem::create_directory(session.path("takes"));
+    const Outcome outcome = session.replay({{{"wait", "settled"}},
+                                            {{"set", {{"turntable", true}}}},
+                                            {{"key", "ctrl+F12"}},
+                                            {{"frames", 12}},
+                                            {{"key", "ctrl+F12"}},
+                                            {{"frames", 3}},
+                                            {{"quit", true}}},
+                                           "ring.relume");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    CHECK(isQuiet(outcome.err));
+    std::filesystem::path folder;
+    for (const auto& entry : std::filesystem::directory_iterator(session.path("")))
+        if (entry.is_directory() && entry.path().filename().string().starts_with("relume-")) folder = entry;
+    REQUIRE_FALSE(folder.empty());
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        names.push_back(entry.path().filename());
+    std::ranges::sort(names);
+    // From the frame of the first key to that before the second.
+    REQUIRE_EQ(names.size(), 13u);
+    std::string last;
+    for (size_t i = 0; i < names.size(); i++) {
+        CAPTURE(names[i]);
+        CHECK_EQ(names[i], fmt::format("frame_{:04}.png", i + 1));
+        const std::string image = contents(folder / names[i]);
+        CHECK_EQ(pngSize(image), std::pair(kSessionWidth, kSessionHeight));
+        CHECK(image != last); // it turns
+        last = image;
+    }
+    CHECK(says(outcome.err, folder.filename().string() + ": 13 images"));
+}
