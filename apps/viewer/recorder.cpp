@@ -20,7 +20,14 @@ Recorder::Recorder(std::filesystem::path folder) : mFolder(std::move(folder)), m
 void Recorder::add(Image frame) {
     const std::filesystem::path file = mFolder / fmt::format("frame_{:04}.png", ++mFrames);
     mWorker.apply();
-    if (mWaiting >= kMostWaiting) return writePng(file, frame);
+    if (mWaiting >= kMostWaiting) {
+        try {
+            writePng(file, frame);
+        } catch (const Error& why) {
+            mFailure = why.what();
+        }
+        return;
+    }
     mWaiting++;
     mWorker.post(
         "writing " + file.filename().string(),
