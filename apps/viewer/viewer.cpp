@@ -5,10 +5,9 @@
 #include "apps/viewer/lamp_handles.h"
 #include "apps/viewer/memory_use.h"
 #include "apps/viewer/opened_file.h"
+#include "apps/viewer/outputs.h"
 #include "apps/viewer/overlay.h"
 #include "apps/viewer/panel_pictures.h"
-#include "apps/viewer/recorder.h"
-#include "apps/viewer/screenshot.h"
 #include "apps/viewer/script.h"
 #include "apps/viewer/settings.h"
 #include "apps/viewer/shader_compiler.h"
@@ -18,14 +17,11 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/interrupt.h"
-#include "engine/image/image_file.h"
 #include "engine/render/display_pass.h"
-#include "engine/vk/timing_capture.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -40,15 +36,6 @@ constexpr double kNoticeSeconds = 8;    // that good news are shown
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string timeStamp() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-    return text;
 }
 
 vk::DeviceOptions deviceOptions(const ViewerOptions& options, const Window& window) {
@@ -77,7 +64,7 @@ class Viewer : public ScriptTarget {
 
     void input(InputEvent event) override;
     void resize(int width, int height) override { mWindow.resize(width, height); }
-    void screenshot(const std::filesystem::path& file) override { mScreenshots.push_back(file); }
+    void screenshot(const std::filesystem::path& file) override { mOutputs.wantScreenshot(file); }
     void set(const std::string& name, const nlohmann::json& value) override;
     bool isSettled() const override;
     int comparedPasses() const override { return mView.compared().passes; }
@@ -108,17 +95,13 @@ class Viewer : public ScriptTarget {
     void drawFrame();
     void drawUi();
     void recordView(const vk::Image& target);
-    bool recordReadback(const vk::Image& target);
     PanelFacts facts() const;
     Camera camera() const { return mState.orbit->camera(); }
     // A model is shown, from somewhere.
     bool hasView() const { return mContent.shown() && mState.orbit; }
 
-    void saveScreenshots();
-    void saveScreenshot(const std::filesystem::path& file, const Image& screen);
+    void save();
     void toggleCapture();
-    void beginCapture(const std::filesystem::path& file);
-    void endCapture();
     void toggleRecording();
     void tell(const std::string& words, bool isFailure = false);
     // What fails is told.
@@ -144,11 +127,7 @@ class Viewer : public ScriptTarget {
     PanelPictures mPictures;
 
     FrameTimes mTimes;
-    std::optional<vk::TimingCapture> mCapture;
-    std::filesystem::path mCaptureFile;
-    std::unique_ptr<Recorder> mRecorder;
-    std::vector<std::filesystem::path> mScreenshots;
-    vk::Buffer mScreen; // of the window, on its way to a file
+    Outputs mOutputs;
     std::string mNotice;
     Clock::time_point mNoticeTime;
     bool mIsFailure = false;
@@ -170,7 +149,8 @@ Viewer::Viewer(const ViewerOptions& options)
           [this](const std::string& words, bool isFailure) { tell(words, isFailure); }, Window::wake),
       mView(mDevice, Window::wake,
             [this](const std::string& words, bool isFailure) { tell(words, isFailure); }),
-      mPictures(mUi.pictures(), Window::wake) {
+      mPictures(mUi.pictures(), Window::wake),
+      mOutputs(mDevice, mCommands, [this](const std::string& words) { tell(words); }) {
     for (const auto& [name, value] : mHabits.settings.items()) {
         try {
             applySetting(mState, name, value, nullptr);
@@ -182,7 +162,7 @@ Viewer::Viewer(const ViewerOptions& options)
     mContent.setRecent(mHabits.recent);
     for (const std::filesystem::path& file : mHabits.environments) mContent.addEnvironment(file);
     if (!options.script.empty()) mScript.emplace(options.script);
-    if (!options.timings.empty()) beginCapture(options.timings);
+    if (!options.timings.empty()) mOutputs.beginCapture(options.timings);
     bool hasModel = false;
     for (const std::filesystem::path& file : options.files) {
         if (!std::filesystem::exists(file)) throw Error("{}: there is no such file", file.string());
@@ -262,8 +242,7 @@ void Viewer::obey(Command command) {
     case Command::Why:
         return askWhy();
     case Command::Screenshot:
-        for (const char* extension : {".png", ".exr"})
-            mScreenshots.push_back("relume-" + timeStamp() + extension);
+        for (const char* extension : {".png", ".exr"}) mOutputs.wantScreenshot(outputName(extension));
         return;
     case Command::Record:
         return toggleRecording();
@@ -373,7 +352,7 @@ void Viewer::saveLight() {
     attempt([&] {
         const std::optional<nlohmann::json> light = lightFileOf(mState.light);
         if (!light) throw Error("the built-in sky has no file; choose another environment to save a light");
-        const std::string file = "relume-" + timeStamp() + ".light.json";
+        const std::string file = outputName(".light.json");
         writeFileAtomically(file, light->dump(2) + "\n");
         tell(fmt::format("{} is written; its turn is --rotate={}", file, mState.light.rotation));
     });
@@ -408,13 +387,13 @@ void Viewer::run() {
         if (mOptions.exitFrame && isSettled()) {
             mSettledFrames++;
             if (mSettledFrames == *mOptions.exitFrame && !mOptions.screenshot.empty())
-                mScreenshots.push_back(mOptions.screenshot);
+                mOutputs.wantScreenshot(mOptions.screenshot);
         }
         drawFrame();
         if (mOptions.exitFrame && mSettledFrames >= *mOptions.exitFrame) break;
     }
-    if (mRecorder) toggleRecording();
-    if (mCapture) endCapture();
+    if (mOutputs.isRecording()) mOutputs.endRecording();
+    if (mOutputs.isCapturing()) mOutputs.endCapture();
 }
 
 void Viewer::poll() {
@@ -443,7 +422,7 @@ void Viewer::expectSomething() const {
 bool Viewer::moves() const { return mState.turns || mState.light.plays; }
 
 bool Viewer::wantsFrame() const {
-    return mFramesWanted > 0 || moves() || mRecorder || mOptions.exitFrame ||
+    return mFramesWanted > 0 || moves() || mOutputs.isRecording() || mOptions.exitFrame ||
            (mScript && !mScript->hasEnded() && !mScript->isWaiting());
 }
 
@@ -489,13 +468,14 @@ bool Viewer::prepareSwapchain() {
 void Viewer::drawFrame() {
     const Clock::time_point start = Clock::now();
     if (!prepareSwapchain()) return;
-    const vk::FrameSpan frame(mCapture ? &*mCapture : nullptr);
+    const vk::FrameSpan frame(mOutputs.capture());
     const std::optional<uint32_t> image = mSwapchain.acquire();
     if (!image) {
         mNeedsSwapchain = true;
         return;
     }
-    advance(mRecorder ? 1 / Recorder::kFramesPerSecond : std::min(secondsSince(mLastFrame), 0.25));
+    advance(mOutputs.isRecording() ? 1 / Recorder::kFramesPerSecond
+                                   : std::min(secondsSince(mLastFrame), 0.25));
     mLastFrame = start;
     drawUi();
 
@@ -505,14 +485,14 @@ void Viewer::drawFrame() {
     mUi.pictures().record(mCommands);
     recordView(target);
     mUi.record(mCommands, *image);
-    const bool isRead = recordReadback(target);
+    const bool isRead = mOutputs.record(target);
     mCommands.transition(
         target, isRead ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
         VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, isRead ? vk::Stage::Transfer : vk::Stage::Color, vk::Stage::Host);
     mCommands.submitAndWait();
     mView.submitted(mState);
     if (mView.image()) mPictures.update(mState, mContent.shown(), mView);
-    if (isRead) saveScreenshots();
+    if (isRead) save();
     if (!mSwapchain.present(*image)) mNeedsSwapchain = true;
     mTimes.add(secondsSince(start), mCommands.times());
     mFramesWanted = std::max(0, mFramesWanted - 1);
@@ -546,18 +526,6 @@ void Viewer::recordView(const vk::Image& target) {
     mCommands.render({.color = &target, .clear = {background.x, background.y, background.z, 1}}, [] {});
 }
 
-// Where the window's image is wanted; then it is in TRANSFER_SRC_OPTIMAL.
-bool Viewer::recordReadback(const vk::Image& target) {
-    if (mScreenshots.empty() && !mRecorder) return false;
-    const uint64_t bytes = uint64_t(4) * mSwapchain.width() * mSwapchain.height();
-    if (mScreen.bytes() != bytes) mScreen = vk::Buffer(mDevice, bytes, vk::BufferUse::Readback, "screenshot");
-    mCommands.transition(target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, vk::Stage::Color, vk::Stage::Transfer);
-    mCommands.copy(target, mScreen, 1);
-    mCommands.barrier(vk::Stage::Transfer, vk::Stage::Host);
-    return true;
-}
-
 PanelFacts Viewer::facts() const {
     PanelFacts facts;
     facts.content = &mContent;
@@ -565,8 +533,8 @@ PanelFacts Viewer::facts() const {
     facts.pictures = &mUi.pictures();
     facts.device = mDevice.name();
     facts.memory = memoryInUse();
-    facts.isCapturing = mCapture.has_value();
-    facts.isRecording = mRecorder != nullptr;
+    facts.isCapturing = mOutputs.isCapturing();
+    facts.isRecording = mOutputs.isRecording();
     facts.notice = mNotice;
     facts.isFailure = mIsFailure;
     facts.light = mView.lightStats();
@@ -587,74 +555,19 @@ PanelFacts Viewer::facts() const {
 
 // Files
 
-void Viewer::saveScreenshots() {
-    const Image screen = screenImage(mScreen.map<uint8_t>(), int(mSwapchain.width()),
-                                     int(mSwapchain.height()), mSwapchain.format());
-    if (mRecorder) mRecorder->add(screen);
-    for (const std::filesystem::path& file : std::exchange(mScreenshots, {})) {
-        try {
-            saveScreenshot(file, screen);
-            tell(file.string() + " is written");
-        } catch (const Error& why) {
-            if (mOptions.exitFrame) throw; // nobody else will see it
-            tell(why.what(), true);
-        }
-    }
-}
-
-void Viewer::saveScreenshot(const std::filesystem::path& file, const Image& screen) {
-    if (file.extension() != ".exr") return writePng(file, screen);
-    if (!mView.image()) throw Error("{}: nothing is shown yet", file.string());
-    const Model& model = *mContent.shown();
-    writeExr(file, model.view.read());
-    if (mState.inspect != Inspect::Off) return; // no command draws it
-    std::filesystem::path light = file;
-    light.replace_extension(".light.json");
-    if (needsLightFile(mState.light)) {
-        const std::optional<nlohmann::json> values = lightFileOf(mState.light);
-        if (!values) return; // no file says it
-        writeFileAtomically(light, values->dump(2) + "\n");
-    }
-    spdlog::info("the same: {}",
-                 renderCommand(mState, model.file, int(mSwapchain.width()), int(mSwapchain.height()), light));
+void Viewer::save() {
+    const Model* const model = mView.image() ? mContent.shown().get() : nullptr;
+    if (mOptions.exitFrame) return mOutputs.save(mState, model); // nobody else will see what fails
+    attempt([&] { mOutputs.save(mState, model); });
 }
 
 void Viewer::toggleRecording() {
-    attempt([&] {
-        if (!mRecorder) {
-            mRecorder = std::make_unique<Recorder>("relume-" + timeStamp());
-            return tell("recording; Ctrl + F12 ends it");
-        }
-        const std::unique_ptr<Recorder> ended = std::move(mRecorder);
-        ended->finish();
-        tell(fmt::format("{}: {} images", ended->folder().string(), ended->frames()));
-    });
+    attempt([&] { mOutputs.isRecording() ? mOutputs.endRecording() : mOutputs.beginRecording(); });
 }
 
 void Viewer::toggleCapture() {
-    attempt([&] {
-        if (mCapture)
-            endCapture();
-        else
-            beginCapture("relume-" + timeStamp() + ".json");
-    });
-}
-
-void Viewer::beginCapture(const std::filesystem::path& file) {
-    expectTimingFile(file);
-    mCaptureFile = file;
-    mCapture.emplace();
-    mCapture->attach(mDevice);
-    mCommands.setCapture(&*mCapture);
-    tell("capturing times; F9 ends it");
-}
-
-void Viewer::endCapture() {
-    mCommands.setCapture(nullptr);
-    const TimingTrace trace = mCapture->trace();
-    mCapture.reset();
-    writeTimings(mCaptureFile, trace);
-    tell(mCaptureFile.string() + " is written");
+    attempt(
+        [&] { mOutputs.isCapturing() ? mOutputs.endCapture() : mOutputs.beginCapture(outputName(".json")); });
 }
 
 void Viewer::tell(const std::string& words, bool isFailure) {

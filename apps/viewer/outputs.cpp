@@ -1,0 +1,99 @@
+#include "apps/viewer/outputs.h"
+
+#include "apps/viewer/screenshot.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/image/image_file.h"
+
+#include <ctime>
+#include <spdlog/spdlog.h>
+#include <utility>
+
+namespace relume {
+
+std::string outputName(const std::string& ending) {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+    return std::string("relume-") + text + ending;
+}
+
+Outputs::Outputs(const vk::Device& device, vk::Commands& commands, Tell tell)
+    : mDevice(device), mCommands(commands), mTell(std::move(tell)) {}
+
+void Outputs::beginRecording() {
+    mRecorder = std::make_unique<Recorder>(outputName(""));
+    mTell("recording; Ctrl + F12 ends it");
+}
+
+void Outputs::endRecording() {
+    const std::unique_ptr<Recorder> ended = std::move(mRecorder);
+    ended->finish();
+    mTell(fmt::format("{}: {} images", ended->folder().string(), ended->frames()));
+}
+
+void Outputs::beginCapture(const std::filesystem::path& file) {
+    expectTimingFile(file);
+    mCaptureFile = file;
+    mCapture.emplace();
+    mCapture->attach(mDevice);
+    mCommands.setCapture(&*mCapture);
+    mTell("capturing times; F9 ends it");
+}
+
+void Outputs::endCapture() {
+    mCommands.setCapture(nullptr);
+    const TimingTrace trace = mCapture->trace();
+    mCapture.reset();
+    writeTimings(mCaptureFile, trace);
+    mTell(mCaptureFile.string() + " is written");
+}
+
+bool Outputs::record(const vk::Image& window) {
+    if (mScreenshots.empty() && !mRecorder) return false;
+    mWindow = window.options();
+    const uint64_t bytes = uint64_t(4) * mWindow.width * mWindow.height;
+    if (mScreen.bytes() != bytes) mScreen = vk::Buffer(mDevice, bytes, vk::BufferUse::Readback, "screenshot");
+    mCommands.transition(window, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, vk::Stage::Color, vk::Stage::Transfer);
+    mCommands.copy(window, mScreen, 1);
+    mCommands.barrier(vk::Stage::Transfer, vk::Stage::Host);
+    return true;
+}
+
+void Outputs::save(const SceneState& state, const Model* model) {
+    const Image screen =
+        screenImage(mScreen.map<uint8_t>(), int(mWindow.width), int(mWindow.height), mWindow.format);
+    std::optional<Error> failure;
+    for (const std::filesystem::path& file : std::exchange(mScreenshots, {})) {
+        try {
+            saveScreenshot(file, screen, state, model);
+            mTell(file.string() + " is written");
+        } catch (const Error& why) {
+            failure = why;
+        }
+    }
+    if (mRecorder) mRecorder->add(screen);
+    if (failure) throw *failure;
+}
+
+void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
+                             const Model* model) {
+    if (file.extension() != ".exr") return writePng(file, screen);
+    if (!model) throw Error("{}: nothing is shown yet", file.string());
+    writeExr(file, model->view.read());
+    if (state.inspect != Inspect::Off) return; // no command draws it
+    std::filesystem::path light = file;
+    light.replace_extension(".light.json");
+    if (needsLightFile(state.light)) {
+        const std::optional<nlohmann::json> values = lightFileOf(state.light);
+        if (!values) return; // no file says it
+        writeFileAtomically(light, values->dump(2) + "\n");
+    }
+    spdlog::info("the same: {}",
+                 renderCommand(state, model->file, int(mWindow.width), int(mWindow.height), light));
+}
+
+} // namespace relume

@@ -1,0 +1,57 @@
+// What is written of a session: screenshots, recordings, timing captures.
+#pragma once
+
+#include "apps/viewer/model.h"
+#include "apps/viewer/recorder.h"
+#include "apps/viewer/scene_state.h"
+#include "engine/vk/timing_capture.h"
+
+namespace relume {
+
+// "relume-", the time, and this: a name in the folder that the program was started in.
+std::string outputName(const std::string& ending);
+
+class Outputs {
+  public:
+    using Tell = std::function<void(const std::string& words)>;
+    // `commands` draw the frames. Both must outlive this.
+    Outputs(const vk::Device& device, vk::Commands& commands, Tell tell);
+
+    // Of the next frame: .exr of the view, linear; else .png of the window.
+    void wantScreenshot(const std::filesystem::path& file) { mScreenshots.push_back(file); }
+
+    // Every frame from now on, in a folder of its own. Throws Error.
+    void beginRecording();
+    void endRecording();
+    bool isRecording() const { return mRecorder != nullptr; }
+
+    // What frames spend their time on. Throws Error.
+    void beginCapture(const std::filesystem::path& file);
+    void endCapture();
+    // Null: none is under way.
+    vk::TimingCapture* capture() { return mCapture ? &*mCapture : nullptr; }
+    bool isCapturing() const { return mCapture.has_value(); }
+
+    // Copies the window's image, in COLOR_ATTACHMENT_OPTIMAL, if it is wanted; then it is in
+    // TRANSFER_SRC_OPTIMAL, and save() is due once this has ended.
+    bool record(const vk::Image& window);
+    // Writes it all; `model` is what the view shows, null: nothing yet. Throws Error for what cannot be
+    // written, after the rest was.
+    void save(const SceneState& state, const Model* model);
+
+  private:
+    void saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
+                        const Model* model);
+
+    const vk::Device& mDevice;
+    vk::Commands& mCommands;
+    Tell mTell;
+    std::optional<vk::TimingCapture> mCapture;
+    std::filesystem::path mCaptureFile;
+    std::unique_ptr<Recorder> mRecorder;
+    std::vector<std::filesystem::path> mScreenshots;
+    vk::Buffer mScreen; // the window's image
+    vk::ImageOptions mWindow;
+};
+
+} // namespace relume
