@@ -171,6 +171,9 @@ void setMaterial(SceneState& state, const json& value) {
             blend.push_back({name, numberOf(name, weight, 0, 1e6f)});
     if (!value.is_string() && blend.empty())
         throw Error("\"material\": expected a name, or weights by name, found {}", value.dump());
+    if (!blend.empty() &&
+        std::ranges::all_of(blend, [](const WeightedMaterial& worn) { return worn.weight == 0; }))
+        throw Error("\"material\": expected at least one weight above 0, found {}", value.dump());
     state.material = blend;
 }
 

@@ -127,6 +127,7 @@ TEST_CASE("settings: say what they expected") {
         {"threshold", 40000, "\"threshold\": expected a number from 0 to 32767"},
         {"material", 3, "\"material\": expected a name, or weights by name, found 3"},
         {"material", {{"gold", -1}}, "\"gold\": expected a number from 0"},
+        {"material", {{"gold", 0}, {"clay", 0}}, "\"material\": expected at least one weight above 0"},
         {"material", json::object(), "expected a name, or weights by name, found {}"},
         {"lamps", {{"azimuth", 3}}, "\"lamps\": expected a list of at most 512 objects"},
         {"lamps", json(std::vector<json>(513, json::object())), "at most 512"},
