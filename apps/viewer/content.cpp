@@ -157,7 +157,10 @@ void Content::readNextEnvironment() {
         return !choice.isRead && choice.kind != EnvironmentChoice::Kind::DaySky;
     };
     std::vector<EnvironmentChoice>& choices = mLight.environments;
-    if (wants(choices[mLight.environment])) {
+    EnvironmentChoice& chosen = choices[mLight.environment];
+    // It could not be read before: perhaps now.
+    if (!mLight.isReady() && mWorker.isIdle()) chosen.isRead = false;
+    if (wants(chosen)) {
         readEnvironment(mLight.environment);
     } else if (const auto next = std::ranges::find_if(choices, wants); next != choices.end() && isSettled())
         readEnvironment(size_t(next - choices.begin()));

@@ -97,3 +97,27 @@ TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
     CHECK_EQ(setting.exitCode, 1);
     CHECK(says(setting.err, "step 2: \"fov\": expected a number from 1 to 170, found 400"));
 }
+
+TEST_CASE("viewer: an environment that cannot be read leaves the sky, however often it is chosen") {
+    Session& session = sharedSession();
+    const json choose = {{"set", {{"environment", "late.exr"}}}};
+    const Outcome missing = session.replay({{{"wait", "settled"}},
+                                            {{"screenshot", "sky.exr"}},
+                                            choose,
+                                            {{"wait", "settled"}},
+                                            {{"screenshot", "first.exr"}},
+                                            choose,
+                                            {{"wait", "settled"}},
+                                            {{"screenshot", "second.exr"}},
+                                            {{"quit", true}}},
+                                           "ring.relume");
+    CAPTURE(missing.err);
+    REQUIRE_EQ(missing.exitCode, 0);
+    const std::string words = "late.exr: cannot be read";
+    const size_t told = missing.err.find(words);
+    REQUIRE_NE(told, std::string::npos);
+    CHECK_NE(missing.err.find(words, told + 1), std::string::npos);
+    CHECK(session.bytes("first.exr") == session.bytes("sky.exr"));
+    CHECK(session.bytes("second.exr") == session.bytes("sky.exr"));
+    CHECK_EQ(renderCommand(missing.err, "second.exr"), renderCommand(missing.err, "sky.exr"));
+}
