@@ -1,6 +1,6 @@
 #version 460
 // Two linear images in one: side by side, or how far apart they are. C++ twin of the latter: heatColor() in
-// engine/render/compare_pass.h.
+// engine/render/heat_color.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/render.h"

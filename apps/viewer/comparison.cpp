@@ -1,7 +1,5 @@
 #include "apps/viewer/comparison.h"
 
-#include "engine/base/error.h"
-
 #include <chrono>
 #include <sys/resource.h>
 #include <tbb/task_arena.h>
@@ -46,7 +44,8 @@ void Comparison::stop() {
     const std::lock_guard lock(mMutex);
     mPass.request_stop();
     mResult.reset();
-    mWanted.reset();
+    mWanted = View{}; // of no model
+    mChanged.notify_one();
 }
 
 std::optional<Comparison::Result> Comparison::take() {
@@ -71,14 +70,16 @@ void Comparison::run(std::stop_token stop) {
             pass = mPass.get_token();
         }
         arena.execute([&] {
-            if (model != view.model) {
-                reference.reset();
-                model = view.model;
-                reference = std::make_unique<ProgressiveReference>(model->asset);
-            }
             try {
-                work(view, *reference, pass);
-            } catch (const Error& why) { // measured data that is gone
+                if (model != view.model) {
+                    reference.reset();
+                    model = view.model;
+                    if (model) reference = std::make_unique<ProgressiveReference>(model->asset);
+                }
+                if (reference) work(view, *reference, pass);
+            } catch (const std::exception& why) { // measured data that is gone, too little memory
+                reference.reset();
+                model.reset();
                 publish({.failure = why.what()}, pass);
             }
         });

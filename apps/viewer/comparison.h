@@ -36,7 +36,7 @@ class Comparison {
 
     // Begins with another view.
     void begin(View view);
-    // Nothing is to be found any more; results of before are dropped.
+    // Nothing is to be found any more; results of before are dropped, and the model is let go.
     void stop();
     // The newest result since the last call; none: nothing new.
     std::optional<Result> take();

@@ -24,7 +24,13 @@ Content::Content(const vk::Device& device, const std::string& deviceSelect, Ligh
 }
 
 void Content::open(const std::filesystem::path& file) {
-    switch (kindOf(file)) {
+    const FileKind kind = kindOf(file);
+    // The built-in scene is for want of another.
+    if (kind == FileKind::Bake || kind == FileKind::Bakeable) {
+        std::erase_if(mNextBakes, [](const Bake& bake) { return bake.input.empty(); });
+        if (mBake && mBake->input().empty()) cancelBake();
+    }
+    switch (kind) {
     case FileKind::Bake:
         load(file);
         break;
@@ -60,34 +66,43 @@ bool Content::poll() {
 
 // Models
 
-void Content::load(const std::filesystem::path& bake) {
-    mMustReload = false;
+void Content::load(const std::filesystem::path& bake, OnError onError) {
+    if (mBake && mBake->output() == bake) mMustReload = false;
     mWorker.post(
         "reading " + bake.filename().string(),
         [this, bake]() -> Worker::Result {
             auto model = std::make_shared<Model>(mDevice, bake);
             return [this, model] { take(model); };
         },
-        [this](const std::string& why) { mTell(why, true); });
+        std::move(onError));
+}
+
+void Content::load(const std::filesystem::path& bake) {
+    load(bake, [this](const std::string& why) { mTell(why, true); });
 }
 
 void Content::reload() {
     if (mShown) load(mShown->file);
+    for (const std::shared_ptr<Model>& model : mModels)
+        if (model != mShown) load(model->file);
 }
 
 void Content::take(std::shared_ptr<Model> model) {
     const auto same = std::ranges::find_if(mModels, [&](const auto& m) { return m->file == model->file; });
+    // What is there anew is shown if it was before: someone may be looking at another one.
+    const bool isShown = !mShown || same == mModels.end() || *same == mShown;
     if (same != mModels.end())
         *same = model;
     else
         mModels.push_back(model);
-    mShown = std::move(model);
+    if (isShown) mShown = std::move(model);
     mHasChanged = true;
 }
 
 void Content::close(size_t model) {
     if (mModels.size() < 2) return;
     const bool wasShown = mShown == mModels.at(model);
+    if (mBake && mBake->output() == mModels[model]->file) cancelBake();
     mModels.erase(mModels.begin() + std::ptrdiff_t(model));
     if (wasShown) mShown = mModels[std::min(model, mModels.size() - 1)];
     mHasChanged = true;
@@ -96,19 +111,42 @@ void Content::close(size_t model) {
 // Bakes
 
 void Content::bake(const std::filesystem::path& input) {
-    const std::filesystem::path output = bakePath(input);
-    cancelBake();
-    const bool isThere = std::filesystem::exists(output);
-    if (isThere) load(output);
-    if (!isThere || std::filesystem::exists(output.string() + ".checkpoint")) mNextBake = {input, output};
+    const Bake bake{input, bakePath(input)};
+    if (mBake && mBake->output() == bake.output) return;
+    if (mBake) { // it goes on where it was, later
+        mNextBakes.push_back({mBake->input(), mBake->output()});
+        cancelBake();
+    }
+    std::erase_if(mNextBakes, [&](const Bake& other) { return other.output == bake.output; });
+    std::error_code failure;
+    const bool isThere = std::filesystem::exists(bake.output, failure);
+    if (!isThere || std::filesystem::exists(bake.output.string() + ".checkpoint", failure))
+        mNextBakes.push_front(bake);
+    if (!isThere) return;
+    load(bake.output, [this, bake](const std::string& why) {
+        mTell(why + "; it is baked again", false);
+        std::error_code ignored;
+        std::filesystem::remove(bake.output, ignored);
+        mNextBakes.push_front(bake);
+    });
 }
 
 void Content::cancelBake() {
-    mNextBake.reset();
     mMustReload = false;
     if (!mBake) return;
     mBake->stop();
     mStopping.push_back(std::move(mBake));
+}
+
+void Content::beginBake(const Bake& bake) {
+    std::vector<std::string> options;
+    if (extensionOf(bake.input) != ".json") options = {"--ground", "--ground-tessellation", "64"};
+    if (!mDeviceSelect.empty()) options.insert(options.end(), {"--device", mDeviceSelect});
+    try {
+        mBake = std::make_unique<BakeProcess>(bake.input, bake.output, options);
+    } catch (const Error& why) {
+        mTell(why.what(), true);
+    }
 }
 
 void Content::pollBake() {
@@ -116,16 +154,10 @@ void Content::pollBake() {
         bake->poll();
         return !bake->isRunning();
     });
-    if (mNextBake && mStopping.empty()) {
-        const Bake next = *std::exchange(mNextBake, std::nullopt);
-        std::vector<std::string> options;
-        if (next.input.extension() != ".json") options = {"--ground", "--ground-tessellation", "64"};
-        if (!mDeviceSelect.empty()) options.insert(options.end(), {"--device", mDeviceSelect});
-        try {
-            mBake = std::make_unique<BakeProcess>(next.input, next.output, options);
-        } catch (const Error& why) {
-            mTell(why.what(), true);
-        }
+    if (!mBake && !mNextBakes.empty() && mStopping.empty()) {
+        const Bake next = mNextBakes.front();
+        mNextBakes.pop_front();
+        beginBake(next);
         mHasChanged = true;
     }
     if (!mBake) return;
@@ -201,7 +233,7 @@ void Content::openLight(const std::filesystem::path& file) {
 }
 
 Task Content::task() const {
-    if (!mBake) return {.title = mNextBake ? "waiting for the bake before" : mWorker.title()};
+    if (!mBake) return {.title = !mNextBakes.empty() ? "waiting for the bake before" : mWorker.title()};
     const std::filesystem::path& input = mBake->input();
     return {.title = (input.empty() ? "baking the built-in scene" : "baking " + input.filename().string()) +
                      ": " + mBake->progress().stage,

@@ -7,6 +7,8 @@
 #include "apps/viewer/model.h"
 #include "apps/viewer/worker.h"
 
+#include <deque>
+
 namespace relume {
 
 // Something under way, for people.
@@ -26,16 +28,17 @@ class Content {
     Content(const vk::Device& device, const std::string& deviceSelect, LightState& light, Tell tell,
             std::function<void()> wake);
 
-    // Begins to read it, or to bake it; it is shown when it is there. Throws Error for a file of no known
-    // kind.
+    // Begins to read it, or to bake it; it is shown when it is there. A bake in hand goes on after it. Throws
+    // Error for a file of no known kind.
     void open(const std::filesystem::path& file);
     void openBuiltIn();
 
     // Takes in what is there since. True: something else is to be shown.
     bool poll();
 
+    // The one in hand; what it baked is kept.
     void cancelBake();
-    // Reads the shown model anew.
+    // Reads all models anew, the shown one first.
     void reload();
 
     // The bakes that are open; `shown` among them, null before the first.
@@ -47,7 +50,7 @@ class Content {
     Task task() const;
     bool isBaking() const { return mBake && mBake->isRunning(); }
     // Nothing is read or baked, and the newest of it is there.
-    bool isSettled() const { return mWorker.isIdle() && !mBake && !mNextBake; }
+    bool isSettled() const { return mWorker.isIdle() && !mBake && mNextBakes.empty(); }
 
     // Files that were opened, the newest first.
     const std::vector<std::filesystem::path>& recent() const { return mRecent; }
@@ -61,7 +64,10 @@ class Content {
         std::filesystem::path output;
     };
     void bake(const std::filesystem::path& input);
+    using OnError = std::function<void(const std::string& why)>;
+    void load(const std::filesystem::path& bake, OnError onError);
     void load(const std::filesystem::path& bake);
+    void beginBake(const Bake& bake);
     void take(std::shared_ptr<Model> model);
     void openLight(const std::filesystem::path& file);
     void readEnvironment(size_t number);
@@ -77,7 +83,7 @@ class Content {
     std::shared_ptr<Model> mShown;
     std::unique_ptr<BakeProcess> mBake;
     std::vector<std::unique_ptr<BakeProcess>> mStopping; // bakes that were asked to end
-    std::optional<Bake> mNextBake;                       // once they have
+    std::deque<Bake> mNextBakes;                         // once they have, one after the other
     bool mMustReload = false;                            // the bake in hand has written since it was read
     bool mHasChanged = false;
     std::vector<std::filesystem::path> mRecent;

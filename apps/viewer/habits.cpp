@@ -70,7 +70,7 @@ void writeHabits(const Habits& habits) {
                    {"settings", habits.settings}};
     if (habits.size) object.update({{"width", habits.size->x}, {"height", habits.size->y}});
     try {
-        writeFileAtomically(habitsFile(), object.dump(2) + "\n");
+        writeFileAtomically(habitsFile(), object.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
     } catch (const std::exception& why) {
         spdlog::warn("settings are not remembered: {}", why.what());
     }

@@ -38,7 +38,7 @@ bool LampHandles::take(const InputEvent& event, LightState& light, const Camera&
         mHeld.reset();
         return false;
     }
-    if (event.kind == Kind::Button && !event.isDown && mHeld) {
+    if (event.kind == Kind::Button && !event.isDown && event.code == GLFW_MOUSE_BUTTON_LEFT && mHeld) {
         mHeld.reset();
         return true;
     }

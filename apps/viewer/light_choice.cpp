@@ -29,6 +29,14 @@ SunPlace sunPlaceOf(const DaySkyChoice& choice) {
     return {kNorth - float(sun.azimuth), float(sun.elevation)};
 }
 
+bool lightsAlike(const LightState& a, const LightState& b) {
+    if (a.file != b.file || a.rotation != b.rotation || a.selection != b.selection) return false;
+    if (a.file) return true;
+    if (a.chosen().kind != b.chosen().kind || a.chosen().map != b.chosen().map) return false;
+    return a.environmentGain == b.environmentGain && a.lamps == b.lamps && a.strokes == b.strokes &&
+           (!a.isDay() || a.sky == b.sky);
+}
+
 Light lightOf(const LightState& state) {
     Light light;
     if (state.isDay()) {

@@ -71,8 +71,6 @@ struct LightState {
     bool plays = false;
     LightSelection selection = {.count = kDefaultCoefficients};
 
-    bool operator==(const LightState&) const = default;
-
     const EnvironmentChoice& chosen() const { return environments[environment]; }
     bool isDay() const { return !file && chosen().kind == EnvironmentChoice::Kind::DaySky; }
     // The map that it needs is there, if it needs one.
@@ -84,6 +82,9 @@ struct SunPlace {
     float azimuth, elevation;
 };
 SunPlace sunPlaceOf(const DaySkyChoice& choice);
+
+// Whether two states light alike, but for the time of a light file.
+bool lightsAlike(const LightState& a, const LightState& b);
 
 // The light, not of a light file, and not turned.
 Light lightOf(const LightState& state);

@@ -24,9 +24,10 @@ void LightFeed::want(const std::shared_ptr<MovingLight>& file, double seconds) {
                 mLight = light;
             };
         },
-        [this](const std::string& why) {
+        [this, moment = mWanted](const std::string& why) {
             mIsAsked = false;
-            mThere = mWanted;
+            mHasChanged = true;
+            if (moment.file == mWanted.file) mThere = mWanted;
             mOnError(why);
         });
 }

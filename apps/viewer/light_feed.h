@@ -21,6 +21,8 @@ class LightFeed {
 
     // Of the file that was wanted last; null: nothing yet. Another pointer for another light.
     const std::shared_ptr<const Light>& light() const { return mLight; }
+    // Of that light.
+    double seconds() const { return mThere.seconds; }
     // What was wanted last is there, or cannot be.
     bool isNewest() const { return mWanted == mThere; }
 

@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kMapWidth = 25; // lines
+constexpr float kPanelMapWidth = 25; // lines
 constexpr int kThumbnailsPerRow = 4;
 
 void drawLamp(LampChoice& lamp, size_t number, std::optional<size_t>& removed) {
@@ -21,12 +21,12 @@ void drawLamp(LampChoice& lamp, size_t number, std::optional<size_t>& removed) {
     text(fmt::format("Lamp {}", number + 1));
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - 4 * line());
     if (ImGui::SmallButton("Remove")) removed = number;
-    ImGui::SliderFloat("Azimuth", &lamp.azimuth, -180, 180, "%.0f deg");
+    slider("Azimuth", lamp.azimuth, -180, 180, "%.0f deg");
     explain("Or drag its handle on the sphere around the object");
-    ImGui::SliderFloat("Elevation", &lamp.elevation, -90, 90, "%.0f deg");
-    ImGui::SliderFloat("Radius", &lamp.radius, 0.5f, 60, "%.1f deg");
+    slider("Elevation", lamp.elevation, -90, 90, "%.0f deg");
+    slider("Radius", lamp.radius, 0.5f, 60, "%.1f deg");
     explain("Angular radius: small lamps cast hard shadows");
-    ImGui::SliderFloat("Brightness", &lamp.brightness, 0, 4, "%.2f");
+    slider("Brightness", lamp.brightness, 0, 4, "%.2f");
     explain("1 lights white that faces it to radiance 1");
     ImGui::Separator();
     ImGui::PopID();
@@ -44,7 +44,8 @@ void drawLamps(std::vector<LampChoice>& lamps) {
 }
 
 void drawEnvironments(LightState& light, const PanelFacts& facts) {
-    const float width = (kMapWidth * line() - 3 * ImGui::GetStyle().ItemSpacing.x) / kThumbnailsPerRow - 5;
+    const float width =
+        (kPanelMapWidth * line() - 3 * ImGui::GetStyle().ItemSpacing.x) / kThumbnailsPerRow - 5;
     int shown = 0;
     for (size_t i = 0; i < light.environments.size(); i++) {
         const Picture picture = i < facts.environments.size() ? facts.environments[i] : Picture{};
@@ -56,29 +57,33 @@ void drawEnvironments(LightState& light, const PanelFacts& facts) {
         explain(light.environments[i].name.c_str());
     }
     if (ImGui::BeginCombo("Environment", light.chosen().name.c_str())) {
-        for (size_t i = 0; i < light.environments.size(); i++)
+        for (size_t i = 0; i < light.environments.size(); i++) {
+            ImGui::PushID(int(i)); // names may be the same
             if (ImGui::Selectable(light.environments[i].name.c_str(), i == light.environment))
                 light.environment = i;
+            explain(light.environments[i].file.string().c_str());
+            ImGui::PopID();
+        }
         ImGui::EndCombo();
     }
     explain("E: the next one. Drop .exr or .hdr files to add some");
-    ImGui::SliderFloat("Brightness", &light.environmentGain, 0, 4, "%.2f");
+    slider("Brightness", light.environmentGain, 0, 4, "%.2f");
 }
 
 void drawSky(DaySkyChoice& sky) {
-    ImGui::SliderFloat("Hour", &sky.hour, 0, 24, "%.2f h");
+    slider("Hour", sky.hour, 0, 24, "%.2f h");
     explain("Solar time: the sun is highest at 12. Space lets the day pass");
-    ImGui::SliderInt("Day", &sky.dayOfYear, 1, 365, "day %d");
-    ImGui::SliderFloat("Latitude", &sky.latitude, -90, 90, "%.0f deg");
-    ImGui::SliderFloat("Haze", &sky.turbidity, 2, 10, "%.1f");
-    explain("Turbidity: 2 is clear, 10 hazy");
+    slider("Day", sky.dayOfYear, 1, 365, "day %d");
+    slider("Latitude", sky.latitude, -90, 90, "%.0f deg");
+    slider("Turbidity", sky.turbidity, 2, 10, "%.1f");
+    explain("Haze: 2 is clear, 10 hazy");
 }
 
 // The light as it was recorded; the brush touches it where the mouse drags.
 void drawMap(LightState& light, const Brush& b, const PanelFacts& facts) {
     if (!facts.lightMap) return;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 size{kMapWidth * line(), 0.5f * kMapWidth * line()};
+    const ImVec2 size{kPanelMapWidth * line(), 0.5f * kPanelMapWidth * line()};
     facts.pictures->draw(facts.lightMap, size.x);
     if (light.file) return;
     const bool isHovered = ImGui::IsItemHovered();
@@ -112,16 +117,18 @@ void drawBrush(LightState& light, Brush& b) {
     }
     if (!b.isInHand) return;
     ImGui::ColorEdit3("Colour", &b.color.x, ImGuiColorEditFlags_NoInputs);
-    ImGui::SliderFloat("Brush", &b.radius, 2, 90, "%.0f deg");
-    ImGui::SliderFloat("Radiance", &b.brightness, 0, 50, "%.2f", ImGuiSliderFlags_Logarithmic);
-    ImGui::SliderFloat("Opacity", &b.opacity, 0, 1, "%.2f");
+    slider("Brush", b.radius, 2, 90, "%.0f deg");
+    slider("Radiance", b.brightness, 0, 50, "%.2f", ImGuiSliderFlags_Logarithmic);
+    slider("Opacity", b.opacity, 0, 1, "%.2f");
 }
 
 void drawFile(LightState& light) {
     text(light.fileName.filename().string());
     if (light.file->moves()) {
         float seconds = float(light.seconds);
-        if (ImGui::DragFloat("Time", &seconds, 0.05f, 0, 1e6f, "%.2f s")) light.seconds = seconds;
+        if (ImGui::DragFloat("Time", &seconds, 0.05f, 0, 1e6f, "%.2f s", ImGuiSliderFlags_AlwaysClamp) &&
+            std::isfinite(seconds))
+            light.seconds = seconds;
     }
     if (ImGui::Button("Back to environments")) light.file.reset();
     explain("Leave the light file for environments, sky and lamps");
@@ -129,13 +136,11 @@ void drawFile(LightState& light) {
 
 void drawSelection(LightSelection& selection) {
     if (!selection.count) {
-        ImGui::SliderInt("Threshold", &selection.threshold, 0, kLightMaximum, "%d",
-                         ImGuiSliderFlags_Logarithmic);
+        slider("Threshold", selection.threshold, 0, kLightMaximum, "%d", ImGuiSliderFlags_Logarithmic);
         return explain("Light coefficients below this are dropped, where the largest is 32767");
     }
     int count = *selection.count;
-    if (ImGui::SliderInt("Coefficients", &count, 1, int(kMaximumLightEntries), "%d",
-                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+    if (slider("Coefficients", count, 1, int(kMaximumLightEntries), "%d", ImGuiSliderFlags_Logarithmic))
         selection.count = count;
     explain("The so many largest of the light are kept: fewer are faster, and further from the light");
 }
@@ -157,10 +162,11 @@ void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wis
         ImGui::SameLine();
         if (ImGui::Button("Save light")) wishes.savesLight = true;
         explain("Write it as a light file, for `relume render --light`");
+        ImGui::SameLine();
     }
     ImGui::Checkbox("Play", &light.plays);
     explain("Space: a light file's time passes, the day does, else all of the light turns");
-    ImGui::SliderFloat("Turn", &light.rotation, -180, 180, "%.1f deg");
+    slider("Rotation", light.rotation, -180, 180, "%.1f deg");
     explain("Shift + right drag in the view turns the light too");
     drawSelection(light.selection);
 }

@@ -46,7 +46,7 @@ void drawBlend(SceneState& state, const std::vector<std::vector<std::string>>& s
     for (const std::string& name : *set) {
         const auto worn = std::ranges::find(state.material, name, &WeightedMaterial::name);
         WeightedMaterial material{name, worn == state.material.end() ? 0 : worn->weight};
-        hasChanged |= ImGui::SliderFloat(name.c_str(), &material.weight, 0, 1, "%.2f");
+        hasChanged |= slider(name.c_str(), material.weight, 0, 1, "%.2f");
         sum += material.weight;
         if (material.weight > 0) blend.push_back(material);
     }
@@ -64,7 +64,7 @@ void drawMaterialPanel(SceneState& state, const PanelFacts& facts) {
     }
     const int most = termsOf(*facts.content->shown());
     int terms = state.terms > 0 ? std::min(state.terms, most) : most;
-    if (ImGui::SliderInt("Terms", &terms, 1, most, "K = %d", ImGuiSliderFlags_AlwaysClamp))
+    if (slider("Terms", terms, 1, most, fmt::format("%d of {}", most).c_str()))
         state.terms = terms < most ? terms : 0;
     explain("- and =: how many of the BRDF's K products are summed; fewer are further from the material");
 }

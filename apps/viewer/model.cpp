@@ -1,16 +1,12 @@
 #include "apps/viewer/model.h"
 
+#include "precompute/reference/dressed_asset.h"
+
 #include <algorithm>
 
 namespace relume {
 
 namespace {
-
-RayTracer surfacesOf(const Asset& asset) {
-    std::vector<const Mesh*> meshes;
-    for (const AssetPart& part : asset.parts) meshes.push_back(&part.mesh);
-    return RayTracer(meshes);
-}
 
 RayTracer occluderOf(const Asset& asset) {
     const Mesh* const occluder = &asset.occluder;
@@ -22,7 +18,7 @@ RayTracer occluderOf(const Asset& asset) {
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
     : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), appearance(defaultAppearance(asset)),
       light(device, asset.faceSize), relighter(device, asset), view(device, asset),
-      surfaces(surfacesOf(asset)), occluder(occluderOf(asset)) {}
+      surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

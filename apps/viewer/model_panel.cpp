@@ -36,8 +36,10 @@ void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
     const auto& recent = facts.content->recent();
     if (!recent.empty() && ImGui::BeginCombo("Recent", "open again")) {
         for (const std::filesystem::path& file : recent) {
+            ImGui::PushID(file.string().c_str()); // names may be the same
             if (ImGui::Selectable(file.filename().string().c_str())) wishes.opens = file;
             explain(file.string().c_str());
+            ImGui::PopID();
         }
         ImGui::EndCombo();
     }

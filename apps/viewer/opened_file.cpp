@@ -12,20 +12,44 @@ namespace relume {
 
 namespace {
 
-bool isScene(const std::filesystem::path& file) {
+using nlohmann::json;
+
+json parse(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = readFile(file, 16 << 20);
     const char* const text = reinterpret_cast<const char*>(bytes.data());
-    const nlohmann::json content = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
+    return json::parse(text, text + bytes.size(), nullptr, false);
+}
+
+// Whatever text of a scene is a file's name, with that file's date.
+std::string datesOf(const json& value, const std::filesystem::path& folder) {
+    std::string dates;
+    if (value.is_string()) {
+        const std::filesystem::path file = folder / value.get<std::string>();
+        std::error_code failure;
+        const auto changed = std::filesystem::last_write_time(file, failure);
+        if (!failure) dates = fmt::format("\n{} {}", file.string(), changed.time_since_epoch().count());
+    } else if (value.is_structured())
+        for (const json& part : value) dates += datesOf(part, folder);
+    return dates;
+}
+
+bool isScene(const std::filesystem::path& file) {
+    const json content = parse(file);
     if (!content.is_object()) throw Error("{}: expected a JSON object: a scene or a light", file.string());
     return content.contains("parts");
 }
 
 } // namespace
 
-FileKind kindOf(const std::filesystem::path& file) {
+std::string extensionOf(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return char(std::tolower(c)); });
+    return extension;
+}
+
+FileKind kindOf(const std::filesystem::path& file) {
+    const std::string extension = extensionOf(file);
     if (extension == ".relume") return FileKind::Bake;
     if (extension == ".exr" || extension == ".hdr") return FileKind::Environment;
     if (extension == ".json") return isScene(file) ? FileKind::Bakeable : FileKind::Light;
@@ -46,9 +70,10 @@ std::filesystem::path bakePath(const std::filesystem::path& input) {
     const std::filesystem::path whole = std::filesystem::absolute(input);
     const auto changed = std::filesystem::last_write_time(whole, failure);
     if (failure) throw Error("{}: cannot be read: {}", input.string(), failure.message());
-    const std::string identity = fmt::format("{}\n{}", whole.string(), changed.time_since_epoch().count());
+    std::string identity = fmt::format("{}\n{}", whole.string(), changed.time_since_epoch().count());
+    if (extensionOf(input) == ".json") identity += datesOf(parse(input), whole.parent_path());
     const std::string hash = hashText(std::as_bytes(std::span(identity)));
-    return folder / fmt::format("{}-{}.relume", input.stem().string(), hash.substr(0, 12));
+    return folder / fmt::format("{}-{}.relume", input.stem().string().substr(0, 100), hash.substr(0, 12));
 }
 
 } // namespace relume

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace relume {
 
 enum class FileKind { Bake, Bakeable, Environment, Light };
 
+// In small letters: ".obj".
+std::string extensionOf(const std::filesystem::path& file);
+
 // By its name; of a .json by whether it has "parts", as scenes do. Throws Error for other files.
 FileKind kindOf(const std::filesystem::path& file);
 
-// The bake of a mesh or scene file, as it is now, in the user's cache; empty: the built-in scene. Makes the
-// folder. Throws Error.
+// The bake of a mesh or scene file, as it and the files that a scene names are now, in the user's cache;
+// empty: the built-in scene. Makes the folder. Throws Error.
 std::filesystem::path bakePath(const std::filesystem::path& input);
 
 } // namespace relume

@@ -5,6 +5,7 @@
 #include "engine/base/file.h"
 #include "engine/image/image_file.h"
 
+#include <chrono>
 #include <ctime>
 #include <spdlog/spdlog.h>
 #include <utility>
@@ -12,12 +13,23 @@
 namespace relume {
 
 std::string outputName(const std::string& ending) {
-    const std::time_t now = std::time(nullptr);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+    const std::time_t seconds = milliseconds / 1000;
     std::tm local{};
-    localtime_r(&now, &local);
+    localtime_r(&seconds, &local);
     char text[32];
     std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-    return std::string("relume-") + text + ending;
+    return fmt::format("relume-{}-{:03}{}", text, milliseconds % 1000, ending);
+}
+
+void writeLightFile(const std::filesystem::path& file, const nlohmann::json& light) {
+    try {
+        writeFileAtomically(file, light.dump(2) + "\n");
+    } catch (const nlohmann::json::exception&) {
+        throw Error("{}: a light file is UTF-8, and the name of the environment is not; rename it",
+                    file.string());
+    }
 }
 
 Outputs::Outputs(const vk::Device& device, vk::Commands& commands, Tell tell)
@@ -66,17 +78,17 @@ bool Outputs::record(const vk::Image& window) {
 void Outputs::save(const SceneState& state, const Model* model) {
     const Image screen =
         screenImage(mScreen.map<uint8_t>(), int(mWindow.width), int(mWindow.height), mWindow.format);
-    std::optional<Error> failure;
+    std::string failure;
     for (const std::filesystem::path& file : std::exchange(mScreenshots, {})) {
         try {
             saveScreenshot(file, screen, state, model);
             mTell(file.string() + " is written");
-        } catch (const Error& why) {
-            failure = why;
+        } catch (const std::exception& why) {
+            failure = why.what();
         }
     }
+    if (!failure.empty()) throw Error("{}", failure);
     if (mRecorder) mRecorder->add(screen);
-    if (failure) throw *failure;
 }
 
 void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
@@ -90,7 +102,7 @@ void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& scr
     if (needsLightFile(state.light)) {
         const std::optional<nlohmann::json> values = lightFileOf(state.light);
         if (!values) return; // no file says it
-        writeFileAtomically(light, values->dump(2) + "\n");
+        writeLightFile(light, *values);
     }
     spdlog::info("the same: {}",
                  renderCommand(state, model->file, int(mWindow.width), int(mWindow.height), light));

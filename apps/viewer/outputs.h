@@ -8,8 +8,11 @@
 
 namespace relume {
 
-// "relume-", the time, and this: a name in the folder that the program was started in.
+// "relume-", the time to the millisecond, and this: a name in the folder that the program was started in.
 std::string outputName(const std::string& ending);
+
+// What lightFileOf() gives. Throws Error.
+void writeLightFile(const std::filesystem::path& file, const nlohmann::json& light);
 
 class Outputs {
   public:

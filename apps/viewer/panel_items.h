@@ -1,6 +1,7 @@
 // What all panels are written with.
 #pragma once
 
+#include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <string>
@@ -17,15 +18,29 @@ inline void explain(const char* text) {
 
 inline void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
 
-// Buttons of which one is pressed, side by side. True: another one is.
+// A slider that takes no number beyond its ends, and nothing that is none, also where one is typed. True: it
+// was moved.
+inline bool slider(const char* label, float& value, float low, float high, const char* format,
+                   ImGuiSliderFlags flags = 0) {
+    float changed = value;
+    if (!ImGui::SliderFloat(label, &changed, low, high, format, flags | ImGuiSliderFlags_AlwaysClamp) ||
+        !std::isfinite(changed))
+        return false;
+    value = changed;
+    return true;
+}
+inline bool slider(const char* label, int& value, int low, int high, const char* format,
+                   ImGuiSliderFlags flags = 0) {
+    return ImGui::SliderInt(label, &value, low, high, format, flags | ImGuiSliderFlags_AlwaysClamp);
+}
+
+// Buttons of which one is pressed, side by side.
 template <typename Choice, size_t kCount>
-bool chooseOne(const char* const (&names)[kCount], Choice& chosen) {
-    const Choice before = chosen;
+void chooseOne(const char* const (&names)[kCount], Choice& chosen) {
     for (size_t i = 0; i < kCount; i++) {
         if (i > 0) ImGui::SameLine();
         if (ImGui::RadioButton(names[i], chosen == Choice(i))) chosen = Choice(i);
     }
-    return chosen != before;
 }
 
 } // namespace relume

@@ -45,7 +45,7 @@ bool PanelPictures::poll() {
 void PanelPictures::update(const SceneState& state, const std::shared_ptr<Model>& model,
                            const SceneView& view) {
     updateThumbnails(state);
-    updateSwatches(*model);
+    updateSwatches(model);
     updateLight(state, *model, view);
     updateWhy(state, model, view);
 }
@@ -56,16 +56,16 @@ void PanelPictures::updateThumbnails(const SceneState& state) {
         const EnvironmentChoice& choice = state.light.environments[i];
         if (mEnvironments[i] || (!choice.map && choice.kind != EnvironmentChoice::Kind::DaySky)) continue;
         mEnvironments[i] = mPictures.add(kThumbnailWidth, kThumbnailWidth / 2);
-        mPictures.set(mEnvironments[i], toneMap(thumbnailOf(choice, state.light.sky), ToneCurve::Agx, 0));
+        mPictures.set(*mEnvironments[i], toneMap(thumbnailOf(choice, state.light.sky), ToneCurve::Agx, 0));
         mHasNews = true;
     }
 }
 
-void PanelPictures::updateSwatches(const Model& model) {
-    if (mDescribed == &model) return;
-    mDescribed = &model;
+void PanelPictures::updateSwatches(const std::shared_ptr<Model>& model) {
+    if (mDescribed.lock() == model) return;
+    mDescribed = model;
     mDescriptions.clear();
-    for (const AssetPart& part : model.asset.parts)
+    for (const AssetPart& part : model->asset.parts)
         for (const MaterialSet& set : part.sets)
             for (const AssetMaterial& material : set.materials) {
                 mDescriptions.emplace(material.name, material.description);
@@ -110,7 +110,8 @@ void PanelPictures::updateWhy(const SceneState& state, const std::shared_ptr<Mod
                               const SceneView& view) {
     if (!mAsked || mAsked->version == view.viewVersion() || !view.isStill()) return;
     const Asset& asset = model->asset;
-    if (mAsked->part >= asset.parts.size() || mAsked->vertex >= asset.parts[mAsked->part].mesh.vertexCount())
+    if (mAsked->model != model->file || mAsked->part >= asset.parts.size() ||
+        mAsked->vertex >= asset.parts[mAsked->part].mesh.vertexCount())
         return stopAsking(); // another model
     mAsked->version = view.viewVersion();
     mWorker.post(
@@ -132,7 +133,8 @@ void PanelPictures::updateWhy(const SceneState& state, const std::shared_ptr<Mod
 }
 
 void PanelPictures::describe(PanelFacts& facts) const {
-    facts.environments = mEnvironments;
+    for (const std::optional<Picture>& picture : mEnvironments)
+        facts.environments.push_back(picture.value_or(Picture{}));
     for (const auto& [name, description] : mDescriptions) {
         const auto swatch = mSwatches.find(description);
         if (swatch != mSwatches.end() && swatch->second) facts.swatches[name] = swatch->second;

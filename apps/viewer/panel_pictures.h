@@ -21,7 +21,9 @@ class PanelPictures {
     void update(const SceneState& state, const std::shared_ptr<Model>& model, const SceneView& view);
 
     // Asks why this vertex of the model has its colour; the answer follows light, eye and material.
-    void ask(size_t part, uint32_t vertex) { mAsked = Asked{part, vertex, 0}; }
+    void ask(const Model& model, size_t part, uint32_t vertex) {
+        mAsked = Asked{model.file, part, vertex, 0};
+    }
     void stopAsking();
 
     // Their places, and the answer.
@@ -30,6 +32,7 @@ class PanelPictures {
 
   private:
     struct Asked {
+        std::filesystem::path model;
         size_t part = 0;
         uint32_t vertex = 0;
         uint64_t version = 0; // of the view that was asked about
@@ -43,15 +46,15 @@ class PanelPictures {
         bool operator==(const ShownLight&) const = default;
     };
     void updateThumbnails(const SceneState& state);
-    void updateSwatches(const Model& model);
+    void updateSwatches(const std::shared_ptr<Model>& model);
     void updateLight(const SceneState& state, const Model& model, const SceneView& view);
     void updateWhy(const SceneState& state, const std::shared_ptr<Model>& model, const SceneView& view);
 
     Pictures& mPictures;
-    std::vector<Picture> mEnvironments;
-    std::map<std::string, Picture> mSwatches;         // by description
-    std::map<std::string, std::string> mDescriptions; // of the model's materials, by name
-    const Model* mDescribed = nullptr;
+    std::vector<std::optional<Picture>> mEnvironments; // none: not tried yet
+    std::map<std::string, Picture> mSwatches;          // by description
+    std::map<std::string, std::string> mDescriptions;  // of the model's materials, by name
+    std::weak_ptr<const Model> mDescribed;
     Picture mLightMap, mLightGiven, mLightKept, mVisibility, mTransport, mContributions;
     ShownLight mShownLight;
     std::chrono::steady_clock::time_point mLightTime;

@@ -24,8 +24,9 @@ void drawMain(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
     if (beginSection("Light", state.opensLight)) drawLightPanel(state, facts, wishes);
     if (!facts.materials.empty() && beginSection("Material", state.opensMaterial))
         drawMaterialPanel(state, facts);
+    if (facts.content->shown() && beginSection("Compare and inspect", state.opensTrust))
+        drawTrustPanel(state, facts);
     if (beginSection("View", state.opensView)) drawViewPanel(state, wishes);
-    if (facts.content->shown() && beginSection("Trust", state.opensTrust)) drawTrustPanel(state, facts);
     ImGui::TextDisabled("H: keys    Tab: hide panels");
     ImGui::PopItemWidth();
     ImGui::End();

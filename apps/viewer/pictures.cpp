@@ -10,7 +10,8 @@ namespace relume {
 
 namespace {
 
-constexpr int kWidth = 1024, kHeight = 1024, kGap = 1; // between pictures, as the texture is filtered
+constexpr int kGap = 1; // between pictures, as the texture is filtered
+constexpr int kWidth = 1024 + 16 * kGap, kHeight = 1024;
 
 static_assert(IMGUI_VERSION_NUM < 18800, "from 1.88 on pictures are ImGui_ImplVulkan_AddTexture()'s");
 

@@ -51,6 +51,7 @@ void SceneView::record(vk::Commands& commands, SceneState& state, const std::sha
     const uint64_t light = mLightVersion, view = mViewVersion;
     wearChosen(state);
     recordLight(commands, state);
+    mImage = nullptr;
     if (!mLit) return;
     recordView(commands, state, size);
     mIsStill = light == mLightVersion && view == mViewVersion;
@@ -110,7 +111,7 @@ void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
     const std::shared_ptr<const Light> fromFile = light.file ? mFeed.light() : nullptr;
     // The light before, until the one chosen is there.
     if (light.file ? !fromFile : !light.isReady()) return;
-    if (mLit == light && mLitFile == fromFile) return;
+    if (mLit && mLitFile == fromFile && lightsAlike(*mLit, light)) return;
     mModel->light.setLight(fromFile ? *fromFile : lightOf(light));
     mModel->light.record(commands, glm::radians(light.rotation), light.selection);
     mModel->relighter.record(commands, mModel->light, mModel->appearance);
@@ -174,6 +175,11 @@ const vk::Image* SceneView::image() const { return mImage; }
 bool SceneView::isFalseColor(const SceneState& state) const {
     return state.inspect != Inspect::Off ||
            (state.compare == Compare::Difference && mImage == &mComparePass->image());
+}
+
+SceneState SceneView::drawn(SceneState state) const {
+    if (state.light.file) state.light.seconds = mFeed.seconds();
+    return state;
 }
 
 bool SceneView::isSettled(const SceneState& state) const {

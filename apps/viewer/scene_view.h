@@ -24,12 +24,18 @@ class SceneView {
     void submitted(const SceneState& state);
 
     // With the shaders that the device has now.
-    void remakePrograms() { mComparePass.emplace(mDevice); }
+    void remakePrograms() {
+        mComparePass.emplace(mDevice);
+        mImage = nullptr;
+    }
 
     // Linear, in TRANSFER_SRC_OPTIMAL; null: nothing is there yet.
     const vk::Image* image() const;
     // Image() is not radiance, but has colours of its own.
     bool isFalseColor(const SceneState& state) const;
+
+    // The state as it is drawn: of a light file that plays, the moment.
+    SceneState drawn(SceneState state) const;
 
     // The newest light is shown.
     bool isSettled(const SceneState& state) const;

@@ -4,6 +4,17 @@
 
 namespace relume {
 
+namespace {
+
+// For a shell.
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+} // namespace
+
 Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkFormat format) {
     Image image(width, height);
     const bool isBgra = format == VK_FORMAT_B8G8R8A8_UNORM;
@@ -24,22 +35,23 @@ std::string renderCommand(const SceneState& state, const std::filesystem::path& 
     const LightState& light = state.light;
     const Camera camera = state.orbit->camera();
     std::string command = fmt::format(
-        "relume render '{}' -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
-        bake.string(), width, height, camera.eye.x, camera.eye.y, camera.eye.z, camera.target.x,
+        "relume render {} -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
+        quoted(bake.string()), width, height, camera.eye.x, camera.eye.y, camera.eye.z, camera.target.x,
         camera.target.y, camera.target.z, state.fovDegrees, light.rotation);
     if (light.selection.count)
         command += fmt::format(" --coefficients {}", *light.selection.count);
     else
         command += fmt::format(" --threshold {}", light.selection.threshold);
     if (light.file)
-        command += fmt::format(" --light '{}' --time {}", light.fileName.string(), light.seconds);
+        command += fmt::format(" --light {} --time {}", quoted(light.fileName.string()), light.seconds);
     else if (needsLightFile(light))
-        command += fmt::format(" --light '{}'", lightFile.string());
+        command += fmt::format(" --light {}", quoted(lightFile.string()));
     else if (!light.chosen().file.empty())
-        command += fmt::format(" -e '{}'", light.chosen().file.string());
+        command += fmt::format(" -e {}", quoted(light.chosen().file.string()));
     for (const WeightedMaterial& worn : state.material)
-        command += state.material.size() == 1 ? fmt::format(" -m '{}'", worn.name)
-                                              : fmt::format(" -m '{}={}'", worn.name, worn.weight);
+        command += state.material.size() == 1
+                       ? fmt::format(" -m {}", quoted(worn.name))
+                       : fmt::format(" -m {}", quoted(fmt::format("{}={}", worn.name, worn.weight)));
     if (state.terms > 0) command += fmt::format(" --terms {}", state.terms);
     return command;
 }

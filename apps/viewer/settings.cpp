@@ -246,7 +246,7 @@ void applySetting(SceneState& state, const std::string& name, const json& value,
     if (applyToCamera(state, name, value, model)) return;
     const auto setting = std::ranges::find(settings(), name, &Setting::name);
     if (setting != settings().end()) return setting->set(state, value);
-    std::vector<std::string_view> names = {"azimuth", "elevation", "distance", "fov", "environment", "model"};
+    std::vector<std::string_view> names = {"azimuth", "elevation", "distance", "fov", "environment"};
     for (const Setting& known : settings()) names.push_back(known.name);
     throw Error("no setting is called \"{}\"; did you mean \"{}\"? docs/viewer.md lists them", name,
                 nearestName(name, names));

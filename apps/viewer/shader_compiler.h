@@ -14,10 +14,10 @@ std::filesystem::path shaderFolder();
 // line first.
 std::vector<uint32_t> compileShader(const std::filesystem::path& source);
 
-// Compiles the shaders of a frame (light_*, relight_*, view_*, display) from `folder`, which is called
-// shaders as includes call it, and has programs that `device` makes from now on use them. Returns how many
-// are not what was in use. Throws Error, and changes nothing, when one is missing, cannot be compiled or has
-// another interface than the C++ code was built for.
+// Compiles the shaders of a frame (compare, display, light_*, relight_*, view_*) from `folder`, which is
+// called shaders as includes call it, and has programs that `device` makes from now on use them. Returns how
+// many are not what was in use. Throws Error, and changes nothing, when one is missing, cannot be compiled or
+// has another interface than the C++ code was built for.
 size_t reloadShaders(vk::Device& device, const std::filesystem::path& folder);
 
 } // namespace relume

@@ -42,7 +42,7 @@ void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
     if (ImGui::SmallButton(facts.isRecording ? "Stop recording" : "Record")) wishes.togglesRecording = true;
     explain("Ctrl + F12: write every frame as an image, thirty to a second of the scene's time");
     ImGui::SameLine();
-    if (ImGui::SmallButton("Shaders")) wishes.reloadsShaders = true;
+    if (ImGui::SmallButton("Rebuild shaders")) wishes.reloadsShaders = true;
     explain("F5: build the shaders anew from their sources");
     ImGui::End();
 }

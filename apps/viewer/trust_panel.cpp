@@ -11,8 +11,8 @@ constexpr float kCrossWidth = 12; // lines
 
 void drawDot(vec3 value) { text(fmt::format("{:9.4f} {:9.4f} {:9.4f}", value.x, value.y, value.z)); }
 
-// A window in the lower right corner, `above` the lower edge.
-bool beginAtRight(const char* name, bool& isOpen, float fromRight) {
+// A window at the lower edge, so many lines from the right one.
+bool beginAtRight(const char* name, bool& isOpen, float fromRight = 0.5f) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x - fromRight * line(), size.y - 0.5f * line()}, ImGuiCond_FirstUseEver,
                             {1, 1});
@@ -39,7 +39,7 @@ void drawTrustPanel(SceneState& state, const PanelFacts& facts) {
         explain("Root mean square of the relit image's error over covered pixels, without the reference's "
                 "own noise");
         if (state.compare == Compare::Difference)
-            ImGui::TextDisabled("black: none; yellow: a quarter of white");
+            ImGui::TextDisabled("black: none; yellow: a quarter of white, as exposed");
     }
     text("Inspect");
     explain("I: what the mesh is like");
@@ -53,7 +53,8 @@ void drawTrustPanel(SceneState& state, const PanelFacts& facts) {
 }
 
 void drawLightVectorWindow(SceneState& state, const PanelFacts& facts) {
-    if (beginAtRight("Light vector", state.showsLight, 0.5f) && facts.lightGiven && facts.light) {
+    if (beginAtRight("Light vector", state.showsLight, 2 * kCrossWidth + 3) && facts.lightGiven &&
+        facts.light) {
         const int side = facts.content->shown() ? facts.content->shown()->asset.faceSize : 0;
         ImGui::BeginGroup();
         text(fmt::format("given: 6 x {0} x {0} texels", side));
@@ -72,7 +73,7 @@ void drawLightVectorWindow(SceneState& state, const PanelFacts& facts) {
 
 void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
     const Why& why = *facts.why;
-    if (beginAtRight("Why this colour?", state.showsWhy, 0.5f)) {
+    if (beginAtRight("Why this colour?", state.showsWhy)) {
         text(fmt::format("{}, vertex {} at {:.3f} {:.3f} {:.3f}", why.part, why.vertex, why.position.x,
                          why.position.y, why.position.z));
         ImGui::BeginGroup();

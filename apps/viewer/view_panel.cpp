@@ -4,12 +4,12 @@
 namespace relume {
 
 void drawViewPanel(SceneState& state, PanelWishes& wishes) {
-    ImGui::SliderFloat("Exposure", &state.exposure, -8, 8, "%.1f stops");
+    slider("Exposure", state.exposure, -8, 8, "%.1f stops");
     constexpr const char* kCurves[] = {"None", "ACES", "AgX"};
     int curve = int(state.tone);
     if (ImGui::Combo("Tone", &curve, kCurves, 3)) state.tone = ToneCurve(curve);
     explain("How radiance becomes what a display shows");
-    if (ImGui::SliderFloat("Field of view", &state.fovDegrees, 10, 100, "%.0f deg") && state.orbit)
+    if (slider("Field of view", state.fovDegrees, 10, 100, "%.0f deg") && state.orbit)
         state.orbit->verticalFov = glm::radians(state.fovDegrees);
     ImGui::Checkbox("Turntable", &state.turns);
     explain("T");

@@ -15,7 +15,6 @@
 #include "apps/viewer/ui.h"
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/interrupt.h"
 #include "engine/render/display_pass.h"
 
@@ -41,7 +40,11 @@ double secondsSince(Clock::time_point start) {
 vk::DeviceOptions deviceOptions(const ViewerOptions& options, const Window& window) {
     vk::DeviceOptions device = options.device;
     device.surfaceExtensions = window.surfaceExtensions();
-    device.pipelineCache = cacheFolder() / "pipelines";
+    try {
+        device.pipelineCache = cacheFolder() / "pipelines";
+    } catch (const Error& why) {
+        spdlog::warn("{}", why.what());
+    }
     return device;
 }
 
@@ -64,7 +67,7 @@ class Viewer : public ScriptTarget {
 
     void input(InputEvent event) override;
     void resize(int width, int height) override { mWindow.resize(width, height); }
-    void screenshot(const std::filesystem::path& file) override { mOutputs.wantScreenshot(file); }
+    void screenshot(const std::filesystem::path& file) override;
     void set(const std::string& name, const nlohmann::json& value) override;
     bool isSettled() const override;
     int comparedPasses() const override { return mView.compared().passes; }
@@ -131,6 +134,7 @@ class Viewer : public ScriptTarget {
     std::string mNotice;
     Clock::time_point mNoticeTime;
     bool mIsFailure = false;
+    PanelWishes mWishes; // of the last frame
     bool mNeedsSwapchain = true;
     int mFramesWanted = kFramesAfterInput;
     int mSettledFrames = 0;
@@ -183,7 +187,10 @@ Viewer::~Viewer() {
     for (const EnvironmentChoice& choice : mState.light.environments)
         if (choice.kind == EnvironmentChoice::Kind::File && choice.map)
             mHabits.environments.push_back(choice.file);
-    mHabits.settings = keptSettings(mState);
+    nlohmann::json kept = keptSettings(mState);
+    if (!mOptions.waitsForDisplay)
+        kept["vsync"] = mHabits.settings.value("vsync", true); // for this time only
+    mHabits.settings = std::move(kept);
     writeHabits(mHabits);
 }
 
@@ -191,7 +198,7 @@ template <typename Work>
 void Viewer::attempt(Work work) {
     try {
         work();
-    } catch (const Error& why) {
+    } catch (const std::exception& why) {
         tell(why.what(), true);
     }
 }
@@ -201,6 +208,12 @@ void Viewer::attempt(Work work) {
 void Viewer::input(InputEvent event) {
     event.isScripted = true;
     mWindow.add(std::move(event));
+}
+
+void Viewer::screenshot(const std::filesystem::path& file) {
+    if (file.extension() != ".png" && file.extension() != ".exr")
+        throw Error("\"screenshot\": expected a name ending in .png or .exr, found \"{}\"", file.string());
+    mOutputs.wantScreenshot(file);
 }
 
 void Viewer::takeEvents() {
@@ -223,7 +236,7 @@ void Viewer::take(const InputEvent& event, UiWants wants) {
                             (isOfMouse ? wants.mouse : wants.keyboard);
     if (isOfPanels) return;
     const Model* const model = mContent.shown().get();
-    if (hasView() && isOfMouse && mState.showsPanels &&
+    if (hasView() && isOfMouse && (mState.showsPanels || mLamps.isDragging()) &&
         mLamps.take(event, mState.light, camera(), model->bounds, mWindow.size()))
         return;
     obey(mControls.take(event, mState, mWindow.size(), model ? &model->bounds : nullptr));
@@ -327,7 +340,7 @@ void Viewer::askWhy() {
     int nearest = 0;
     for (int c = 1; c < 3; c++)
         if (hit->weights[c] > hit->weights[nearest]) nearest = c;
-    mPictures.ask(hit->mesh, corners[nearest]);
+    mPictures.ask(*mContent.shown(), hit->mesh, corners[nearest]);
     mState.showsWhy = true;
 }
 
@@ -353,7 +366,7 @@ void Viewer::saveLight() {
         const std::optional<nlohmann::json> light = lightFileOf(mState.light);
         if (!light) throw Error("the built-in sky has no file; choose another environment to save a light");
         const std::string file = outputName(".light.json");
-        writeFileAtomically(file, light->dump(2) + "\n");
+        writeLightFile(file, *light);
         tell(fmt::format("{} is written; its turn is --rotate={}", file, mState.light.rotation));
     });
 }
@@ -390,6 +403,7 @@ void Viewer::run() {
                 mOutputs.wantScreenshot(mOptions.screenshot);
         }
         drawFrame();
+        obey(std::exchange(mWishes, {}));
         if (mOptions.exitFrame && mSettledFrames >= *mOptions.exitFrame) break;
     }
     if (mOutputs.isRecording()) mOutputs.endRecording();
@@ -506,7 +520,7 @@ void Viewer::drawUi() {
         mLamps.draw(mState.light, camera(), mContent.shown()->bounds, mWindow.size());
         drawOverlay(mState, known, camera(), mWindow.size());
     }
-    obey(drawPanels(mState, known));
+    mWishes = drawPanels(mState, known);
     mUi.end();
 }
 
@@ -557,8 +571,9 @@ PanelFacts Viewer::facts() const {
 
 void Viewer::save() {
     const Model* const model = mView.image() ? mContent.shown().get() : nullptr;
-    if (mOptions.exitFrame) return mOutputs.save(mState, model); // nobody else will see what fails
-    attempt([&] { mOutputs.save(mState, model); });
+    if (mOptions.exitFrame)
+        return mOutputs.save(mView.drawn(mState), model); // nobody else will see what fails
+    attempt([&] { mOutputs.save(mView.drawn(mState), model); });
 }
 
 void Viewer::toggleRecording() {

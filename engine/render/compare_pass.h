@@ -10,11 +10,8 @@ enum class CompareMode { Split, Difference };
 struct CompareOptions {
     CompareMode mode = CompareMode::Split;
     float split = 0.5f; // of the width: what is left of it shows the first image, the rest the second
-    float scale = 1;    // of the mean of a pixel's three differences, for heatColor()
+    float scale = 1;    // of the mean of a pixel's three differences, for heatColor() (heat_color.h)
 };
-
-// From black (0) over blue, purple and orange to yellow (1 and more); linear.
-vec3 heatColor(float heat);
 
 class ComparePass {
   public:

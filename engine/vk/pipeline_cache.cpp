@@ -55,7 +55,7 @@ bool isOfDevice(const VkPhysicalDeviceProperties& driver, std::span<const std::b
 std::vector<std::byte> readIfThere(const std::filesystem::path& path) {
     try {
         return readFile(path, kMostBytes);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) { // a lost device is no reason to fail once more
         spdlog::debug("pipeline cache: {}", error.what());
         return {};
     }
@@ -113,16 +113,16 @@ std::vector<std::byte> PipelineCache::data() const {
 
 void PipelineCache::save() const {
     if (mPath.empty()) return;
-    const std::vector<std::byte> file = packPipelineCache(mDriver, data());
-    if (file.size() > kMostBytes) {
-        spdlog::debug("pipeline cache: {} bytes are too many to keep", file.size());
-        return;
-    }
-    std::error_code failure; // writing says what is wrong with the folder
-    if (mPath.has_parent_path()) std::filesystem::create_directories(mPath.parent_path(), failure);
     try {
+        const std::vector<std::byte> file = packPipelineCache(mDriver, data());
+        if (file.size() > kMostBytes) {
+            spdlog::debug("pipeline cache: {} bytes are too many to keep", file.size());
+            return;
+        }
+        std::error_code failure; // writing says what is wrong with the folder
+        if (mPath.has_parent_path()) std::filesystem::create_directories(mPath.parent_path(), failure);
         writeFileAtomically(mPath, file);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) { // a lost device is no reason to fail once more
         spdlog::warn("pipelines are not kept for the next start: {}", error.what());
     }
 }
