@@ -5,7 +5,7 @@ using namespace relume;
 using namespace relume::test;
 using nlohmann::json;
 
-TEST_CASE("viewer: B goes from bake to bake; the same mesh stays where it is") {
+TEST_CASE("viewer: B goes from bake to bake, and the same mesh stays where it is") {
     Session& session = sharedSession();
     session.bake("coarse.relume", "-m clay");
     const Outcome baked = session.relume("bake sphere -K 2 -N 24 --visibility-size 64 --face-size 32 "

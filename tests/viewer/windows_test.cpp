@@ -128,3 +128,44 @@ TEST_CASE("viewer: a double click looks at what is there") {
     CHECK(session.bytes("image.exr") == session.bytes("focused.exr"));
     CHECK(session.bytes("same.exr") == session.bytes("focused.exr"));
 }
+
+TEST_CASE("viewer: a lamp is dragged over the object, and nothing else with it") {
+    Session& session = sharedSession();
+    // Its handle is in the middle of the window.
+    const json drag = {{"drag", "left"}, {"from", {240, 180}}, {"by", {-40, -30}}, {"over", 3}};
+    const Outcome outcome =
+        session.replay({{{"wait", "settled"}},
+                        {{"set", {{"azimuth", 30}, {"elevation", 20}, {"rotation", 10}, {"gain", 0}}}},
+                        {{"set", {{"lamps", {{{"azimuth", 20}, {"elevation", 20}}}}}}},
+                        {{"wait", "settled"}},
+                        {{"screenshot", "lamp.exr"}},
+                        drag,
+                        {{"wait", "settled"}},
+                        {{"screenshot", "dragged.exr"}},
+                        {{"key", "Tab"}}, // without panels, it is the view that is dragged
+                        drag,
+                        {{"wait", "settled"}},
+                        {{"screenshot", "orbited.exr"}},
+                        {{"quit", true}}},
+                       "ring.relume");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    CHECK(isQuiet(outcome.err));
+    const auto cameraOf = [&](const char* file) {
+        const std::string command = renderCommand(outcome.err, file);
+        const size_t eye = command.find("--eye=");
+        REQUIRE_NE(eye, std::string::npos);
+        return command.substr(eye, command.find(" --rotate") - eye);
+    };
+    const auto lampOf = [&](const char* file) { return json::parse(session.bytes(file)).at("lamps").at(0); };
+    CHECK_EQ(cameraOf("lamp.exr"), cameraOf("dragged.exr"));
+    CHECK_NE(cameraOf("lamp.exr"), cameraOf("orbited.exr"));
+    CHECK(session.bytes("lamp.exr") != session.bytes("dragged.exr"));
+    const json before = lampOf("lamp.light.json"), after = lampOf("dragged.light.json");
+    CHECK_LT(after.at("azimuth"), before.at("azimuth").get<float>() - 5); // to the left, and up
+    CHECK_GT(after.at("elevation"), before.at("elevation").get<float>() + 3);
+    CHECK_EQ(after.at("radiance"), before.at("radiance"));
+    CHECK_EQ(lampOf("orbited.light.json"), after);
+    REQUIRE_EQ(session.relume(renderCommand(outcome.err, "dragged.exr")).exitCode, 0);
+    CHECK(session.bytes("image.exr") == session.bytes("dragged.exr"));
+}
