@@ -18,7 +18,7 @@ Mesh turnedInsideOut(Mesh mesh) {
 
 } // namespace
 
-TEST_CASE("closed mesh: spheres are, with a seam of texture coordinates too; planes are not") {
+TEST_CASE("closed mesh: spheres are, with a seam of texture coordinates too, planes are not") {
     CHECK(isClosed(makeSphere(2)));
     CHECK(isClosed(makeSphere(2, true)));
     CHECK_FALSE(isClosed(makePlane(4, 3)));

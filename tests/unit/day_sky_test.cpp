@@ -71,7 +71,7 @@ TEST_CASE("day sky: a high sun gives what is measured, a low one reddens, and it
     CHECK(sampleLight({.sky = DaySky{.sun = {0, -1, 0}}}, 16).radiance[0].x < 1e-20f);
 }
 
-TEST_CASE("day sky: turning and scaling do what they say; without a disc there is none") {
+TEST_CASE("day sky: turning and scaling do what they say, without a disc there is none") {
     const Light light{.sky = skyAt(30)};
     const LightCube once = sampleLight(light, 16), quarter = sampleLight(turned(light, kPi / 2), 16),
                     bright = sampleLight(scaled(light, 3), 16);

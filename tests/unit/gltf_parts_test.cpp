@@ -118,7 +118,7 @@ TEST_CASE("glTF parts: metalness and roughness are averaged, texture coordinates
     CHECK(file.parts[1].mesh.vertexCount() == 4);
 }
 
-TEST_CASE("glTF parts: what is not supported is ignored; factors are clamped") {
+TEST_CASE("glTF parts: what is not supported is ignored, factors are clamped") {
     TexturedGlb glb;
     glb.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[2,-1,0.5,0.25],"metallicFactor":7},
         "normalTexture":{"index":77},"emissiveFactor":[1,0,0],"alphaMode":"BLEND",

@@ -125,7 +125,7 @@ TEST_CASE("layout: light's spectrum has a weight per wavelet level, the same on 
     CHECK(lightSpectrum(kFace)[kFace - 1] == spectrum[kFace - 1]);
 }
 
-TEST_CASE("layout: a grey material has one kind a term; a coloured one its principal directions") {
+TEST_CASE("layout: a grey material has one kind a term, a coloured one its principal directions") {
     const std::vector<BasisKind> grey = basisKinds(factors(3, true));
     REQUIRE(grey.size() == 3);
     for (uint32_t term = 0; term < 3; term++) {

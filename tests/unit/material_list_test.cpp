@@ -83,7 +83,7 @@ TEST_CASE("material list: what makes no sense is refused, and says why") {
     refuses(R"({"set": [{"name": "a\u0000b", "model": "plastic"}]})", "control characters");
 }
 
-TEST_CASE("material factory: members of a set share light maps; each has its view maps") {
+TEST_CASE("material factory: members of a set share light maps, each has its view maps") {
     MaterialFactory factory = smallFactory(32);
     const auto sets = factory.make(R"({"set": ["clay", "red-plastic"]})", {}, false);
     REQUIRE(sets.size() == 1);

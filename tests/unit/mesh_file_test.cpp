@@ -75,7 +75,7 @@ TEST_CASE("mesh files: polygons, welding, degenerate and unused parts") {
     for (const vec3& normal : mesh.normals) CHECK(glm::distance(normal, vec3(0, 0, 1)) < 1e-6f);
 }
 
-TEST_CASE("mesh files: normals keep creases apart; incomplete or broken ones are made anew") {
+TEST_CASE("mesh files: normals keep creases apart, incomplete or broken ones are made anew") {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     const Mesh crease = decode(corners + "vn 0 0 5\nvn 5 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", "a.obj");
     CHECK(crease.vertexCount() == 6);
@@ -305,7 +305,7 @@ TEST_CASE("glTF: documents that lie") {
     CHECK(changed("5125", "5126").find("unsigned") != std::string::npos);
 }
 
-TEST_CASE("glTF: vertex colours of any type; three channels leave the fourth weight 0") {
+TEST_CASE("glTF: vertex colours of any type, three channels leave the fourth weight 0") {
     const auto colorsOf = [](int type, const char* width, const char* more, const std::string& data) {
         std::string buffer;
         for (const float value : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) put(buffer, value);

@@ -108,7 +108,7 @@ TEST_CASE("transport: a constant light map under a tilted normal still sums to g
     }
 }
 
-TEST_CASE("transport: the finest samples are the sum over visibility texels; one sample is close") {
+TEST_CASE("transport: the finest samples are the sum over visibility texels, one sample is close") {
     const int size = 64, faceSize = 16, children = size / faceSize;
     const Mesh roof = makeQuad({-0.3f, 0.7f, -0.2f}, {1, 0, 0}, {0, 0.4f, 1});
     const vec3 normal = glm::normalize(vec3(0.2f, 1, -0.1f));

@@ -101,7 +101,7 @@ TEST_CASE("vertex order: clusters do not reach around an edge") {
             CHECK(sheets.normals[i] == sheets.normals[first]);
 }
 
-TEST_CASE("vertex order: only the last cluster is short; points without extent keep their order") {
+TEST_CASE("vertex order: only the last cluster is short, points without extent keep their order") {
     Mesh mesh;
     for (int i = 0; i < 600; i++) mesh.positions.push_back(vec3(i < 100 ? 0 : 1, 0, 0));
     mesh.colors.resize(600);
