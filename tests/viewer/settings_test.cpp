@@ -37,8 +37,10 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_CASE("settings: what is kept is the same the next time") {
     SceneState state = freshState();
-    const json changed = {{"exposure", -1.5}, {"tone", "aces"}, {"panels", false},
-                          {"dark", false},    {"vsync", false}, {"coefficients", 77}};
+    const json changed = {{"exposure", -1.5},    {"tone", "aces"},       {"panels", false},
+                          {"dark", false},       {"vsync", false},       {"coefficients", 77},
+                          {"model-panel", true}, {"light-panel", false}, {"material-panel", false},
+                          {"view-panel", true},  {"trust-panel", false}};
     const json before = keptSettings(state);
     for (const auto& [name, value] : changed.items()) {
         CAPTURE(name);
