@@ -39,7 +39,7 @@ void drawTrustPanel(SceneState& state, const PanelFacts& facts) {
         explain("Root mean square of the relit image's error over covered pixels, without the reference's "
                 "own noise");
         if (state.compare == Compare::Difference)
-            ImGui::TextDisabled("black: none; yellow: a quarter of white, as exposed");
+            ImGui::TextDisabled("black: none; yellow: a quarter of white");
     }
     text("Inspect");
     explain("I: what the mesh is like");
@@ -57,7 +57,7 @@ void drawLightVectorWindow(SceneState& state, const PanelFacts& facts) {
         facts.light) {
         const int side = facts.content->shown() ? facts.content->shown()->asset.faceSize : 0;
         ImGui::BeginGroup();
-        text(fmt::format("given: 6 x {0} x {0} texels", side));
+        text(fmt::format("given: 6 x {0} x {0}", side));
         facts.pictures->draw(facts.lightGiven, kCrossWidth * line());
         ImGui::EndGroup();
         ImGui::SameLine();
@@ -77,7 +77,7 @@ void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
         text(fmt::format("{}, vertex {} at {:.3f} {:.3f} {:.3f}", why.part, why.vertex, why.position.x,
                          why.position.y, why.position.z));
         ImGui::BeginGroup();
-        text(fmt::format("what it sees: {:.0f} % open", 100 * why.openShare));
+        text(fmt::format("sees: {:.0f} % open", 100 * why.openShare));
         facts.pictures->draw(facts.visibility, kCrossWidth * line());
         explain("The visibility cube: white is open, dark is blocked; only what is above its horizon");
         ImGui::EndGroup();
