@@ -131,6 +131,7 @@ class Viewer : public ScriptTarget {
 
     FrameTimes mTimes;
     Outputs mOutputs;
+    std::filesystem::path mTitled; // the bake that the window's title names
     std::string mNotice;
     Clock::time_point mNoticeTime;
     bool mIsFailure = false;
@@ -411,7 +412,6 @@ void Viewer::run() {
 }
 
 void Viewer::poll() {
-    const Model* const before = mContent.shown().get();
     if (!mNotice.empty() && !mIsFailure && secondsSince(mNoticeTime) > kNoticeSeconds) {
         mNotice.clear();
         wantFrames(1);
@@ -420,11 +420,10 @@ void Viewer::poll() {
     if (mContent.poll()) wantFrames(kFramesAfterInput);
     if (mView.poll()) wantFrames(1);
     if (mPictures.poll()) wantFrames(1);
-    const Model* const model = mContent.shown().get();
-    if (model == before || !model) return;
-    mWindow.setTitle(
-        (model->file == bakePath("") ? std::string("built-in scene") : model->file.filename().string()) +
-        " - Relume");
+    if (!mContent.shown() || mContent.shown()->file == mTitled) return;
+    mTitled = mContent.shown()->file;
+    mWindow.setTitle((mTitled == bakePath("") ? std::string("built-in scene") : mTitled.filename().string()) +
+                     " - Relume");
 }
 
 // Nobody is there to open something else.
