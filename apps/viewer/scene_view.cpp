@@ -26,7 +26,10 @@ SceneView::SceneView(const vk::Device& device, std::function<void()> wake, Tell 
 bool SceneView::poll() {
     bool hasNews = mFeed.poll();
     std::optional<Comparison::Result> result = mComparison.take();
-    if (result && !result->failure.empty()) mTell(result->failure, true);
+    if (result && !result->failure.empty()) {
+        mCompared = {.failure = result->failure};
+        mTell(result->failure, true);
+    }
     if (result && result->failure.empty()) {
         const Image& image = result->reference;
         mReference = vk::uploadImage(mDevice,

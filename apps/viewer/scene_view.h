@@ -45,6 +45,8 @@ class SceneView {
     bool isStill() const { return mIsStill; }
 
     const std::optional<LightStats>& lightStats() const { return mLightStats; }
+    // A reference is wanted: comparing is on, and what is seen is radiance.
+    static bool compares(const SceneState& state);
     // Of the reference of what is seen; no passes: none is there.
     const Comparison::Result& compared() const { return mCompared; }
 
@@ -60,7 +62,6 @@ class SceneView {
     void recordLight(vk::Commands& commands, SceneState& state);
     void recordView(vk::Commands& commands, const SceneState& state, ivec2 size);
     void recordCompared(vk::Commands& commands, const SceneState& state);
-    static bool compares(const SceneState& state);
 
     const vk::Device& mDevice;
     Tell mTell;

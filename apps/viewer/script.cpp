@@ -1,5 +1,6 @@
 #include "apps/viewer/script.h"
 
+#include "apps/viewer/comparison.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
@@ -131,7 +132,10 @@ bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
                std::chrono::duration<double>(wait.get<double>());
     if (!wait.is_object() || !wait.contains("passes"))
         throw Error("\"wait\": expected \"settled\", seconds, or {{\"passes\": N}} of a comparison");
-    return target.comparedPasses() >= wait["passes"].get<int>();
+    const int passes = wait["passes"].get<int>();
+    if (passes > Comparison::kPasses)
+        throw Error("\"passes\": expected at most {}, found {}", Comparison::kPasses, passes);
+    return target.comparedPasses() >= passes;
 }
 
 // Pressed at `from`, moved by an equal part of `by` in each of `over` frames, released.

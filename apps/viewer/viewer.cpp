@@ -70,7 +70,7 @@ class Viewer : public ScriptTarget {
     void screenshot(const std::filesystem::path& file) override;
     void set(const std::string& name, const nlohmann::json& value) override;
     bool isSettled() const override;
-    int comparedPasses() const override { return mView.compared().passes; }
+    int comparedPasses() const override;
     void quit() override { mWindow.close(); }
 
   private:
@@ -442,6 +442,15 @@ bool Viewer::wantsFrame() const {
 // A bake and a script are asked how they are; a signal is seen within a second.
 double Viewer::waitSeconds() const {
     return mContent.isBaking() || (mScript && mScript->isWaiting()) ? 0.05 : 1;
+}
+
+int Viewer::comparedPasses() const {
+    if (!SceneView::compares(mState))
+        throw Error(
+            "\"passes\": nothing is compared; {{\"set\": {{\"compare\": \"split\"}}}} before, inspect off");
+    const Comparison::Result& compared = mView.compared();
+    if (!compared.failure.empty()) throw Error("\"passes\": {}", compared.failure);
+    return compared.passes;
 }
 
 bool Viewer::isSettled() const {
