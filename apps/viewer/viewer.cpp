@@ -189,8 +189,10 @@ Viewer::~Viewer() {
         if (choice.kind == EnvironmentChoice::Kind::File && choice.map)
             mHabits.environments.push_back(choice.file);
     nlohmann::json kept = keptSettings(mState);
-    if (!mOptions.waitsForDisplay)
-        kept["vsync"] = mHabits.settings.value("vsync", true); // for this time only
+    if (!mOptions.waitsForDisplay) { // for this time only
+        const auto before = mHabits.settings.find("vsync");
+        kept["vsync"] = before != mHabits.settings.end() ? *before : nlohmann::json(true);
+    }
     mHabits.settings = std::move(kept);
     writeHabits(mHabits);
 }
