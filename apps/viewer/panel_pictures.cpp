@@ -87,6 +87,7 @@ void PanelPictures::updateSwatches(const std::shared_ptr<Model>& model) {
 }
 
 void PanelPictures::updateLight(const SceneState& state, const Model& model, const SceneView& view) {
+    if (!state.showsPanels || !(state.opensLight || state.showsLight)) return;
     const auto now = std::chrono::steady_clock::now();
     const ShownLight wanted{view.lightVersion(), state.showsLight, state.tone, state.exposure};
     if (mShownLight == wanted || (!view.isStill() && now - mLightTime < kBetweenLights)) return;
