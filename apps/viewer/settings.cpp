@@ -44,24 +44,28 @@ auto& memberOf(State& state, Value Owner::*member) {
         return state.*member;
 }
 
-template <typename Owner, typename Number>
-Setting number(const std::string& name, Number Owner::*member, float low, float high, bool isKept = false) {
-    Setting setting{name, [=](SceneState& state, const json& value) {
-                        memberOf(state, member) = Number(numberOf(name, value, low, high));
-                    }};
+// A member that `read` makes of a value, by the setting's name.
+template <typename Owner, typename Value, typename Read>
+Setting ofMember(const std::string& name, Value Owner::*member, bool isKept, Read read) {
+    Setting setting{
+        name, [=](SceneState& state, const json& value) { memberOf(state, member) = read(name, value); }};
     if (isKept) setting.get = [=](const SceneState& state) { return json(memberOf(state, member)); };
     return setting;
 }
 
+template <typename Owner, typename Number>
+Setting number(const std::string& name, Number Owner::*member, float low, float high, bool isKept = false) {
+    return ofMember(name, member, isKept, [=](const std::string& key, const json& value) {
+        return Number(numberOf(key, value, low, high));
+    });
+}
+
 template <typename Owner>
 Setting flag(const std::string& name, bool Owner::*member, bool isKept = false) {
-    Setting setting{name, [=](SceneState& state, const json& value) {
-                        if (!value.is_boolean())
-                            throw Error("\"{}\": expected true or false, found {}", name, value.dump());
-                        memberOf(state, member) = value.get<bool>();
-                    }};
-    if (isKept) setting.get = [=](const SceneState& state) { return json(memberOf(state, member)); };
-    return setting;
+    return ofMember(name, member, isKept, [](const std::string& key, const json& value) {
+        if (!value.is_boolean()) throw Error("\"{}\": expected true or false, found {}", key, value.dump());
+        return value.get<bool>();
+    });
 }
 
 // One of `names`, in the order of an enumeration.
