@@ -40,4 +40,10 @@ struct SceneState {
     bool opensModel = false, opensLight = true, opensMaterial = true, opensView = false, opensTrust = true;
 };
 
+// From one of these materials to the next, from the last to what was baked, from that to the first.
+void wearNext(SceneState& state, const std::vector<std::string>& names);
+
+// More of `most` terms, or fewer: at least one.
+void addTerms(SceneState& state, int more, int most);
+
 } // namespace relume

@@ -79,8 +79,6 @@ class Viewer : public ScriptTarget {
     void open(const std::filesystem::path& file);
     void obey(Command command);
     void obey(const PanelWishes& wishes);
-    void changeTerms(int by);
-    void nextMaterial();
     void focus();
     void askWhy();
     void reloadShaders();
@@ -250,6 +248,7 @@ void Viewer::open(const std::filesystem::path& file) {
 }
 
 void Viewer::obey(Command command) {
+    const Model* const model = mContent.shown().get();
     switch (command) {
     case Command::None:
         return;
@@ -273,7 +272,8 @@ void Viewer::obey(Command command) {
         mState.light.file.reset();
         return;
     case Command::NextMaterial:
-        return nextMaterial();
+        if (model) wearNext(mState, materialNames(model->asset));
+        return;
     case Command::NextModel: {
         const auto& models = mContent.models();
         const auto shown = std::ranges::find(models, mContent.shown());
@@ -281,9 +281,11 @@ void Viewer::obey(Command command) {
         return;
     }
     case Command::FewerTerms:
-        return changeTerms(-1);
+        if (model) addTerms(mState, -1, termsOf(*model));
+        return;
     case Command::MoreTerms:
-        return changeTerms(1);
+        if (model) addTerms(mState, 1, termsOf(*model));
+        return;
     case Command::Quit:
         return mWindow.close();
     }
@@ -302,23 +304,6 @@ void Viewer::obey(const PanelWishes& wishes) {
     if (wishes.shows) mContent.show(*wishes.shows);
     if (wishes.closes) mContent.close(*wishes.closes);
     if (!mState.showsWhy) mPictures.stopAsking();
-}
-
-void Viewer::changeTerms(int by) {
-    if (!mContent.shown()) return;
-    const int most = termsOf(*mContent.shown());
-    const int terms = std::clamp((mState.terms > 0 ? mState.terms : most) + by, 1, most);
-    mState.terms = terms < most ? terms : 0;
-}
-
-void Viewer::nextMaterial() {
-    if (!mContent.shown()) return;
-    const std::vector<std::string> names = materialNames(mContent.shown()->asset);
-    const auto worn =
-        mState.material.empty() ? names.end() : std::ranges::find(names, mState.material[0].name);
-    const size_t next = worn == names.end() ? 0 : size_t(worn - names.begin()) + 1;
-    mState.material.clear();
-    if (next < names.size()) mState.material.push_back({names[next]});
 }
 
 void Viewer::focus() {

@@ -1,0 +1,19 @@
+#include "apps/viewer/scene_state.h"
+
+#include <algorithm>
+
+namespace relume {
+
+void wearNext(SceneState& state, const std::vector<std::string>& names) {
+    const auto worn = state.material.empty() ? names.end() : std::ranges::find(names, state.material[0].name);
+    const size_t next = worn == names.end() ? 0 : size_t(worn - names.begin()) + 1;
+    state.material.clear();
+    if (next < names.size()) state.material.push_back({names[next]});
+}
+
+void addTerms(SceneState& state, int more, int most) {
+    const int terms = std::clamp((state.terms > 0 ? state.terms : most) + more, 1, most);
+    state.terms = terms < most ? terms : 0;
+}
+
+} // namespace relume
