@@ -28,7 +28,9 @@ int main(int argc, char** argv) {
                                  text);
             options.size = found;
         });
-    program.add_flag("!--no-vsync", options.waitsForDisplay, "Show frames as soon as they are drawn");
+    program.add_flag_callback(
+        "--no-vsync", [&options] { options.waitsForDisplay = false; },
+        "Show frames as soon as they are drawn");
     program.add_option("--script", options.script, "Replay inputs and settings (.json): docs/viewer.md")
         ->type_name("FILE");
     CLI::Option* const exitFrame =
