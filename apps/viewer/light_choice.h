@@ -20,8 +20,6 @@ struct EnvironmentChoice {
     std::filesystem::path file = {};
     std::shared_ptr<const Environment> map = nullptr; // prepared; null until it was read, and of a day sky
     bool isRead = false;                              // or being read, or could not be
-
-    bool operator==(const EnvironmentChoice&) const = default;
 };
 
 // A day sky as it is chosen, on the meridian of its time: at 12 the sun is highest.
