@@ -93,6 +93,10 @@ TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
     const Outcome broken = session.replay({{{"wait", "settled"}}}, "broken.relume");
     CHECK_EQ(broken.exitCode, 1);
     CHECK(says(broken.err, "broken.relume: not a .relume file"));
+    const Outcome endless =
+        session.replay({{{"wait", "settled"}}, {{"wait", {{"passes", 2}}}}}, "ring.relume");
+    CHECK_EQ(endless.exitCode, 1);
+    CHECK(says(endless.err, "step 2: \"passes\": nothing is compared"));
     const Outcome setting = session.replay({{{"wait", "settled"}}, {{"set", {{"fov", 400}}}}}, "ring.relume");
     CHECK_EQ(setting.exitCode, 1);
     CHECK(says(setting.err, "step 2: \"fov\": expected a number from 1 to 170, found 400"));
