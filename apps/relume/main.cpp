@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
     addReferenceCommand(program);
     addCompareCommand(program);
     addVerifyCommand(program);
+    addAdviseCommand(program);
+    addErrorsCommand(program);
     addInfoCommand(program);
     addMaterialsCommand(program);
     addBrdfCommand(program);

@@ -1,6 +1,7 @@
 #include "apps/relume/appearance_arguments.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
+#include "apps/relume/selection_arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
 #include "engine/render/relighter.h"
@@ -20,7 +21,7 @@ struct Arguments {
     ImageArguments image;
     AppearanceArguments appearance;
     DeviceArguments device;
-    LightSelection selection;
+    SelectionArguments selection;
     int terms = 0; // 0: all
     int frames = 1;
     float rate = 24; // frames a second of light that moves
@@ -122,7 +123,7 @@ void run(const Arguments& arguments) {
         commands.begin();
         if (lightChanges) {
             light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
-                         arguments.selection);
+                         arguments.selection.selection);
             relighter.record(commands, light, appearance);
         }
         view.record(commands, arguments.camera.camera(asset, turnsCamera ? angle : 0), relighter);
@@ -162,20 +163,7 @@ void addRenderCommand(CLI::App& program) {
     arguments->image.add(*command);
     arguments->appearance.add(*command);
     arguments->light.add(*command);
-    CLI::Option* threshold =
-        command
-            ->add_option("--threshold", arguments->selection.threshold,
-                         "Drop light coefficients below this, where the largest is 32767")
-            ->check(CLI::Range(0, kLightMaximum))
-            ->capture_default_str();
-    command
-        ->add_option("--coefficients", arguments->selection.count,
-                     "Keep so many light coefficients, the largest, instead")
-        ->type_name("COUNT")
-        ->check(CLI::Range(1, int(kMaximumLightEntries)))
-        ->excludes(threshold);
-    command->add_flag("--area-weighted", arguments->selection.areaWeighted,
-                      "Weigh light coefficients by the area of their functions when selecting");
+    arguments->selection.add(*command);
     command->add_option("--terms", arguments->terms, "Sum the first of the bake's K terms only")
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1024));

@@ -8,7 +8,6 @@
 #include "precompute/brdf/low_rank.h"
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 #include <spdlog/spdlog.h>
 #include <tbb/parallel_for.h>
@@ -120,24 +119,6 @@ ChannelFactors factorizeGeneral(const std::vector<const MatrixXf*>& matrices, co
     }
     settleSigns(factors);
     return factors;
-}
-
-// For every texel of the map, the index of the nearest direction's texel: itself inside the disk, the
-// nearest inside texel (the first of equals) outside it.
-std::vector<int> nearestDirections(const BrdfTable& table) {
-    std::vector<int> nearest(size_t(table.size) * size_t(table.size));
-    for (int y = 0; y < table.size; y++)
-        for (int x = 0; x < table.size; x++) {
-            int least = INT_MAX;
-            for (size_t i = 0; i < table.texels.size() && least > 0; i++) {
-                const ivec2 offset = table.texels[i] - ivec2(x, y);
-                const int distance = offset.x * offset.x + offset.y * offset.y;
-                if (distance >= least) continue;
-                least = distance;
-                nearest[size_t(y * table.size + x)] = int(i);
-            }
-        }
-    return nearest;
 }
 
 void writeChannel(const ChannelFactors& factors, const std::vector<int>& nearest, int channel,

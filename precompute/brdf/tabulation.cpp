@@ -131,4 +131,20 @@ BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue v
     return table;
 }
 
+std::vector<int> nearestDirections(const BrdfTable& table) {
+    std::vector<int> nearest(size_t(table.size) * size_t(table.size));
+    for (int y = 0; y < table.size; y++)
+        for (int x = 0; x < table.size; x++) {
+            int least = INT_MAX;
+            for (size_t i = 0; i < table.texels.size() && least > 0; i++) {
+                const ivec2 offset = table.texels[i] - ivec2(x, y);
+                const int distance = offset.x * offset.x + offset.y * offset.y;
+                if (distance >= least) continue;
+                least = distance;
+                nearest[size_t(y * table.size + x)] = int(i);
+            }
+        }
+    return nearest;
+}
+
 } // namespace relume

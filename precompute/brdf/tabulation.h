@@ -37,4 +37,9 @@ enum class TexelValue { Centre, Mean };
 BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value = TexelValue::Centre,
                    BrdfPart part = BrdfPart::All);
 
+// For every texel of the map, row by row, the index of the nearest direction's texel: itself inside the
+// disk, the nearest inside texel (the first of equals) outside it. Maps are extended so, since bilinear
+// lookups near the rim read texels outside.
+std::vector<int> nearestDirections(const BrdfTable& table);
+
 } // namespace relume

@@ -11,10 +11,22 @@ std::vector<const Mesh*> partMeshes(const Asset& asset) {
     return meshes;
 }
 
+Mesh mergedMesh(const Asset& asset) {
+    Mesh merged;
+    for (const AssetPart& part : asset.parts) append(merged, part.mesh);
+    return merged;
+}
+
 vec3 SurfacePoint::reflected(vec3 incoming) const {
     vec3 f(0);
     for (const auto& [weight, brdf] : layers) f += weight * brdf.evaluate(incoming);
     return f;
+}
+
+std::vector<vec3> SurfacePoint::layerWeights() const {
+    std::vector<vec3> weights;
+    for (const Layer& layer : layers) weights.push_back(layer.weight);
+    return weights;
 }
 
 DressedAsset::DressedAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind,

@@ -9,6 +9,8 @@ namespace relume {
 
 // Meshes of the parts: RayHit::mesh of a tracer of these is a part.
 std::vector<const Mesh*> partMeshes(const Asset& asset);
+// All of them as one, which the bake's occluder may be simpler than.
+Mesh mergedMesh(const Asset& asset);
 
 // A point of a surface, seen from an eye. Refers to its DressedAsset.
 struct SurfacePoint {
@@ -23,6 +25,7 @@ struct SurfacePoint {
 
     // Σ weight · f(ωi, outgoing), in sr⁻¹; ωi in the frame, above the horizon.
     vec3 reflected(vec3 incoming) const;
+    std::vector<vec3> layerWeights() const;
 };
 
 class DressedAsset {

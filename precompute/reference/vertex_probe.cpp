@@ -3,9 +3,8 @@
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
-#include "engine/math/tangent_frame.h"
-#include "precompute/reference/layer_weights.h"
 #include "precompute/reference/transport_stages.h"
+#include "precompute/reference/vertex_views.h"
 
 namespace relume {
 
@@ -22,23 +21,6 @@ std::vector<float> visibleShares(const Asset& asset, const RayTracer& occluder, 
                 shares[size_t(cubeTexelIndex(face, x / side, y / side, asset.faceSize))] +=
                     float(visibility[size_t(cubeTexelIndex(face, x, y, size))]) / float(side * side);
     return shares;
-}
-
-// Per term.
-std::vector<vec3> viewsOf(const AssetPart& part, const PartAppearance& appearance, uint32_t vertex,
-                          vec3 outgoing) {
-    const Mesh& mesh = part.mesh;
-    const FactoredBrdf& brdf = part.sets[appearance.set].brdf;
-    const std::vector<WornLayer> layers = wornLayers(part, appearance);
-    const std::vector<vec3> weights =
-        layerWeights(part, appearance.set, layers, mesh.uvs.empty() ? vec2(0) : mesh.uvs[vertex],
-                     mesh.colors.empty() ? vec4(0) : mesh.colors[vertex]);
-    const MapPlace place = placeInMap(brdf.size, brdf.mapping, outgoing);
-    std::vector<vec3> views(size_t(brdf.terms), vec3(0));
-    for (int term = 0; term < brdf.terms; term++)
-        for (size_t i = 0; i < layers.size(); i++)
-            views[size_t(term)] += weights[i] * lookupMap(brdf.viewMap(layers[i].layer, term), place);
-    return views;
 }
 
 vec3 innerProduct(const std::vector<vec3>& coefficients, const LightVector& light) {
@@ -62,11 +44,10 @@ VertexProbe probeVertex(const Asset& asset, const RayTracer& occluder, size_t pa
     RELUME_CHECK_LT(vertex, source.mesh.vertexCount());
     const MaterialSet& set = source.sets.at(appearance.set);
     const vec3 position = source.mesh.positions[vertex], normal = source.mesh.normals[vertex];
-    const vec3 outgoing = liftAboveHorizon(tangentFrame(normal).toLocal(glm::normalize(eye - position)));
 
     VertexProbe probe;
     probe.visibility = visibleShares(asset, occluder, position, normal);
-    probe.views = viewsOf(source, appearance, vertex, outgoing);
+    probe.views = vertexViews(source, appearance, vertex, eye);
     probe.transport = {asset.faceSize, std::vector<vec3>(light.radiance.size(), vec3(0))};
     std::vector<vec3>& transport = probe.transport.radiance;
     glm::dvec3 radiance(0);

@@ -1,0 +1,91 @@
+#include "apps/relume/appearance_arguments.h"
+#include "apps/relume/commands.h"
+#include "apps/relume/options.h"
+#include "apps/relume/studied_light.h"
+#include "engine/base/error.h"
+#include "engine/base/progress.h"
+#include "precompute/error/error_study.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+namespace {
+
+struct Arguments {
+    std::string file;
+    CameraArguments camera;
+    StudiedLightArguments light;
+    AppearanceArguments appearance;
+    DeviceArguments device;
+    bool json = false;
+};
+
+nlohmann::ordered_json describe(const ErrorStudy& study) {
+    nlohmann::ordered_json sources;
+    for (size_t i = 0; i < kErrorSources; i++)
+        sources[std::string(errorSourceName(ErrorSource(i)))] = {{"rms", study.budget.sources[i].rms},
+                                                                 {"share", study.budget.sources[i].share}};
+    return {{"points", study.stages.size()},
+            {"sources", sources},
+            {"total", study.budget.total},
+            {"total_standard_error", study.budget.uncertainty},
+            {"root_sum_of_squares", study.budget.rootSumSquares},
+            {"measured", study.measured},
+            {"reference_noise", study.noise},
+            {"reference_passes", study.passes},
+            {"unexplained_drawing", study.drawnAside},
+            {"unexplained_truth", study.truthAside}};
+}
+
+void print(const ErrorStudy& study) {
+    fmt::print("source                         error     share of the total, squared\n");
+    for (size_t i = 0; i < kErrorSources; i++)
+        fmt::print("{:<28} {:>8.4f} {:>8.1f} %\n", errorSourceTitle(ErrorSource(i)),
+                   study.budget.sources[i].rms, 100 * study.budget.sources[i].share);
+    fmt::print("all of them                  {:>8.4f}   ± {:.4f}; {:.4f} were they independent\n",
+               study.budget.total, study.budget.uncertainty, study.budget.rootSumSquares);
+    fmt::print("measured                     {:>8.4f}   against a reference with noise {:.4f} ({} passes)\n",
+               study.measured, study.noise, study.passes);
+    fmt::print("not accounted for            {:>8.4f}   of drawing, {:.4f} of the reference\n",
+               study.drawnAside, study.truthAside);
+}
+
+void run(const Arguments& arguments) {
+    const Asset asset = readAsset(arguments.file);
+    const Appearance appearance = arguments.appearance.appearance(asset);
+    const std::unique_ptr<vk::Device> device = arguments.device.open();
+    const StudiedLight light = arguments.light.studied();
+    Progress progress("tracing", 1000, "permille");
+    ViewPoints points;
+    const ErrorStudyOptions options{
+        {arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height}};
+    const ErrorStudy study =
+        studyErrors(*device, asset, appearance, std::span(&light, 1), options, points, [&](double share) {
+            progress.update(uint64_t(1000 * share));
+        }).front();
+    if (arguments.json)
+        fmt::print("{}\n", describe(study).dump(2));
+    else
+        print(study);
+    DeviceArguments::expectNoMessages(*device);
+}
+
+} // namespace
+
+void addErrorsCommand(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("errors", "Take an image's error apart: what every approximation costs");
+    const auto arguments = std::make_shared<Arguments>();
+    arguments->camera.width = 120, arguments->camera.height = 90;
+    command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
+    arguments->appearance.add(*command);
+    arguments->light.add(*command);
+    arguments->camera.add(*command);
+    arguments->device.add(*command);
+    command->add_flag("--json", arguments->json, "Data on stdout instead of a table");
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace relume

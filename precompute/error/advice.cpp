@@ -1,0 +1,146 @@
+#include "precompute/error/advice.h"
+
+#include "precompute/error/error_grid.h"
+#include "precompute/error/layout_costs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+constexpr size_t kRungs = kTriedCoefficients.size();
+
+// From four sides, a little from above.
+std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
+    constexpr int kViews = 4, kWidth = 128, kHeight = 96;
+    const RayTracer tracer(partMeshes(asset));
+    std::vector<SeenPoints> views;
+    for (int view = 0; view < kViews; view++) {
+        const Camera camera =
+            orbitCamera(objectBounds(asset), glm::radians(30.0f + 90.0f * float(view)), glm::radians(15.0f),
+                        1, glm::radians(35.0f), float(kWidth) / float(kHeight));
+        const std::vector<RayHit> hits = viewPoints(tracer, camera, kWidth, kHeight).hits;
+        const size_t own = std::min(hits.size(), std::max<size_t>(1, count / kViews));
+        SeenPoints& seen = views.emplace_back(SeenPoints{camera.eye, {}});
+        for (size_t i = 0; i < own; i++) seen.hits.push_back(hits[(2 * i + 1) * hits.size() / (2 * own)]);
+    }
+    return views;
+}
+
+// Where a curve of falling values reaches `wanted`, as a place between its points; none: not before the end.
+std::optional<double> placeOf(std::span<const double> values, double wanted) {
+    for (size_t i = 0; i < values.size(); i++) {
+        if (values[i] > wanted) continue;
+        if (i == 0) return 0;
+        if (values[i] <= 0 || values[i - 1] == values[i]) return double(i);
+        return double(i) - std::log(wanted / values[i]) / std::log(values[i - 1] / values[i]);
+    }
+    return std::nullopt;
+}
+
+// Of a curve at such a place, on a logarithmic scale.
+template <typename Values>
+double valueAt(const Values& values, double place) {
+    const size_t next = std::min(size_t(std::ceil(place)), std::size(values) - 1);
+    const size_t before = next > 0 ? next - 1 : 0;
+    const double share = next > 0 ? place - double(before) : 0;
+    return std::exp((1 - share) * std::log(std::max(double(values[before]), 1e-12)) +
+                    share * std::log(std::max(double(values[next]), 1e-12)));
+}
+
+double rowBytes(const Asset& asset, const ErrorGrid& grid, size_t terms, double place) {
+    constexpr double kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t),
+                     kRowBytes = sizeof(float) + sizeof(uint64_t);
+    double bytes = 0;
+    for (size_t part = 0; part < asset.parts.size(); part++)
+        for (size_t term = 0; term < std::min(terms, grid.entries[part].size()); term++)
+            bytes += double(asset.parts[part].mesh.vertexCount()) *
+                     (kRowBytes + kEntryBytes * valueAt(grid.entries[part][term], place));
+    return bytes;
+}
+
+// The K and N of fewest bytes.
+std::optional<AdvisedBake> adviseRows(const AdviceRequest& request, const Asset& asset,
+                                      const ErrorGrid& grid) {
+    std::optional<AdvisedBake> best;
+    for (size_t terms = 1; terms <= grid.errors.size(); terms++) {
+        const std::optional<double> place = placeOf(grid.errors[terms - 1], request.error);
+        if (!place) continue;
+        AdvisedBake bake{request.options, valueAt(grid.errors[terms - 1], *place),
+                         rowBytes(asset, grid, terms, *place)};
+        bake.options.layout = {TransportLayout::Rows};
+        bake.options.factorization.terms = int(terms);
+        bake.options.coefficients = int(std::lround(valueAt(kTriedCoefficients, *place)));
+        if (!best || bake.bytes < best->bytes) best = bake;
+    }
+    return best;
+}
+
+// The smallest K that leaves storage a share of the error.
+std::optional<int> termsForBases(const ErrorGrid& grid, size_t rung, double wanted) {
+    constexpr double kMostWithoutStorage = 0.85;
+    size_t least = 0;
+    for (size_t term = 0; term < grid.errors.size(); term++) {
+        if (grid.errors[term][rung] <= kMostWithoutStorage * wanted) return int(term) + 1;
+        if (grid.errors[term][rung] < grid.errors[least][rung]) least = term;
+    }
+    if (grid.errors[least][rung] < wanted) return int(least) + 1;
+    return std::nullopt;
+}
+
+} // namespace
+
+Advice advise(const vk::Device& device, const AdviceRequest& request, const StudiedLight& light,
+              BakeObserver& observer, const std::function<void(double)>& progress) {
+    if (request.options.factorization.method == Factorization::NonNegative)
+        throw UsageError("advise: terms of factorization \"nonnegative\" are only good together, so that no "
+                         "number of them can be advised; choose another factorization");
+    const auto share = [&](double first, double last) {
+        return [=, &progress](double done) {
+            if (progress) progress(first + (last - first) * done);
+        };
+    };
+    BakeOptions options = request.options;
+    options.layout = {};
+    options.coefficients = defaultCoefficients(TransportLayout::Bases);
+    options.factorization.terms = kMaxTerms;
+    options.factorization.wantedError.reset();
+    BakePlan plan = planBake(device, request.scene, options, observer);
+    const Appearance appearance = defaultAppearance(plan.asset);
+    const LightVector vector =
+        makeLightVector(sampleLight(light.light, plan.asset.faceSize), light.selection);
+    const std::vector<SeenPoints> points = seenPoints(plan.asset, request.points);
+    const std::vector<vec3> exact = exactRadiance(plan.asset, appearance, points, light.fine, share(0, 0.2));
+    const ErrorGrid grid = errorGrid(plan.asset, appearance, points, exact, vector, share(0.2, 0.8));
+
+    Advice advice;
+    advice.vertices = plan.vertices();
+    for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
+    advice.rows = adviseRows(request, plan.asset, grid);
+    const size_t rung =
+        size_t(std::ranges::find(kTriedCoefficients, options.coefficients) - kTriedCoefficients.begin());
+    const std::optional<int> terms = termsForBases(grid, rung, request.error);
+    if (!terms) return advice;
+
+    options.factorization.terms = *terms;
+    plan = planBake(device, request.scene, options, observer);
+    std::vector<vec3> eyes;
+    for (const SeenPoints& seen : points) eyes.push_back(seen.eye);
+    const LayoutCosts costs = layoutCosts(device, plan, appearance, vector, eyes, grid, observer);
+    const double before = grid.errors[size_t(*terms) - 1][rung];
+    const double left = std::sqrt(request.error * request.error - before * before);
+    const double place = placeOf(costs.errors, left).value_or(double(costs.errors.size() - 1));
+    AdvisedBake bake{options, std::hypot(before, valueAt(costs.errors, place)), valueAt(costs.bytes, place),
+                     costs.bakeSeconds};
+    bake.options.layout.error = valueAt(kTriedLayoutErrors, place);
+    advice.bases = bake;
+    // Rows take as long, but for their number.
+    if (advice.rows)
+        advice.rows->seconds = costs.bakeSeconds * advice.rows->options.factorization.terms / double(*terms);
+    if (progress) progress(1);
+    return advice;
+}
+
+} // namespace relume

@@ -1,0 +1,231 @@
+#include "precompute/error/error_grid.h"
+
+#include "engine/base/check.h"
+#include "precompute/error/shared_progress.h"
+#include "precompute/reference/reference_image.h"
+#include "precompute/reference/transport_stages.h"
+#include "precompute/reference/vertex_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+constexpr size_t kRungs = kTriedCoefficients.size();
+
+struct SeenPoint {
+    vec3 eye;
+    const RayHit* hit;
+};
+
+std::vector<SeenPoint> listPoints(std::span<const SeenPoints> points) {
+    std::vector<SeenPoint> list;
+    for (const SeenPoints& seen : points)
+        for (const RayHit& hit : seen.hits) list.push_back({seen.eye, &hit});
+    return list;
+}
+
+// Of one row, at every tried N: what the light gives, and entries that are left after quantising.
+struct Ladder {
+    std::array<vec3, kRungs> tuples{};
+    std::array<float, kRungs> entries{};
+};
+
+Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light) {
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < coefficients.size(); i++)
+        if (coefficients[i] != vec3(0)) order.push_back(i);
+    const auto key = [&](uint32_t i) { return glm::dot(coefficients[i], coefficients[i]); };
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        const float keyA = key(a), keyB = key(b);
+        return keyA > keyB || (keyA == keyB && a < b);
+    });
+    Ladder ladder;
+    float scale = 0;
+    for (size_t i = 0; i < std::min(order.size(), size_t(kTriedCoefficients.front())); i++) {
+        const vec3 magnitude = glm::abs(coefficients[order[i]]);
+        scale = std::max({scale, magnitude.x, magnitude.y, magnitude.z});
+    }
+    glm::dvec3 sum(0);
+    float entries = 0;
+    size_t next = 0;
+    for (size_t rung = 0; rung < kRungs; rung++) {
+        for (; next < order.size() && next < size_t(kTriedCoefficients[rung]); next++) {
+            const vec3 coefficient = coefficients[order[next]];
+            sum += glm::dvec3(coefficient * light[order[next]]);
+            entries += quantiseCoefficient(coefficient, scale) != ivec3(0);
+        }
+        ladder.tuples[rung] = vec3(sum);
+        ladder.entries[rung] = entries;
+    }
+    return ladder;
+}
+
+// What sampled vertices have.
+class VertexLadders {
+  public:
+    VertexLadders(const Asset& asset, const Appearance& appearance, const LightVector& light)
+        : mAsset(asset), mAppearance(appearance), mLighting(asset.faceSize),
+          mEvaluations(asset.faceSize * int(std::lround(std::sqrt(double(asset.transportSamples))))),
+          mVisibility(asset.occluder, asset.visibilitySize), mLight(mLighting.count(), vec3(0)) {
+        for (size_t i = 0; i < light.indices.size(); i++) {
+            const auto& value = light.values[i];
+            mLight[light.indices[i]] = light.scale * vec3(value[0], value[1], value[2]);
+        }
+    }
+
+    void add(uint32_t part, uint32_t vertex) { mLadders[{part, vertex}]; }
+
+    void fill(const std::function<void(double)>& progress) {
+        std::vector<std::pair<const Key, std::vector<Ladder>>*> entries;
+        for (auto& entry : mLadders) entries.push_back(&entry);
+        SharedProgress shared(progress, 0, 1, entries.size());
+        tbb::parallel_for(size_t(0), entries.size(), [&](size_t i) {
+            entries[i]->second = laddersOf(entries[i]->first.first, entries[i]->first.second);
+            shared.add();
+        });
+    }
+
+    // Per term.
+    const std::vector<Ladder>& at(uint32_t part, uint32_t vertex) const {
+        return mLadders.at({part, vertex});
+    }
+
+    void addEntries(ErrorGrid& grid) const {
+        std::vector<double> counts(mAsset.parts.size(), 0);
+        for (const auto& [key, ladders] : mLadders) {
+            counts[key.first]++;
+            for (size_t term = 0; term < ladders.size(); term++)
+                for (size_t rung = 0; rung < kRungs; rung++)
+                    grid.entries[key.first][term][rung] += double(ladders[term].entries[rung]);
+        }
+        for (size_t part = 0; part < counts.size(); part++)
+            for (auto& term : grid.entries[part])
+                for (double& entries : term) entries /= std::max(counts[part], 1.0);
+    }
+
+  private:
+    using Key = std::pair<uint32_t, uint32_t>; // part, vertex
+
+    std::vector<Ladder> laddersOf(uint32_t part, uint32_t vertex) const {
+        const AssetPart& source = mAsset.parts[part];
+        const FactoredBrdf& brdf = source.sets[mAppearance[part].set].brdf;
+        const vec3 normal = source.mesh.normals[vertex];
+        std::vector<uint64_t> bits(mVisibility.texels() / 64);
+        mVisibility.trace(source.mesh.positions[vertex] + mAsset.visibilityOffset * normal, normal, bits);
+        const std::vector<LitCell> lit = litCells(mEvaluations, mLighting, bits, tangentFrame(normal));
+        const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
+        std::vector<Ladder> ladders;
+        for (int term = 0; term < brdf.terms; term++) {
+            std::vector<vec3> transport = transportOf(lit, places, brdf.lightMap(term), mLighting.count());
+            haarFaces(transport, mAsset.faceSize);
+            ladders.push_back(climb(transport, mLight));
+        }
+        return ladders;
+    }
+
+    const Asset& mAsset;
+    const Appearance& mAppearance;
+    CubeCells mLighting, mEvaluations;
+    CpuVisibility mVisibility;
+    std::vector<vec3> mLight; // Haar coefficients
+    std::map<Key, std::vector<Ladder>> mLadders;
+};
+
+// Per term.
+std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size_t part,
+                          const SurfacePoint& point) {
+    const PartAppearance& worn = appearance[part];
+    return pointViews(asset.parts[part].sets[worn.set].brdf, wornLayers(asset.parts[part], worn),
+                      point.layerWeights(), point.outgoing);
+}
+
+} // namespace
+
+std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance,
+                                std::span<const SeenPoints> points, const LightCube& fine,
+                                const std::function<void(double)>& progress) {
+    RELUME_CHECK_EQ(fine.size, kTruthFaceSize);
+    const CubeCells cells(kTruthFaceSize);
+    const std::vector<vec3> light = cells.ordered(fine);
+    const CpuVisibility visibility(mergedMesh(asset), kTruthFaceSize);
+    const float offset = kFullMeshShadowOffset * boundsOf(asset).radius();
+    MaterialBrdfs brdfs;
+    const DressedAsset dressed(asset, appearance, ReferenceBrdf::Exact, brdfs);
+    const std::vector<SeenPoint> list = listPoints(points);
+    std::vector<vec3> radiance(list.size());
+    SharedProgress shared(progress, 0, 1, list.size());
+    tbb::parallel_for(size_t(0), list.size(), [&](size_t i) {
+        const SurfacePoint point = dressed.pointAt(*list[i].hit, list[i].eye);
+        std::vector<uint64_t> bits(visibility.texels() / 64);
+        visibility.trace(point.position + offset * point.frame.n, point.frame.n, bits);
+        glm::dvec3 sum(0);
+        for (size_t cell = 0; cell < cells.count(); cell++) {
+            if (!(bits[cell / 64] >> (cell % 64) & 1)) continue;
+            const vec3 local = point.frame.toLocal(cells.directions[cell]);
+            if (!(local.z > 0)) continue;
+            sum += glm::dvec3(local.z * cells.solidAngles[cell] * light[cell] * point.reflected(local));
+        }
+        radiance[i] = vec3(sum);
+        shared.add();
+    });
+    return radiance;
+}
+
+ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
+                    std::span<const vec3> exact, const LightVector& light,
+                    const std::function<void(double)>& progress) {
+    const std::vector<SeenPoint> list = listPoints(points);
+    RELUME_CHECK_EQ(list.size(), exact.size());
+    RELUME_CHECK(!list.empty());
+    RELUME_CHECK_EQ(light.faceSize, asset.faceSize);
+
+    ErrorGrid grid;
+    grid.shares.assign(asset.parts.size(), 0);
+    for (size_t part = 0; part < asset.parts.size(); part++) {
+        const int terms = asset.parts[part].sets[appearance[part].set].brdf.terms;
+        grid.terms = std::max(grid.terms, terms);
+        grid.entries.emplace_back(size_t(terms));
+    }
+    VertexLadders vertices(asset, appearance, light);
+    for (const SeenPoint& seen : list) {
+        const uvec3 corners = asset.parts[seen.hit->mesh].mesh.triangles[seen.hit->triangle];
+        for (int corner = 0; corner < 3; corner++) vertices.add(seen.hit->mesh, corners[corner]);
+    }
+    vertices.fill(progress);
+    vertices.addEntries(grid);
+
+    MaterialBrdfs brdfs;
+    const DressedAsset dressed(asset, appearance, ReferenceBrdf::Factored, brdfs);
+    double level = 0;
+    grid.errors.resize(size_t(grid.terms));
+    for (size_t i = 0; i < list.size(); i++) {
+        const RayHit& hit = *list[i].hit;
+        const std::vector<vec3> views =
+            viewsAt(asset, appearance, hit.mesh, dressed.pointAt(hit, list[i].eye));
+        const uvec3 corners = asset.parts[hit.mesh].mesh.triangles[hit.triangle];
+        std::array<vec3, kRungs> radiance{};
+        for (size_t term = 0; term < size_t(grid.terms); term++)
+            for (size_t rung = 0; rung < kRungs; rung++) {
+                if (term < views.size())
+                    for (int corner = 0; corner < 3; corner++)
+                        radiance[rung] += hit.weights[corner] * views[term] *
+                                          vertices.at(hit.mesh, corners[corner])[term].tuples[rung];
+                const glm::dvec3 error = glm::dvec3(glm::max(radiance[rung], vec3(0))) - glm::dvec3(exact[i]);
+                grid.errors[term][rung] += glm::dot(error, error);
+            }
+        level += glm::dot(glm::dvec3(exact[i]), glm::dvec3(exact[i]));
+        grid.shares[hit.mesh] += 1 / double(list.size());
+    }
+    grid.level = std::sqrt(level / (3 * double(list.size())));
+    for (auto& errors : grid.errors)
+        for (double& error : errors) error = level > 0 ? std::sqrt(error / level) : 0;
+    return grid;
+}
+
+} // namespace relume

@@ -1,0 +1,28 @@
+// The approximations between a drawn image and the truth, in the order in which they are made exact.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace relume {
+
+enum class ErrorSource {
+    LightSelection,  // coefficients of the light that are dropped, and the 16 bits of those that are kept
+    Storage,         // 11/11/10 bits of transport; of clusters and bases, all that they lose against rows
+    Truncation,      // keeping N wavelet coefficients of a row
+    Interpolation,   // tuples of vertices instead of every point's own
+    Terms,           // K products instead of all that the tabulated BRDF has
+    MapResolution,   // S × S texels of the table instead of the BRDF itself
+    Evaluation,      // BRDF and cosine taken once (or 4 or 16 times) a lighting texel
+    LightResolution, // F × F texels a face of the light instead of its own resolution
+    Occluder,        // shadows of the baked occluder, from the height that it asks for
+    Visibility,      // V × V rays a face
+};
+constexpr size_t kErrorSources = 10;
+
+// In a few words, for tables; and as an identifier, for files.
+std::string_view errorSourceTitle(ErrorSource source);
+std::string_view errorSourceName(ErrorSource source);
+
+} // namespace relume

@@ -1,0 +1,101 @@
+#include "precompute/error/error_study.h"
+
+#include "engine/base/check.h"
+#include "engine/render/view_pass.h"
+
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+// The device's images, one a light.
+std::vector<Image> draw(const vk::Device& device, const Asset& asset, const Appearance& appearance,
+                        std::span<const StudiedLight> lights, const ErrorView& look) {
+    LightPass lightPass(device, asset.faceSize);
+    Relighter relighter(device, asset);
+    ViewPass view(device, asset, {look.width, look.height});
+    view.setAppearance(appearance);
+    std::vector<Image> images;
+    for (const StudiedLight& studied : lights) {
+        lightPass.setLight(studied.light);
+        vk::Commands commands(device, "error study");
+        commands.begin();
+        lightPass.record(commands, 0, studied.selection);
+        relighter.record(commands, lightPass, appearance);
+        view.record(commands, look.camera, relighter);
+        commands.submitAndWait();
+        images.push_back(view.read());
+    }
+    return images;
+}
+
+double differenceOf(const Image& image, const ViewPoints& points, std::span<const StageRadiance> stages,
+                    double level) {
+    double sum = 0;
+    for (size_t i = 0; i < points.pixels.size(); i++) {
+        const glm::dvec3 difference =
+            glm::dvec3(vec3(image.pixels[points.pixels[i]])) - glm::dvec3(stages[i][0]);
+        sum += glm::dot(difference, difference);
+    }
+    return level > 0 ? std::sqrt(sum / (3 * double(stages.size()))) / level : 0;
+}
+
+// Adds passes until the noise is small against the error of `study.drawn`, and says what came of it.
+void measure(ProgressiveReference& reference, const ViewPoints& points, int mostPasses, ErrorStudy& study) {
+    constexpr int kFirstCheck = 16;
+    constexpr double kEnough = 0.1;
+    std::optional<ReferenceError> error;
+    for (int next = kFirstCheck; reference.passes() < mostPasses; next *= 2) {
+        while (reference.passes() < std::min(next, mostPasses)) reference.addPass();
+        error = reference.errorOf(study.drawn);
+        if (!error || error->noise <= kEnough * error->rmse) break;
+    }
+    study.passes = reference.passes();
+    study.reference = reference.mean();
+    if (!error || error->level == 0) return;
+    study.measured = error->rmse / error->level;
+    study.noise = error->noise / error->level;
+    const Image truth = points.image([&](size_t i) { return study.stages[i][kErrorSources]; });
+    study.truthAside = reference.errorOf(truth)->rmse / error->level;
+}
+
+} // namespace
+
+std::vector<ErrorStudy> studyErrors(const vk::Device& device, const Asset& asset,
+                                    const Appearance& appearance, std::span<const StudiedLight> lights,
+                                    const ErrorStudyOptions& options, ViewPoints& points,
+                                    const std::function<void(double)>& progress) {
+    const ErrorView& view = options.view;
+    points = viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height);
+    const std::vector<Image> drawn = draw(device, asset, appearance, lights, view);
+
+    std::vector<StageLight> stageLights;
+    for (const StudiedLight& studied : lights) {
+        LightCube coarse = sampleLight(studied.light, asset.faceSize);
+        LightVector vector = makeLightVector(coarse, studied.selection);
+        stageLights.push_back({std::move(vector), std::move(coarse), studied.fine});
+    }
+    constexpr double kStagesShare = 0.85; // of the work, roughly
+    const auto stagesProgress = [&](double share) {
+        if (progress) progress(kStagesShare * share);
+    };
+    std::vector<std::vector<StageRadiance>> stages =
+        StageTracer(asset, appearance).trace(points.hits, view.camera.eye, stageLights, stagesProgress);
+
+    ProgressiveReference reference(asset);
+    std::vector<ErrorStudy> studies(lights.size());
+    for (size_t i = 0; i < lights.size(); i++) {
+        ErrorStudy& study = studies[i];
+        study.stages = std::move(stages[i]);
+        study.budget = errorBudget(study.stages);
+        study.drawn = drawn[i];
+        study.drawnAside = differenceOf(study.drawn, points, study.stages, study.budget.level);
+        reference.restart(view.camera, lights[i].fine, appearance, view.width, view.height);
+        measure(reference, points, options.mostPasses, study);
+        if (progress) progress(kStagesShare + (1 - kStagesShare) * double(i + 1) / double(lights.size()));
+    }
+    return studies;
+}
+
+} // namespace relume

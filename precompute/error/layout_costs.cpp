@@ -1,0 +1,119 @@
+#include "precompute/error/layout_costs.h"
+
+#include "engine/base/check.h"
+#include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/conversion.h"
+#include "precompute/reference/relight_twin.h"
+#include "precompute/reference/vertex_views.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace relume {
+
+namespace {
+
+constexpr uint32_t kBlocksOfPart = 6; // of a basis cluster each: enough to tell errors within a tenth or so
+
+// Blocks of a part, spread evenly over it, as one stretch of rows per set; and which vertices these are.
+class RowSink : public BakeSink {
+  public:
+    RowSink(const BakePlan& plan, size_t part) : mPlan(plan) {
+        for (const MaterialSet& set : plan.asset.parts[part].sets)
+            rows.emplace_back(uint32_t(set.brdf.terms));
+    }
+
+    void take(uint32_t block, BakedBlock baked) override {
+        for (size_t set = 0; set < rows.size(); set++) rows[set].append(baked.sets[set]);
+        for (uint32_t vertex = mPlan.blocks[block].first; vertex < mPlan.blocks[block].end; vertex++)
+            vertices.push_back(vertex);
+    }
+
+    std::vector<BakedRows> rows;
+    std::vector<uint32_t> vertices;
+
+  private:
+    const BakePlan& mPlan;
+};
+
+std::vector<uint32_t> chooseBlocks(const BakePlan& plan, uint32_t part) {
+    std::vector<uint32_t> all, chosen;
+    for (uint32_t i = 0; i < plan.blocks.size(); i++)
+        if (plan.blocks[i].part == part) all.push_back(i);
+    const size_t count = std::min<size_t>(all.size(), kBlocksOfPart);
+    for (size_t i = 0; i < count; i++) chosen.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
+    return chosen;
+}
+
+// Mean square of the difference in radiance of two tuples of the same vertices, seen from the eyes in front
+// of them as pixels do: in proportion to the cosine.
+double squaredDifference(const AssetPart& part, const PartAppearance& worn,
+                         std::span<const uint32_t> vertices, std::span<const vec3> a, std::span<const vec3> b,
+                         std::span<const vec3> eyes) {
+    const auto terms = size_t(part.sets[worn.set].brdf.terms);
+    double sum = 0, weights = 0;
+    for (size_t i = 0; i < vertices.size(); i++)
+        for (const vec3 eye : eyes) {
+            const double cosine = double(glm::dot(part.mesh.normals[vertices[i]],
+                                                  glm::normalize(eye - part.mesh.positions[vertices[i]])));
+            if (!(cosine > 0)) continue;
+            const std::vector<vec3> views = vertexViews(part, worn, vertices[i], eye);
+            glm::dvec3 first(0), second(0);
+            for (size_t term = 0; term < terms; term++) {
+                first += glm::dvec3(views[term] * a[i * terms + term]);
+                second += glm::dvec3(views[term] * b[i * terms + term]);
+            }
+            const glm::dvec3 difference = glm::max(first, 0.0) - glm::max(second, 0.0);
+            sum += cosine * glm::dot(difference, difference) / 3;
+            weights += cosine;
+        }
+    return weights > 0 ? sum / weights : 0;
+}
+
+} // namespace
+
+LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Appearance& appearance,
+                        const LightVector& light, std::span<const vec3> eyes, const ErrorGrid& grid,
+                        BakeObserver& observer) {
+    RELUME_CHECK(plan.options.layout.layout == TransportLayout::Bases);
+    LayoutCosts costs;
+    costs.bakeSeconds = plan.factorisationSeconds + plan.occluderSeconds;
+    std::array<double, kTriedLayoutErrors.size()> squares{};
+    for (uint32_t number = 0; number < plan.asset.parts.size(); number++) {
+        const AssetPart& part = plan.asset.parts[number];
+        const PartAppearance& worn = appearance[number];
+        RowSink sink(plan, number);
+        BakeTimes times;
+        const std::vector<uint32_t> blocks = chooseBlocks(plan, number);
+        const auto start = std::chrono::steady_clock::now();
+        bakeBlocks(device, plan, blocks, blocks, {}, sink, observer, times);
+        const double scale = double(part.mesh.vertexCount()) / double(sink.vertices.size());
+        costs.bakeSeconds +=
+            scale * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+        // An asset of these vertices alone, made into bases of one error after another.
+        Asset sample;
+        sample.faceSize = plan.asset.faceSize;
+        sample.coefficients = plan.asset.coefficients;
+        sample.parts.emplace_back();
+        AssetPart& sampled = sample.parts.front();
+        sampled.mesh.positions.resize(sink.vertices.size());
+        for (size_t set = 0; set < part.sets.size(); set++)
+            sampled.sets.push_back({part.sets[set].materials, part.sets[set].brdf, sink.rows[set].transport});
+        const std::vector<vec3> exact = relight(sampled.sets[worn.set].transport, light);
+        for (size_t i = 0; i < kTriedLayoutErrors.size(); i++) {
+            Asset bases = sample;
+            LayoutOptions layout;
+            layout.error = kTriedLayoutErrors[i];
+            costs.bytes[i] += scale * double(convertLayout(bases, layout).bytesAfter);
+            squares[i] += grid.shares[number] *
+                          squaredDifference(part, worn, sink.vertices, exact,
+                                            relight(bases.parts[0].sets[worn.set].transport, light), eyes);
+        }
+    }
+    for (size_t i = 0; i < squares.size(); i++)
+        costs.errors[i] = grid.level > 0 ? std::sqrt(squares[i]) / grid.level : 0;
+    return costs;
+}
+
+} // namespace relume

@@ -1,0 +1,251 @@
+#include "precompute/error/stage_radiance.h"
+
+#include "engine/base/check.h"
+#include "precompute/bake/baked_options.h"
+#include "precompute/error/shared_progress.h"
+#include "precompute/reference/reference_image.h"
+#include "precompute/reference/transport_stages.h"
+#include "precompute/reference/vertex_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+std::vector<vec3> haarOf(std::vector<vec3> cube, int faceSize) {
+    haarFaces(cube, faceSize);
+    return cube;
+}
+
+vec3 product(std::span<const vec3> a, std::span<const vec3> b) {
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < a.size(); i++) sum += glm::dvec3(a[i] * b[i]);
+    return vec3(sum);
+}
+
+vec3 productOf(std::span<const vec3> coefficients, std::span<const uint16_t> kept,
+               std::span<const vec3> light) {
+    glm::dvec3 sum(0);
+    for (const uint16_t index : kept) sum += glm::dvec3(coefficients[index] * light[index]);
+    return vec3(sum);
+}
+
+uint64_t vertexKey(size_t part, uint32_t vertex) { return uint64_t(part) << 32 | vertex; }
+
+} // namespace
+
+// A light in the orders and bases that stages want it in.
+struct StageTracer::Light {
+    std::vector<vec3> drawn;    // 6 F² Haar coefficients, those of the LightVector
+    std::vector<vec3> haar;     // 6 F² Haar coefficients, all of them
+    std::vector<vec3> coarse;   // 6 F² texels, row by row
+    std::vector<vec3> coarseOf; // per cell of mTruth, the coarse texel around it
+    std::vector<vec3> fine;     // per cell of mTruth
+};
+
+// A vertex's tuples at the stages that have any.
+struct StageTracer::Tuples {
+    static constexpr size_t kStages = 4; // as drawn, all light, exact storage, all coefficients
+    std::vector<vec3> values;            // [(light · kStages + stage) · K + term]
+};
+
+// What a part wears at a point of it, seen from the eye.
+struct StageTracer::Wear {
+    const FactoredBrdf* brdf;
+    std::vector<WornLayer> layers;
+    std::vector<vec3> weights; // of the layers
+    std::vector<vec3> views;   // per term: view maps times weights, summed
+};
+
+struct StageTracer::Vertices {
+    std::map<uint64_t, Tuples> tuples; // by vertexKey()
+};
+
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance)
+    : mAsset(asset), mAppearance(appearance), mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs),
+      mLighting(asset.faceSize),
+      mEvaluations(asset.faceSize * int(std::lround(std::sqrt(double(asset.transportSamples))))),
+      mTruth(kTruthFaceSize), mBaked(asset.occluder, asset.visibilitySize),
+      mFull(mergedMesh(asset), kTruthFaceSize), mFullFine(mergedMesh(asset), kTruthVisibility),
+      mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {
+    const Factorization method = optionsOf(asset).factorization.method;
+    for (size_t part = 0; part < asset.parts.size(); part++)
+        mTables.emplace_back(asset.parts[part].sets[appearance[part].set], method, mBrdfs);
+}
+
+StageTracer::Light StageTracer::prepare(const StageLight& light) const {
+    RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
+    Light prepared;
+    prepared.haar = haarOf(light.coarse.radiance, mAsset.faceSize);
+    prepared.drawn.assign(prepared.haar.size(), vec3(0));
+    for (size_t i = 0; i < light.drawn.indices.size(); i++) {
+        const auto& value = light.drawn.values[i];
+        prepared.drawn[light.drawn.indices[i]] = light.drawn.scale * vec3(value[0], value[1], value[2]);
+    }
+    prepared.coarse = light.coarse.radiance;
+    const std::vector<vec3> ordered = mLighting.ordered(light.coarse);
+    const size_t cells = mTruth.count() / mLighting.count();
+    prepared.coarseOf.reserve(mTruth.count());
+    for (size_t i = 0; i < mTruth.count(); i++) prepared.coarseOf.push_back(ordered[i / cells]);
+    prepared.fine = mTruth.ordered(light.fine);
+    return prepared;
+}
+
+StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
+                                              std::span<const Light> lights) const {
+    const AssetPart& source = mAsset.parts[part];
+    const MaterialSet& set = source.sets[mAppearance[part].set];
+    const FactoredBrdf& brdf = set.brdf;
+    const vec3 normal = source.mesh.normals[vertex];
+    std::vector<uint64_t> bits(mBaked.texels() / 64);
+    mBaked.trace(source.mesh.positions[vertex] + mAsset.visibilityOffset * normal, normal, bits);
+    const std::vector<LitCell> lit = litCells(mEvaluations, mLighting, bits, tangentFrame(normal));
+    const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
+
+    const auto terms = size_t(brdf.terms);
+    Tuples tuples{std::vector<vec3>(lights.size() * Tuples::kStages * terms)};
+    for (size_t term = 0; term < terms; term++) {
+        const std::vector<vec3> exact =
+            haarOf(transportOf(lit, places, brdf.lightMap(int(term)), mLighting.count()), mAsset.faceSize);
+        const std::vector<uint16_t> kept = selectLargest(exact, mAsset.coefficients);
+        const std::vector<vec3> stored =
+            coefficientsOf(set.transport, size_t(vertex) * terms + term, exact.size());
+        for (size_t light = 0; light < lights.size(); light++) {
+            vec3* of = &tuples.values[light * Tuples::kStages * terms + term];
+            of[0] = product(stored, lights[light].drawn);
+            of[terms] = product(stored, lights[light].haar);
+            of[2 * terms] = productOf(exact, kept, lights[light].haar);
+            of[3 * terms] = product(exact, lights[light].haar);
+        }
+    }
+    return tuples;
+}
+
+StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& point) const {
+    const AssetPart& part = mAsset.parts[number];
+    const FactoredBrdf& brdf = part.sets[mAppearance[number].set].brdf;
+    Wear wear{&brdf, wornLayers(part, mAppearance[number]), point.layerWeights(), {}};
+    wear.views = pointViews(brdf, wear.layers, wear.weights, point.outgoing);
+    return wear;
+}
+
+void StageTracer::traceVertices(const RayHit& hit, const SurfacePoint& point, const Vertices& vertices,
+                                std::span<const Light> lights, std::span<StageRadiance> result) const {
+    const Wear wear = wearAt(hit.mesh, point);
+    const size_t terms = wear.views.size();
+    const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
+    for (size_t light = 0; light < lights.size(); light++)
+        for (size_t stage = 0; stage < Tuples::kStages; stage++) {
+            vec3 radiance(0);
+            for (int corner = 0; corner < 3; corner++) {
+                const Tuples& tuples = vertices.tuples.at(vertexKey(hit.mesh, corners[corner]));
+                const vec3* of = &tuples.values[(light * Tuples::kStages + stage) * terms];
+                for (size_t term = 0; term < terms; term++)
+                    radiance += hit.weights[corner] * wear.views[term] * of[term];
+            }
+            result[light][stage] = glm::max(radiance, vec3(0));
+        }
+}
+
+// The point's own transport: of the K terms, then of the whole table, then of the BRDF itself.
+void StageTracer::traceOwnTransport(size_t number, const SurfacePoint& point, std::span<const uint64_t> baked,
+                                    std::span<const Light> lights, std::span<StageRadiance> result) const {
+    const Wear wear = wearAt(number, point);
+    const FactoredBrdf& brdf = *wear.brdf;
+    const std::vector<LitCell> lit = litCells(mEvaluations, mLighting, baked, point.frame);
+    const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
+    const std::vector<vec3> table = mTables[number].lightMap(wear.layers, wear.weights, point.outgoing);
+
+    constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 3;
+    std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
+    for (size_t i = 0; i < lit.size(); i++) {
+        vec3 factored(0);
+        for (size_t term = 0; term < wear.views.size(); term++)
+            factored += wear.views[term] * lookupMap(brdf.lightMap(int(term)), places[i]);
+        const std::array<vec3, kStages> reflected = {factored, lookupMap(table.data(), places[i]),
+                                                     point.reflected(lit[i].local)};
+        for (size_t light = 0; light < lights.size(); light++)
+            for (size_t stage = 0; stage < kStages; stage++)
+                sums[light][stage] +=
+                    glm::dvec3(lit[i].weight * reflected[stage] * lights[light].coarse[lit[i].texel]);
+    }
+    for (size_t light = 0; light < lights.size(); light++)
+        for (size_t stage = 0; stage < kStages; stage++)
+            result[light][kFirst + stage] = glm::max(vec3(sums[light][stage]), vec3(0));
+}
+
+void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked,
+                             std::span<const Light> lights, std::span<StageRadiance> result) const {
+    std::vector<uint64_t> whole(mFull.texels() / 64), fine(mFullFine.texels() / 64);
+    const vec3 origin = point.position + mFullOffset * point.frame.n;
+    mFull.trace(origin, point.frame.n, whole);
+    mFullFine.trace(origin, point.frame.n, fine);
+
+    // Four stages: evaluated finely, then fine light too, then the full mesh, then more rays.
+    constexpr size_t kFirst = size_t(ErrorSource::Evaluation) + 1, kStages = 4;
+    std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
+    const size_t cellsPerBit = mTruth.count() / (baked.size() * 64);
+    for (size_t i = 0; i < mTruth.count(); i++) {
+        const float bakedShare = shareOfOnes(baked, i / cellsPerBit, 1), fullShare = shareOfOnes(whole, i, 1),
+                    fineShare = shareOfOnes(fine, 4 * i, 4);
+        if (bakedShare + fullShare + fineShare == 0) continue;
+        const vec3 local = point.frame.toLocal(mTruth.directions[i]);
+        if (!(local.z > 0)) continue;
+        const vec3 reflected = local.z * mTruth.solidAngles[i] * point.reflected(local);
+        for (size_t light = 0; light < lights.size(); light++) {
+            const vec3 coarse = reflected * lights[light].coarseOf[i];
+            const vec3 full = reflected * lights[light].fine[i];
+            sums[light][0] += glm::dvec3(bakedShare * coarse);
+            sums[light][1] += glm::dvec3(bakedShare * full);
+            sums[light][2] += glm::dvec3(fullShare * full);
+            sums[light][3] += glm::dvec3(fineShare * full);
+        }
+    }
+    for (size_t light = 0; light < lights.size(); light++)
+        for (size_t stage = 0; stage < kStages; stage++)
+            result[light][kFirst + stage] = vec3(sums[light][stage]);
+}
+
+std::vector<std::vector<StageRadiance>>
+StageTracer::trace(std::span<const RayHit> points, vec3 eye, std::span<const StageLight> stageLights,
+                   const std::function<void(double)>& progress) const {
+    std::vector<Light> lights;
+    for (const StageLight& light : stageLights) lights.push_back(prepare(light));
+
+    Vertices vertices;
+    for (const RayHit& hit : points) {
+        const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
+        for (int corner = 0; corner < 3; corner++) vertices.tuples[vertexKey(hit.mesh, corners[corner])];
+    }
+    std::vector<std::pair<const uint64_t, Tuples>*> entries;
+    for (auto& entry : vertices.tuples) entries.push_back(&entry);
+    constexpr double kVertexShare = 0.4; // of the work, roughly
+    SharedProgress vertexProgress(progress, 0, kVertexShare, entries.size());
+    tbb::parallel_for(size_t(0), entries.size(), [&](size_t i) {
+        const uint64_t key = entries[i]->first;
+        entries[i]->second = vertexTuples(size_t(key >> 32), uint32_t(key), lights);
+        vertexProgress.add();
+    });
+
+    std::vector<std::vector<StageRadiance>> result(lights.size(), std::vector<StageRadiance>(points.size()));
+    SharedProgress pointProgress(progress, kVertexShare, 1, points.size());
+    tbb::parallel_for(size_t(0), points.size(), [&](size_t i) {
+        const RayHit& hit = points[i];
+        const SurfacePoint point = mDressed.pointAt(hit, eye);
+        std::vector<StageRadiance> stages(lights.size());
+        std::vector<uint64_t> baked(mBaked.texels() / 64);
+        mBaked.trace(point.position + mAsset.visibilityOffset * point.frame.n, point.frame.n, baked);
+        traceVertices(hit, point, vertices, lights, stages);
+        traceOwnTransport(hit.mesh, point, baked, lights, stages);
+        traceTruth(point, baked, lights, stages);
+        for (size_t light = 0; light < lights.size(); light++) result[light][i] = stages[light];
+        pointProgress.add();
+    });
+    return result;
+}
+
+} // namespace relume

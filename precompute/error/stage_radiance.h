@@ -1,0 +1,70 @@
+// The radiance of points as it is drawn, and with one stage of Relume after another made exact.
+#pragma once
+
+#include "engine/light/light_vector.h"
+#include "precompute/cpu/cpu_visibility.h"
+#include "precompute/error/error_source.h"
+#include "precompute/error/lit_cells.h"
+#include "precompute/error/tabulated_brdf.h"
+#include "precompute/reference/dressed_asset.h"
+
+#include <functional>
+
+namespace relume {
+
+// Linear radiance of a point: [0] as drawn, [i + 1] with ErrorSource(i) and all before it made exact. Those
+// from factors are clamped at zero, as images are. The last is the truth but for the number of shadow rays:
+// the exact BRDF and the full mesh under 6 × 256² texels of light, four rays a texel.
+using StageRadiance = std::array<vec3, kErrorSources + 1>;
+
+constexpr int kTruthFaceSize = 256;   // texels a side of the light that stands for the truth
+constexpr int kTruthVisibility = 512; // rays a side
+
+// A light at every stage.
+struct StageLight {
+    LightVector drawn; // the coarse one, selected and quantised
+    LightCube coarse;  // F texels a side: what the bake can be lit by
+    LightCube fine;    // kTruthFaceSize; may be negative
+};
+
+class StageTracer {
+  public:
+    // Refers to `asset` and `appearance`, which it is dressed in. Throws Error as Embree, and as makeBrdf().
+    StageTracer(const Asset& asset, const Appearance& appearance);
+
+    // Of points that rays from `eye` hit (RayHit::mesh is the part), under each light: [light][point]. On all
+    // cores; the same input gives the same values. `progress` is called with the share of work done, now and
+    // then, from one thread at a time; what it throws ends the work.
+    std::vector<std::vector<StageRadiance>> trace(std::span<const RayHit> points, vec3 eye,
+                                                  std::span<const StageLight> lights,
+                                                  const std::function<void(double)>& progress = {}) const;
+
+  private:
+    struct Light;
+    struct Tuples;
+    struct Vertices;
+    struct Wear;
+
+    Light prepare(const StageLight& light) const;
+    Tuples vertexTuples(size_t part, uint32_t vertex, std::span<const Light> lights) const;
+    Wear wearAt(size_t part, const SurfacePoint& point) const;
+    void traceVertices(const RayHit& hit, const SurfacePoint& point, const Vertices& vertices,
+                       std::span<const Light> lights, std::span<StageRadiance> result) const;
+    void traceOwnTransport(size_t part, const SurfacePoint& point, std::span<const uint64_t> baked,
+                           std::span<const Light> lights, std::span<StageRadiance> result) const;
+    void traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked, std::span<const Light> lights,
+                    std::span<StageRadiance> result) const;
+
+    const Asset& mAsset;
+    const Appearance& mAppearance;
+    MaterialBrdfs mBrdfs;
+    DressedAsset mDressed;
+    std::vector<TabulatedBrdf> mTables; // per part, of the worn set
+    CubeCells mLighting, mEvaluations, mTruth;
+    CpuVisibility mBaked;    // what the bake saw
+    CpuVisibility mFull;     // the mesh itself, with as many rays as texels of the truth's light
+    CpuVisibility mFullFine; // and with four times as many
+    float mFullOffset;
+};
+
+} // namespace relume

@@ -1,0 +1,31 @@
+// A part's BRDFs as tables of S × S directions on either side: what K terms would be if K were large enough.
+#pragma once
+
+#include "engine/render/appearance.h"
+#include "precompute/brdf/factorization.h"
+#include "precompute/brdf/tabulation.h"
+#include "precompute/reference/material_brdfs.h"
+
+namespace relume {
+
+class TabulatedBrdf {
+  public:
+    // The tables that `set` was factored from, by this method. Throws as makeBrdf() does.
+    TabulatedBrdf(const MaterialSet& set, Factorization method, MaterialBrdfs& brdfs);
+
+    // f(·, outgoing) as a light map of S × S texels, extended beyond the disk as light maps are, summed over
+    // `layers` times their weights. `outgoing` in the local frame, above the horizon.
+    std::vector<vec3> lightMap(std::span<const WornLayer> layers, std::span<const vec3> weights,
+                               vec3 outgoing) const;
+
+  private:
+    struct Layer {
+        std::array<Eigen::MatrixXf, 3> channels;
+    };
+    int mSize;
+    DiskMapping mMapping;
+    std::vector<int> mNearest; // of each texel, the direction whose values it has
+    std::vector<Layer> mLayers;
+};
+
+} // namespace relume
