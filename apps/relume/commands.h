@@ -19,6 +19,7 @@ void addVerifyCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addMaterialsCommand(CLI::App& program);
 void addBrdfCommand(CLI::App& program);
+void addEvaluateCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 void addBenchBakeCommand(CLI::App& bench);
