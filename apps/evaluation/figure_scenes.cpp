@@ -65,7 +65,7 @@ std::optional<Shot> shotOf(const SectionInputs& inputs, const PaperPicture& pict
                   .light = light,
                   .images = {{"paper", "the paper's way", recipe(paperOptions(4)), {}},
                              {"usual", "relume's defaults", recipe(usualOptions()), {}}},
-                  .effort = {},
+                  .effort = referenceEffort(inputs.quick),
                   .seconds = inputs.quick ? 5.0 : 120.0};
     return shot;
 }

@@ -24,7 +24,7 @@ FigureSetup setupOf(const SectionInputs& inputs, const SceneInput& model) {
                       .distance = 1.25f,
                       .light = areaChoice(60, 38, 3),
                       .images = {},
-                      .effort = {},
+                      .effort = referenceEffort(inputs.quick),
                       .seconds = inputs.quick ? 5.0 : 60.0};
     for (const int coefficients : kCoefficients) {
         BakeRecipe recipe =

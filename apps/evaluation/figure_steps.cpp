@@ -131,20 +131,29 @@ Json compare(const FigureSetup& setup, StepRun& run) {
     return numbers;
 }
 
+// Makes a light when it is first asked for, and keeps it.
+std::function<SceneLight()> onlyOnce(const std::function<SceneLight()>& make) {
+    return [make, kept = std::make_shared<std::optional<SceneLight>>()] {
+        if (!*kept) *kept = make();
+        return **kept;
+    };
+}
+
 } // namespace
 
 LightChoice environmentChoice(const SceneInput& input, float rotationDegrees) {
     return {{{"environment", input.hash}, {"rotation", rotationDegrees}},
-            [=] { return environmentLight(input, rotationDegrees); }};
+            onlyOnce([=] { return environmentLight(input, rotationDegrees); })};
 }
 
 LightChoice areaChoice(float azimuth, float elevation, float radius) {
-    return {{{"area", {azimuth, elevation, radius}}}, [=] { return areaLight(azimuth, elevation, radius); }};
+    return {{{"area", {azimuth, elevation, radius}}},
+            onlyOnce([=] { return areaLight(azimuth, elevation, radius); })};
 }
 
 LightChoice distantChoice(float azimuth, float elevation, int face) {
     return {{{"distant", {azimuth, elevation, face}}},
-            [=] { return distantLight(azimuth, elevation, face); }};
+            onlyOnce([=] { return distantLight(azimuth, elevation, face); })};
 }
 
 std::vector<Step> figureSteps(const FigureSetup& setup) {

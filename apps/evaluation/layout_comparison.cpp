@@ -24,7 +24,7 @@ FigureSetup setupOf(const SectionInputs& inputs, const PaperScene& scene, const 
                       .distance = 1.1f,
                       .light = environmentChoice(light),
                       .images = {},
-                      .effort = {},
+                      .effort = referenceEffort(inputs.quick),
                       .seconds = inputs.quick ? 8.0 : 200.0};
     const auto add = [&](const char* name, const std::string& title, const BakeOptions& options) {
         setup.images.push_back(
@@ -50,6 +50,7 @@ FigureSetup setupOf(const SectionInputs& inputs, const PaperScene& scene, const 
     budget.layout.bytesPerVertex = scene.model->megabytes[1] * 1e6 / scene.model->allVertices();
     add("bases-budget", fmt::format("K = {}, bases of {:.0f} bytes", many, *budget.layout.bytesPerVertex),
         budget);
+    if (inputs.quick) return setup;
     const int most = 2 * many;
     add("bases-most", fmt::format("default, K = {}, bases", most), bases(most));
     return setup;

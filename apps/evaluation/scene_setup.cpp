@@ -8,7 +8,7 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kQuickTriangles = 8000;
+constexpr size_t kQuickTriangles = 5000;
 constexpr int kQuickGround = 40; // quads a side
 constexpr int kQuickVisibility = 128;
 
@@ -39,6 +39,10 @@ ImageSize tallImage(bool quick) { return quick ? ImageSize{240, 320} : ImageSize
 Section skippedSection(Section section, const std::string& why) {
     section.write = [why](const StepResults&, ReportSection& report) { report.say("Skipped: " + why + "."); };
     return section;
+}
+
+ReferenceEffort referenceEffort(bool quick) {
+    return quick ? ReferenceEffort{.noise = 0.3, .fewest = 16, .most = 64} : ReferenceEffort{};
 }
 
 std::string quickNote(bool quick) {

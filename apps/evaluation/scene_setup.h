@@ -13,6 +13,8 @@ BakeRecipe sceneRecipe(const SectionInputs& inputs, const std::string& model, co
 
 ImageSize wideImage(bool quick), tallImage(bool quick);
 
+ReferenceEffort referenceEffort(bool quick);
+
 // What --quick makes smaller, as a sentence for sections; empty in full.
 std::string quickNote(bool quick);
 
