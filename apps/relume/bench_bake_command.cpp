@@ -2,7 +2,7 @@
 #include "apps/relume/bake_traffic.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/copy_bandwidth.h"
-#include "apps/relume/median.h"
+#include "apps/bench/median.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
 #include "engine/base/error.h"

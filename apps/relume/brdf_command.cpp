@@ -2,7 +2,7 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/factorization_arguments.h"
 #include "apps/relume/lobe_plot.h"
-#include "apps/relume/map_sheet.h"
+#include "apps/plot/map_sheet.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/image/image_file.h"

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
     addInfoCommand(program);
     addMaterialsCommand(program);
     addBrdfCommand(program);
+    addEvaluateCommand(program);
     addDevicesCommand(program);
     addBenchCommand(program);
     return runProgram(program, argc, argv, [] {});

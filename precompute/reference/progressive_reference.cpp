@@ -91,7 +91,7 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     RELUME_CHECK_EQ(image.height, mHeight);
     const double even = (mPasses + 1) / 2, odd = mPasses / 2;
     if (odd == 0) return std::nullopt;
-    double errors = 0, squares = 0, differences = 0, count = 0;
+    double errors = 0, squares = 0, differences = 0, variance = 0, count = 0;
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++) {
         if (!mSurfaces[pixel]) continue;
         const glm::dvec3 a = glm::max(mHalves[0][pixel] / even, 0.0);
@@ -100,6 +100,8 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
         errors += glm::dot(a - found, b - found);
         squares += glm::dot(a, b);
         differences += glm::dot(a - b, a - b);
+        const double swing = 0.5 * (glm::dot(a - found, a - found) - glm::dot(b - found, b - found));
+        variance += swing * swing;
         count += 3;
     }
     if (count == 0) return std::nullopt;
@@ -107,7 +109,9 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     // Of one pass: the variance of A - B over 1 / even + 1 / odd.
     return ReferenceError{.rmse = root(errors),
                           .level = root(squares),
-                          .noise = root(differences * even * odd) / double(mPasses)};
+                          .noise = root(differences * even * odd) / double(mPasses),
+                          .square = errors / count,
+                          .squareNoise = std::sqrt(variance) / count};
 }
 
 } // namespace relume

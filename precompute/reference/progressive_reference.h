@@ -23,6 +23,10 @@ struct ReferenceError {
     // Standard error of mean() against the truth, from how A and B differ: √ mean((A - B)²) / 2 after as many
     // even as odd passes.
     double noise = 0;
+    // Of rmse² before it is held at 0, and that estimate's standard error, of the reference's noise alone:
+    // pixels' noise is independent, and (|A - image|² - |B - image|²) / 2 of a pixel has the variance of its
+    // product, were noise normally distributed.
+    double square = 0, squareNoise = 0;
 };
 
 // Converges to renderReference() under a light cube, full mesh as occluder, as raysPerTexelSide grows: light

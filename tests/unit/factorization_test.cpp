@@ -241,3 +241,22 @@ TEST_CASE("factorization: of a wanted error the fewest terms, as many as allowed
         CHECK(expectedErrors(both[size_t(layer)], joint, layer).back() <= 0.1f);
     CHECK_THROWS_AS(factorize(table, {32, Factorization::NonNegative, 0.1f}), UsageError);
 }
+
+TEST_CASE("factorization: the first terms of many are what factoring with fewer gives") {
+    const std::unique_ptr<Brdf> brdf = makeBrdf("ashikhmin-shirley");
+    for (const Factorization method : {Factorization::Paper, Factorization::Environment}) {
+        CAPTURE(factorizationName(method));
+        const BrdfTable table = tabulate(*brdf, 16, DiskMapping::Orthographic, texelValueOf(method));
+        const FactoredBrdf many = factorize(table, {.terms = 16, .method = method});
+        const FactoredBrdf few = factorize(table, {.terms = 4, .method = method});
+        double difference = 0, all = 0;
+        for (size_t i = 0; i < few.lightMaps.size(); i++)
+            for (int j = 0; j < 3; j++) {
+                // Products of the two maps of a term: the sign is anyone's.
+                const double a = double(many.lightMaps[i][j]) * double(many.viewMaps[i][j]);
+                const double b = double(few.lightMaps[i][j]) * double(few.viewMaps[i][j]);
+                difference += (a - b) * (a - b), all += b * b;
+            }
+        CHECK(difference < 1e-6 * all);
+    }
+}

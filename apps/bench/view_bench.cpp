@@ -1,7 +1,6 @@
-#include "apps/relume/view_bench.h"
+#include "apps/bench/view_bench.h"
 
-#include "apps/relume/milliseconds.h"
-#include "apps/relume/options.h"
+#include "apps/bench/milliseconds.h"
 #include "engine/base/progress.h"
 #include "engine/math/vector.h"
 #include "engine/render/light_pass.h"
@@ -57,7 +56,7 @@ std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<As
     Progress progress("drawing", uint64_t(rounds.count) + 1, "rounds", quiet);
     for (int round = 0; round <= rounds.count; round++) {
         const float turn = 2 * kPi * float(round) / float(rounds.count);
-        const float rotation = radians(rounds.rotationDegrees + float(round));
+        const float rotation = glm::radians(rounds.rotationDegrees + float(round));
         for (size_t i = 0; i < stages.size(); i++) {
             Stage& stage = *stages[i];
             ViewSeries& own = series[i];

@@ -1,4 +1,4 @@
-#include "apps/relume/map_sheet.h"
+#include "apps/plot/map_sheet.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,193 @@
+#include "apps/evaluation/evaluation.h"
+
+#include "apps/evaluation/relit_scene.h"
+#include "apps/evaluation/report_html.h"
+#include "engine/base/check.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <span>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace relume {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Raised when steps give other results from the same inputs.
+constexpr int kVersion = 1;
+
+std::string durationText(double seconds) {
+    if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
+    return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+} // namespace
+
+Evaluation::Evaluation(const vk::Device& device, EvaluationOptions options)
+    : mDevice(device), mOptions(std::move(options)), mStore(mOptions.output),
+      mBakes(device, mOptions.output / "bakes") {
+    std::error_code failure;
+    std::filesystem::create_directories(mOptions.output, failure); // expectWritable() says why not
+    expectWritable(reportPath());
+}
+
+std::string Evaluation::keyOf(const Step& step, const std::map<std::string, std::string>& keys) const {
+    Json key = {{"program", RELUME_VERSION}, {"version", kVersion},
+                {"device", mDevice.name()},  {"driver", mDevice.info().driver},
+                {"quick", mOptions.quick},   {"step", step.name},
+                {"inputs", step.inputs}};
+    for (const BakeRecipe& recipe : step.bakes) key["bakes"].push_back(recipe.key());
+    for (const std::string& name : step.after) {
+        RELUME_CHECK(keys.contains(name));
+        key["after"].push_back(keys.at(name));
+    }
+    const std::string text = key.dump();
+    return hashText(std::as_bytes(std::span(text)));
+}
+
+std::vector<Evaluation::Planned> Evaluation::plan(const std::vector<Section>& sections) {
+    std::vector<Planned> plan;
+    std::map<std::string, std::string> keys;
+    for (const Section& section : sections)
+        for (const Step& step : section.steps) {
+            RELUME_CHECK(!keys.contains(step.name));
+            const std::string key = keys[step.name] = keyOf(step, keys);
+            auto stored = mStore.find(step.name, key);
+            plan.push_back({&section, &step, key, stored.has_value()});
+            if (stored) mResults[step.name] = std::move(*stored);
+        }
+    return plan;
+}
+
+void Evaluation::tellStart(const std::vector<Planned>& plan, size_t index) const {
+    double left = 0;
+    for (const Planned& planned : plan)
+        if (!planned.done) left += planned.step->seconds;
+    // Until a step is done on this machine, there is no telling how fast it is.
+    const std::string time =
+        mTaken > 0 ? fmt::format(" (about {} left)", durationText(left * mTaken / mExpected)) : "";
+    spdlog::info("step {} of {}{}: {}", index + 1, plan.size(), time, plan[index].step->title);
+}
+
+void Evaluation::runStep(Planned& planned) {
+    const Step& step = *planned.step;
+    for (const std::string& name : step.after)
+        if (!mResults.contains(name)) {
+            mFailures[step.name] = "a step that it needs failed";
+            return;
+        }
+    const auto start = std::chrono::steady_clock::now();
+    try {
+        StepRun run(mDevice, mBakes, mResults, mOptions.output, step.name);
+        StepResult result{step.work(run), {}};
+        result.files = run.files();
+        mStore.store(step.name, planned.key, result);
+        mResults[step.name] = std::move(result);
+        planned.done = true;
+    } catch (const BakeStopped&) {
+        throw;
+    } catch (const Error& failure) {
+        spdlog::error("{}: {}", step.title, failure.what());
+        mFailures[step.name] = failure.what();
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    spdlog::info("{:.1f} s", seconds);
+    mTaken += seconds;
+    mExpected += step.seconds;
+}
+
+void Evaluation::removeBakes(const std::vector<Planned>& plan, const Step& step) const {
+    for (const BakeRecipe& recipe : step.bakes) {
+        const Json key = recipe.key();
+        const bool isNeeded = std::ranges::any_of(plan, [&](const Planned& other) {
+            return !other.done && !mFailures.contains(other.step->name) &&
+                   std::ranges::any_of(other.step->bakes,
+                                       [&](const BakeRecipe& own) { return own.key() == key; });
+        });
+        if (!isNeeded) mBakes.remove(recipe);
+    }
+}
+
+bool Evaluation::run(const std::vector<Section>& sections, const SceneInputs& inputs) {
+    std::vector<Planned> planned = plan(sections);
+    const auto done = std::ranges::count(planned, true, &Planned::done);
+    spdlog::info("{} steps, {} of them done before", planned.size(), done);
+    for (const Planned& one : planned)
+        if (one.done) removeBakes(planned, *one.step); // left by a run that was killed
+    for (size_t i = 0; i < planned.size(); i++) {
+        if (planned[i].done) continue;
+        expectNoStop();
+        tellStart(planned, i);
+        runStep(planned[i]);
+        removeBakes(planned, *planned[i].step);
+        const bool isLast = i + 1 == planned.size() || planned[i + 1].section != planned[i].section;
+        if (isLast) writeReport(sections, inputs);
+    }
+    writeReport(sections, inputs);
+    return mFailures.empty();
+}
+
+void Evaluation::writeReport(const std::vector<Section>& sections, const SceneInputs& inputs) const {
+    for (const char* folder : {"tables", "plots"})
+        std::filesystem::create_directories(mOptions.output / folder);
+    Report report;
+    report.title = "All-frequency relighting of glossy objects: the evaluation";
+    report.facts = {
+        {"Program", "relume " RELUME_VERSION},
+        {"Options", fmt::format("{}{}{}", mOptions.quick ? "--quick" : "full",
+                                mOptions.data.empty() ? ", installed data alone" : ", with --data",
+                                mOptions.only.empty() ? "" : ", only " + joined(mOptions.only))},
+        {"Device", fmt::format("{} ({}), {}", mDevice.name(), mDevice.info().type, mDevice.info().driver)},
+        {"Processor", fmt::format("{} hardware threads", std::thread::hardware_concurrency())},
+        {"Written", today()},
+        {"The paper's machine", "Pentium 4, 2.6 GHz, 1 GB, GeForce 5900 (2004)"},
+        {"Errors",
+         "Root mean square over the covered pixels and channels of the linear image, relative to that of "
+         "the reference; free of the reference's noise; in brackets what two standard errors of it leave "
+         "open. Pictures are tone-mapped (ACES); .exr files beside them are linear."},
+    };
+    report.skipped = inputs.missing();
+    for (const Section& section : sections) {
+        ReportSection& written = report.sections.emplace_back(ReportSection{section.title, {}});
+        size_t left = 0;
+        for (const Step& step : section.steps) {
+            const auto failed = mFailures.find(step.name);
+            if (failed != mFailures.end())
+                written.say(fmt::format("Failed: {}: {}.", step.title, failed->second));
+            else if (!mResults.contains(step.name))
+                left++;
+        }
+        if (left > 0)
+            written.say(fmt::format("{} of its {} steps are not done yet.", left, section.steps.size()));
+        if (written.items.empty()) section.write(mResults, written);
+        for (const ReportItem& item : written.items) {
+            if (const auto* table = std::get_if<ReportTable>(&item))
+                writeFileAtomically(mOptions.output / "tables" / (table->file + ".csv"), csvOf(*table));
+            if (const auto* plot = std::get_if<ReportPlot>(&item))
+                writeFileAtomically(mOptions.output / "plots" / (plot->file + ".svg"), plot->svg);
+        }
+    }
+    writeFileAtomically(reportPath(), htmlOf(report, mOptions.output));
+}
+
+} // namespace relume

@@ -1,0 +1,65 @@
+// Internal to evaluation.h: what a step may use.
+#include "apps/evaluation/evaluation.h"
+
+#include "engine/base/check.h"
+#include "engine/base/file.h"
+#include "engine/image/image_file.h"
+#include "engine/render/tone_map.h"
+
+namespace relume {
+
+std::filesystem::path pictureOf(const std::string& step, const std::string& name) {
+    return std::filesystem::path("images") / step / name;
+}
+
+StepRun::StepRun(const vk::Device& opened, const BakeStore& bakes, const StepResults& results,
+                 std::filesystem::path folder, std::string step)
+    : device(opened), mBakes(bakes), mResults(results), mFolder(std::move(folder)), mStep(std::move(step)) {}
+
+Asset StepRun::asset(const BakeRecipe& recipe) const {
+    mBakes.make(recipe);
+    return mBakes.read(recipe);
+}
+
+const nlohmann::ordered_json& StepRun::numbers(const std::string& step) const {
+    const auto found = mResults.find(step);
+    RELUME_CHECK(found != mResults.end());
+    return found->second.numbers;
+}
+
+Image StepRun::image(const std::string& step, const std::string& name) const {
+    return readImage(mFolder / pictureOf(step, name + ".exr")).image;
+}
+
+std::string StepRun::place(const std::string& file) {
+    const std::filesystem::path path = pictureOf(mStep, file);
+    std::filesystem::create_directories((mFolder / path).parent_path());
+    mFiles.push_back(path.string());
+    return (mFolder / path).string();
+}
+
+void StepRun::writeLinear(const std::string& name, const Image& linear) {
+    writeExr(place(name + ".exr"), linear);
+}
+
+void StepRun::writeToned(const std::string& name, const Image& linear, float exposure) {
+    writeDisplay(name, toneMap(linear, ToneCurve::Aces, exposure));
+}
+
+void StepRun::write(const std::string& name, const Image& linear, float exposure) {
+    writeLinear(name, linear);
+    writeToned(name, linear, exposure);
+}
+
+void StepRun::writeDisplay(const std::string& name, const Image& display) {
+    // The page is white, and so is what nothing covers.
+    Image shown = display;
+    for (vec4& pixel : shown.pixels) pixel = glm::mix(vec4(1), vec4(vec3(pixel), 1), pixel.w);
+    writePng(place(name + ".png"), shown);
+}
+
+void StepRun::writeText(const std::string& name, const std::string& text) {
+    writeFileAtomically(place(name), text);
+}
+
+} // namespace relume

@@ -1,0 +1,88 @@
+// Table 1: what a bake takes.
+#include "apps/evaluation/paper_models.h"
+#include "apps/evaluation/scene_setup.h"
+#include "apps/evaluation/sections.h"
+#include "precompute/layout/conversion.h"
+
+namespace relume {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Bytes a vertex of this bake in the layout that `relume bake` gives if not asked for another.
+double basesBytes(Asset asset) {
+    const auto progress = [](uint64_t, uint64_t) { expectNoStop(); };
+    const Conversion conversion = convertLayout(asset, {}, progress);
+    return double(conversion.bytesAfter) / double(verticesOf(asset));
+}
+
+Json measure(StepRun& run, const BakeRecipe& recipe, bool converts) {
+    const BakeRecord record = run.bake(recipe);
+    Json numbers = {{"vertices", record.vertices},
+                    {"ms_per_vertex", record.msPerVertex},
+                    {"bytes_per_vertex", double(record.bytes) / double(record.vertices)}};
+    if (converts) numbers["bases_bytes_per_vertex"] = basesBytes(run.asset(recipe));
+    return numbers;
+}
+
+std::string stepName(const PaperModel& model, int terms) {
+    return fmt::format("table-1-{}-k{}", model.name, terms);
+}
+
+void addRow(ReportTable& table, const PaperScene& scene, size_t which, const StepResults& results) {
+    const PaperModel& model = *scene.model;
+    const int terms = kPaperTerms[which];
+    const Json& numbers = results.at(stepName(model, terms)).numbers;
+    const double vertices = numbers.at("vertices"), ms = numbers.at("ms_per_vertex"),
+                 paperMs = model.minutes[which] * 60e3 / model.allVertices();
+    table.rows.push_back({scene.input.name, fmt::format("{}", terms), fmt::format("{:.0f}", vertices),
+                          fmt::format("{:.0f}", model.allVertices()), fmt::format("{:.3g}", ms),
+                          fmt::format("{:.3g}", paperMs), fmt::format("{:.0f}", paperMs / ms),
+                          fmt::format("{:.0f}", numbers.at("bytes_per_vertex").get<double>()),
+                          fmt::format("{:.0f}", model.megabytes[which] * 1e6 / model.allVertices()),
+                          numbers.contains("bases_bytes_per_vertex")
+                              ? fmt::format("{:.0f}", numbers["bases_bytes_per_vertex"].get<double>())
+                              : "-"});
+}
+
+} // namespace
+
+Section bakeTable(const SectionInputs& inputs) {
+    Section section{"table-1", "Table 1: bake time and size", {}, {}};
+    const std::vector<PaperScene> scenes = paperScenes(inputs);
+    if (scenes.empty()) return skippedSection(std::move(section), "there are no models");
+    for (const PaperScene& scene : scenes)
+        for (size_t which = 0; which < 2; which++) {
+            const int terms = kPaperTerms[which];
+            const BakeRecipe recipe = paperRecipe(inputs, scene, terms);
+            section.steps.push_back({.name = stepName(*scene.model, terms),
+                                     .title = fmt::format("Table 1: {}, K = {}", scene.input.name, terms),
+                                     .seconds = inputs.quick ? 4.0 : 1e-3 * scene.model->allVertices(),
+                                     .bakes = {recipe},
+                                     .work = [=](StepRun& run) { return measure(run, recipe, terms == 4); }});
+        }
+    section.write = [=, quick = inputs.quick](const StepResults& results, ReportSection& report) {
+        report.say("Bakes in the paper's way: Ashikhmin-Shirley on the object, white diffuse on the ground "
+                   "(one term), "
+                   "the paper's factorisation, maps of 48 x 48, visibility of 6 x 256², rows of 96 "
+                   "coefficients. The "
+                   "paper finds visibility with a simplified model; here all triangles cast shadows.");
+        report.say(quickNote(quick));
+        ReportTable table{
+            "table_1",
+            "Bake time and size",
+            {"model with ground", "K", "vertices", "paper's", "ms per vertex", "paper's", "times faster",
+             "bytes per vertex", "paper's", "in bases"},
+            {},
+            "The paper's machine was a Pentium 4 of 2.6 GHz with a GeForce 5900. Bytes are of transport, "
+            "in memory. In bases: the same transport in the layout that relume bake gives if not asked "
+            "for another."};
+        for (const PaperScene& scene : scenes)
+            for (size_t which = 0; which < 2; which++) addRow(table, scene, which, results);
+        report.add(std::move(table));
+    };
+    return section;
+}
+
+} // namespace relume
