@@ -13,6 +13,7 @@ Section brdfFigure(const SectionInputs& inputs);       // figure_brdfs.cpp
 Section parametersFigure(const SectionInputs& inputs); // figure_parameters.cpp
 Section sceneFigures(const SectionInputs& inputs);     // figure_scenes.cpp
 Section layoutComparison(const SectionInputs& inputs); // layout_comparison.cpp
+Section errorSources(const SectionInputs& inputs);     // error_sources.cpp
 
 // All of them by name, in the report's order.
 struct SectionEntry {

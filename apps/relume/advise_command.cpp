@@ -63,10 +63,11 @@ void run(Arguments& arguments) {
     const StudiedLight light = arguments.light.studied();
     AdviceRequest request{arguments.scene.load(), arguments.error, {}};
     const std::unique_ptr<vk::Device> device = arguments.device.open();
-    Progress progress("looking", 1000, "permille");
+    Progress progress("looking", request.points, "points");
     BakeObserver observer;
-    const Advice advice = advise(*device, request, light, observer,
-                                 [&](double share) { progress.update(uint64_t(1000 * share)); });
+    const Advice advice = advise(*device, request, light, observer, [&](double share) {
+        progress.update(uint64_t(double(request.points) * share));
+    });
     if (arguments.json)
         fmt::print("{}\n", nlohmann::ordered_json({{"asked", arguments.error},
                                                    {"vertices", advice.vertices},

@@ -1,6 +1,6 @@
-#include "apps/relume/commands.h"
 #include "apps/bench/median.h"
 #include "apps/bench/milliseconds.h"
+#include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
 #include "engine/base/error.h"

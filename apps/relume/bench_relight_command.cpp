@@ -1,6 +1,6 @@
+#include "apps/bench/median.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/copy_bandwidth.h"
-#include "apps/bench/median.h"
 #include "apps/relume/options.h"
 #include "apps/relume/relight_bench.h"
 #include "engine/base/error.h"

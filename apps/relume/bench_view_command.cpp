@@ -1,8 +1,8 @@
-#include "apps/relume/commands.h"
 #include "apps/bench/median.h"
+#include "apps/bench/view_bench.h"
+#include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
-#include "apps/bench/view_bench.h"
 #include "engine/base/error.h"
 
 #include <fmt/ranges.h>

@@ -4,7 +4,8 @@
 #include "apps/relume/studied_light.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
-#include "precompute/error/error_study.h"
+#include "engine/image/image_file.h"
+#include "precompute/error/heat_maps.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,8 +20,23 @@ struct Arguments {
     StudiedLightArguments light;
     AppearanceArguments appearance;
     DeviceArguments device;
+    std::filesystem::path images; // a folder; empty: none
     bool json = false;
 };
+
+constexpr int kLowOrder = 5; // 25 coefficients: what most engines keep
+
+void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, const ViewPoints& points) {
+    constexpr int kScale = 4;
+    const double full = fullHeat(study);
+    writeExr(folder / "drawn.exr", study.drawn);
+    writeExr(folder / "reference.exr", study.reference);
+    writeExr(folder / "harmonics.exr", study.lowOrder->image);
+    writePng(folder / "total.png", totalHeatMap(study, points, full, kScale));
+    for (size_t i = 0; i < kErrorSources; i++)
+        writePng(folder / fmt::format("{}.png", errorSourceName(ErrorSource(i))),
+                 sourceHeatMap(study, points, ErrorSource(i), full, kScale));
+}
 
 nlohmann::ordered_json describe(const ErrorStudy& study) {
     nlohmann::ordered_json sources;
@@ -36,7 +52,8 @@ nlohmann::ordered_json describe(const ErrorStudy& study) {
             {"reference_noise", study.noise},
             {"reference_passes", study.passes},
             {"unexplained_drawing", study.drawnAside},
-            {"unexplained_truth", study.truthAside}};
+            {"unexplained_truth", study.truthAside},
+            {"spherical_harmonics", study.lowOrder->error}};
 }
 
 void print(const ErrorStudy& study) {
@@ -50,6 +67,9 @@ void print(const ErrorStudy& study) {
                study.measured, study.noise, study.passes);
     fmt::print("not accounted for            {:>8.4f}   of drawing, {:.4f} of the reference\n",
                study.drawnAside, study.truthAside);
+    fmt::print(
+        "spherical harmonics          {:>8.4f}   would be the error of {} coefficients, all else exact\n",
+        study.lowOrder->error, kLowOrder * kLowOrder);
 }
 
 void run(const Arguments& arguments) {
@@ -57,14 +77,14 @@ void run(const Arguments& arguments) {
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const StudiedLight light = arguments.light.studied();
-    Progress progress("tracing", 1000, "permille");
-    ViewPoints points;
-    const ErrorStudyOptions options{
-        {arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height}};
-    const ErrorStudy study =
-        studyErrors(*device, asset, appearance, std::span(&light, 1), options, points, [&](double share) {
-            progress.update(uint64_t(1000 * share));
-        }).front();
+    const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
+    const auto pixels = uint64_t(view.width) * uint64_t(view.height);
+    Progress progress("tracing", pixels, "pixels");
+    const ErrorStudies studies =
+        studyErrors(*device, asset, appearance, std::span(&light, 1), {.view = view, .lowOrder = kLowOrder},
+                    [&](double share) { progress.update(uint64_t(double(pixels) * share)); });
+    const ErrorStudy& study = studies.lights.front();
+    if (!arguments.images.empty()) writeImages(arguments.images, study, studies.points);
     if (arguments.json)
         fmt::print("{}\n", describe(study).dump(2));
     else
@@ -84,6 +104,11 @@ void addErrorsCommand(CLI::App& program) {
     arguments->light.add(*command);
     arguments->camera.add(*command);
     arguments->device.add(*command);
+    command
+        ->add_option("--images", arguments->images,
+                     "Also write the images and a heat map of every source into this folder, which exists")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
     command->add_flag("--json", arguments->json, "Data on stdout instead of a table");
     command->callback([arguments] { run(*arguments); });
 }

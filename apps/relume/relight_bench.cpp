@@ -1,7 +1,7 @@
 #include "apps/relume/relight_bench.h"
 
-#include "apps/relume/csr_relighter.h"
 #include "apps/bench/milliseconds.h"
+#include "apps/relume/csr_relighter.h"
 #include "apps/relume/options.h"
 #include "apps/relume/relight_traffic.h"
 #include "engine/base/progress.h"

@@ -8,14 +8,17 @@ void StudiedLightArguments::add(CLI::App& command) {
 }
 
 StudiedLight StudiedLightArguments::studied() const {
-    const float rotation = radians(light.rotationDegrees);
-    StudiedLight studied{turned(light.light(), rotation), {}, selection.selection};
     constexpr int kFineWidth = 2048; // as many columns for a fine cube as the default has for a coarse one
-    studied.fine =
-        light.isEnvironment()
-            ? sampleEnvironment(prepareForSampling(light.environment(), kFineWidth), kTruthFaceSize, rotation)
-            : sampleLight(studied.light, kTruthFaceSize);
-    return studied;
+    const float rotation = radians(light.rotationDegrees);
+    if (!light.isEnvironment()) {
+        const Light all = turned(light.light(), rotation);
+        return {all, sampleLight(all, kTruthFaceSize), selection.selection};
+    }
+    const Environment map = light.environment();
+    const auto prepared = std::make_shared<const Environment>(prepareForSampling(map));
+    return {{.environments = {{prepared, rotation}}},
+            sampleEnvironment(prepareForSampling(map, kFineWidth), kTruthFaceSize, rotation),
+            selection.selection};
 }
 
 } // namespace relume

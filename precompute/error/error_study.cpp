@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/render/view_pass.h"
+#include "precompute/error/low_order_light.h"
 
 #include <cmath>
 
@@ -60,22 +61,48 @@ void measure(ProgressiveReference& reference, const ViewPoints& points, int most
     study.truthAside = reference.errorOf(truth)->rmse / error->level;
 }
 
+StageLight stageLight(const Light& light, const LightCube& fine, int faceSize,
+                      const LightSelection& selection) {
+    LightCube coarse = sampleLight(light, faceSize);
+    LightVector vector = makeLightVector(coarse, selection);
+    return {std::move(vector), std::move(coarse), fine};
+}
+
+// Only its last stage is looked at.
+StageLight lowOrderStage(const LightCube& fine, int order, int faceSize) {
+    const LightCube black{faceSize, std::vector<vec3>(size_t(6 * faceSize * faceSize), vec3(0))};
+    return {makeLightVector(black), black, lowOrderLight(fine, order)};
+}
+
+LowOrderStudy studyLowOrder(const ViewPoints& points, std::span<const StageRadiance> low,
+                            const ErrorStudy& study) {
+    LowOrderStudy result{points.image([&](size_t i) { return glm::max(low[i][kErrorSources], vec3(0)); })};
+    double sum = 0;
+    for (size_t i = 0; i < low.size(); i++) {
+        const glm::dvec3 difference =
+            glm::dvec3(glm::max(low[i][kErrorSources], vec3(0))) - glm::dvec3(study.stages[i][kErrorSources]);
+        sum += glm::dot(difference, difference);
+    }
+    if (study.budget.level > 0) result.error = std::sqrt(sum / (3 * double(low.size()))) / study.budget.level;
+    return result;
+}
+
 } // namespace
 
-std::vector<ErrorStudy> studyErrors(const vk::Device& device, const Asset& asset,
-                                    const Appearance& appearance, std::span<const StudiedLight> lights,
-                                    const ErrorStudyOptions& options, ViewPoints& points,
-                                    const std::function<void(double)>& progress) {
+ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
+                         std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
+                         const std::function<void(double)>& progress) {
     const ErrorView& view = options.view;
-    points = viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height);
+    ErrorStudies studies{viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height), {}};
+    const ViewPoints& points = studies.points;
     const std::vector<Image> drawn = draw(device, asset, appearance, lights, view);
 
     std::vector<StageLight> stageLights;
-    for (const StudiedLight& studied : lights) {
-        LightCube coarse = sampleLight(studied.light, asset.faceSize);
-        LightVector vector = makeLightVector(coarse, studied.selection);
-        stageLights.push_back({std::move(vector), std::move(coarse), studied.fine});
-    }
+    for (const StudiedLight& studied : lights)
+        stageLights.push_back(stageLight(studied.light, studied.fine, asset.faceSize, studied.selection));
+    if (options.lowOrder > 0)
+        for (const StudiedLight& studied : lights)
+            stageLights.push_back(lowOrderStage(studied.fine, options.lowOrder, asset.faceSize));
     constexpr double kStagesShare = 0.85; // of the work, roughly
     const auto stagesProgress = [&](double share) {
         if (progress) progress(kStagesShare * share);
@@ -84,15 +111,15 @@ std::vector<ErrorStudy> studyErrors(const vk::Device& device, const Asset& asset
         StageTracer(asset, appearance).trace(points.hits, view.camera.eye, stageLights, stagesProgress);
 
     ProgressiveReference reference(asset);
-    std::vector<ErrorStudy> studies(lights.size());
     for (size_t i = 0; i < lights.size(); i++) {
-        ErrorStudy& study = studies[i];
+        ErrorStudy& study = studies.lights.emplace_back();
         study.stages = std::move(stages[i]);
         study.budget = errorBudget(study.stages);
         study.drawn = drawn[i];
         study.drawnAside = differenceOf(study.drawn, points, study.stages, study.budget.level);
         reference.restart(view.camera, lights[i].fine, appearance, view.width, view.height);
         measure(reference, points, options.mostPasses, study);
+        if (options.lowOrder > 0) study.lowOrder = studyLowOrder(points, stages[lights.size() + i], study);
         if (progress) progress(kStagesShare + (1 - kStagesShare) * double(i + 1) / double(lights.size()));
     }
     return studies;

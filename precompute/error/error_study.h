@@ -21,7 +21,14 @@ struct StudiedLight {
     LightSelection selection;
 };
 
-// Root mean squares relative to that of the truth.
+// What low-order spherical harmonics would give, all else exact: the truth under lowOrderLight() of the fine
+// light.
+struct LowOrderStudy {
+    Image image; // linear, clamped at zero
+    double error = 0;
+};
+
+// Of one light. Root mean squares relative to that of the truth.
 struct ErrorStudy {
     std::vector<StageRadiance> stages; // per point
     ErrorBudget budget;
@@ -32,17 +39,23 @@ struct ErrorStudy {
     double noise = 0;      // standard error of the reference
     double drawnAside = 0; // drawn against the first stage: what the twin of drawing misses
     double truthAside = 0; // the last stage against the reference, free of its noise
+    std::optional<LowOrderStudy> lowOrder;
 };
 
-// Of one view under several lights, which share all rays. Reference passes are added until its noise is a
-// tenth of the measured error, at most `mostPasses`. Throws Error. `progress` as StageTracer::trace().
+struct ErrorStudies {
+    ViewPoints points;
+    std::vector<ErrorStudy> lights;
+};
+
 struct ErrorStudyOptions {
     ErrorView view;
-    int mostPasses = 512;
+    int mostPasses = 512; // of the reference: added until its noise is a tenth of the measured error
+    int lowOrder = 0;     // of LowOrderStudy; 0: none
 };
-std::vector<ErrorStudy> studyErrors(const vk::Device& device, const Asset& asset,
-                                    const Appearance& appearance, std::span<const StudiedLight> lights,
-                                    const ErrorStudyOptions& options, ViewPoints& points,
-                                    const std::function<void(double)>& progress = {});
+
+// One view under several lights, which share all rays. Throws Error. `progress` as StageTracer::trace().
+ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
+                         std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
+                         const std::function<void(double)>& progress = {});
 
 } // namespace relume

@@ -1,0 +1,196 @@
+// Where error comes from: every stage made exact in turn, and what low-order spherical harmonics would leave.
+#include "apps/evaluation/figure_steps.h"
+#include "apps/evaluation/scene_setup.h"
+#include "apps/evaluation/sections.h"
+#include "engine/base/progress.h"
+#include "engine/render/tone_map.h"
+#include "precompute/error/heat_maps.h"
+
+namespace relume {
+
+namespace {
+
+constexpr std::array kModels = {"bunny", "dragon", "lucy"};
+constexpr std::array kMaterials = {"ashikhmin-shirley", "red-plastic", "clay"};
+constexpr std::array kEnvironments = {"grace", "stpeters", "rnl"};
+constexpr int kLowOrder = 5;
+
+struct Study {
+    std::string name, model, material; // model as the report calls it
+    std::vector<SceneInput> lights;
+    BakeRecipe recipe;
+    bool quick = false;
+};
+
+nlohmann::ordered_json describe(const ErrorStudy& study) {
+    nlohmann::ordered_json sources;
+    for (size_t i = 0; i < kErrorSources; i++)
+        sources.push_back({study.budget.sources[i].rms, study.budget.sources[i].share});
+    return {{"sources", sources},
+            {"total", study.budget.total},
+            {"root_sum_squares", study.budget.rootSumSquares},
+            {"measured", study.measured},
+            {"noise", study.noise},
+            {"drawn_aside", study.drawnAside},
+            {"truth_aside", study.truthAside},
+            {"harmonics", study.lowOrder->error}};
+}
+
+// Of one light: what was drawn, what is true, what harmonics give, and heat.
+void writeImages(StepRun& run, const std::string& prefix, const ErrorStudy& study, const ViewPoints& points) {
+    constexpr int kScale = 3;
+    const double full = fullHeat(study);
+    const float exposure = float(-std::log2(std::max(2 * study.budget.level, 1e-6)));
+    run.write(prefix + "drawn", enlarged(study.drawn, kScale), exposure);
+    run.write(prefix + "reference", enlarged(study.reference, kScale), exposure);
+    run.write(prefix + "harmonics", enlarged(study.lowOrder->image, kScale), exposure);
+    run.writeDisplay(prefix + "total", totalHeatMap(study, points, full, kScale));
+    for (size_t i = 0; i < kErrorSources; i++)
+        run.writeDisplay(prefix + std::string(errorSourceName(ErrorSource(i))),
+                         sourceHeatMap(study, points, ErrorSource(i), full, kScale));
+}
+
+nlohmann::ordered_json work(StepRun& run, const Study& study) {
+    const Asset asset = run.asset(study.recipe);
+    std::vector<StudiedLight> lights;
+    for (const SceneInput& input : study.lights) {
+        const SceneLight light = environmentLight(input);
+        lights.push_back({light.light, light.truth, {}});
+    }
+    const ImageSize size = study.quick ? ImageSize{64, 48} : ImageSize{120, 90};
+    const auto pixels = uint64_t(size.width) * uint64_t(size.height);
+    Progress progress("tracing", pixels, "pixels");
+    const ErrorStudies studies = studyErrors(run.device, asset, defaultAppearance(asset), lights,
+                                             {.view = {orbitOf(asset, size, 30, 15), size.width, size.height},
+                                              .mostPasses = study.quick ? 256 : 1024,
+                                              .lowOrder = kLowOrder},
+                                             [&](double share) {
+                                                 expectNoStop();
+                                                 progress.update(uint64_t(double(pixels) * share));
+                                             });
+    nlohmann::ordered_json numbers;
+    for (size_t i = 0; i < lights.size(); i++) {
+        numbers.push_back(describe(studies.lights[i]));
+        writeImages(run, fmt::format("{}-", i), studies.lights[i], studies.points);
+    }
+    return numbers;
+}
+
+std::string percent(double share) { return fmt::format("{:.2f} %", 100 * share); }
+
+double number(const nlohmann::ordered_json& numbers, const char* key) { return numbers.at(key); }
+
+void addTables(const std::vector<Study>& studies, const StepResults& results, ReportSection& report) {
+    ReportTable sums{
+        "error-sums",
+        "How the sources add up",
+        {"model", "material", "environment", "measured", "sources, summed", "ratio", "were they independent",
+         "reference's noise", "not accounted for"},
+        {},
+        "Measured: the device's image against the sampled reference. Summed: the changes of all "
+        "sources, point by point; independent: the root of the sum of their squares, which is the "
+        "same where they do not correlate. Not accounted for: of drawing, and of the reference."};
+    ReportTable parts{"error-sources",
+                      "Where error comes from: change by each source, and its share of the squared total",
+                      {"model", "material", "environment"},
+                      {},
+                      "A share below 0 makes up for others; shares sum to 100 %."};
+    for (size_t i = 0; i < kErrorSources; i++) parts.columns.emplace_back(errorSourceTitle(ErrorSource(i)));
+    ReportTable harmonics{
+        "error-harmonics",
+        "Against 25 spherical harmonics, all else exact",
+        {"model", "material", "environment", "relume", "harmonics", "times"},
+        {},
+        "Harmonics: the exact BRDF and shadows in the light that is left of the environment "
+        "in the harmonics of degrees 0 to 4, which is what transport in 25 coefficients "
+        "sees. Engines that factor or blur further are farther off."};
+    for (const Study& study : studies)
+        for (size_t i = 0; i < study.lights.size(); i++) {
+            const auto& numbers = results.at(study.name).numbers.at(i);
+            const std::vector<std::string> scene = {study.model, study.material,
+                                                    relume::describe(study.lights[i])};
+            const double measured = number(numbers, "measured"), total = number(numbers, "total");
+            std::vector<std::string> row = scene;
+            for (const std::string& cell :
+                 {percent(measured), percent(total), fmt::format("{:.3f}", total / measured),
+                  percent(number(numbers, "root_sum_squares")), percent(number(numbers, "noise")),
+                  fmt::format("{}; {}", percent(number(numbers, "drawn_aside")),
+                              percent(number(numbers, "truth_aside")))})
+                row.push_back(cell);
+            sums.rows.push_back(row);
+            row = scene;
+            for (const auto& source : numbers.at("sources"))
+                row.push_back(
+                    fmt::format("{} ({:.0f} %)", percent(source.at(0)), 100 * source.at(1).get<double>()));
+            parts.rows.push_back(row);
+            row = scene;
+            const double low = number(numbers, "harmonics");
+            for (const std::string& cell :
+                 {percent(measured), percent(low), fmt::format("{:.1f}", low / measured)})
+                row.push_back(cell);
+            harmonics.rows.push_back(row);
+        }
+    report.add(std::move(sums));
+    report.add(std::move(parts));
+    report.add(std::move(harmonics));
+}
+
+ReportFigure heatFigure(const Study& study, size_t light) {
+    const auto picture = [&](const std::string& name, const std::string& title) {
+        return Picture{pictureOf(study.name, fmt::format("{}-{}.png", light, name)), title, ""};
+    };
+    ReportFigure figure{
+        fmt::format("{}, {}, {}", study.model, study.material, relume::describe(study.lights[light])),
+        5,
+        {picture("drawn", "drawn"), picture("reference", "reference"),
+         picture("harmonics", "25 spherical harmonics"), picture("total", "all error")},
+        "Full heat is the total error that one point in a hundred exceeds, in all maps alike."};
+    for (size_t i = 0; i < kErrorSources; i++)
+        figure.pictures.push_back(picture(std::string(errorSourceName(ErrorSource(i))),
+                                          std::string(errorSourceTitle(ErrorSource(i)))));
+    return figure;
+}
+
+} // namespace
+
+Section errorSources(const SectionInputs& inputs) {
+    Section section{"sources", "Where error comes from", {}, {}};
+    std::vector<SceneInput> lights;
+    for (const char* name : kEnvironments)
+        if (const auto found = inputs.scenes.environment(name)) lights.push_back(*found);
+    std::vector<Study> studies;
+    for (const char* name : kModels) {
+        if (inputs.quick && name != kModels.front()) break;
+        const auto model = inputs.scenes.model(name);
+        if (!model || lights.empty()) continue;
+        for (const char* material : kMaterials)
+            studies.push_back({fmt::format("sources-{}-{}", name, material), relume::describe(*model),
+                               material, lights, sceneRecipe(inputs, name, *model, material, {}),
+                               inputs.quick});
+    }
+    if (studies.empty())
+        return skippedSection(std::move(section), "there is none of its models and environments");
+    for (const Study& study : studies) {
+        Step step{.name = study.name,
+                  .title = fmt::format("Sources of error: {}, {}", study.model, study.material),
+                  .seconds = inputs.quick ? 40.0 : 240.0,
+                  .bakes = {study.recipe},
+                  .work = [study](StepRun& run) { return work(run, study); }};
+        for (const SceneInput& light : lights) step.inputs.push_back(light.hash);
+        section.steps.push_back(std::move(step));
+    }
+    section.write = [=, quick = inputs.quick](const StepResults& results, ReportSection& report) {
+        report.say(
+            "Each point of an image is computed again, stage after stage made exact: first with all of the "
+            "light's coefficients, then transport as it was before it was stored, then all its coefficients, "
+            "its own instead of its triangle's corners', all terms of the tabulated BRDF, the BRDF itself, "
+            "taken as finely as rays are cast, the light's own resolution, the full mesh, and four times the "
+            "rays. What a stage changes is the error of what it replaces. Baked with relume's defaults.");
+        report.say(quickNote(quick));
+        addTables(studies, results, report);
+        for (const Study& study : studies) report.add(heatFigure(study, 0));
+    };
+    return section;
+}
+
+} // namespace relume
