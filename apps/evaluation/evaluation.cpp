@@ -35,12 +35,6 @@ std::string today() {
     return text;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 } // namespace
 
 Evaluation::Evaluation(const vk::Device& device, EvaluationOptions options)
@@ -65,6 +59,10 @@ std::string Evaluation::keyOf(const Step& step, const std::map<std::string, std:
     return hashText(std::as_bytes(std::span(text)));
 }
 
+bool Evaluation::isAsked(const Section& section) const {
+    return mOptions.only.empty() || std::ranges::find(mOptions.only, section.name) != mOptions.only.end();
+}
+
 std::vector<Evaluation::Planned> Evaluation::plan(const std::vector<Section>& sections) {
     std::vector<Planned> plan;
     std::map<std::string, std::string> keys;
@@ -73,7 +71,7 @@ std::vector<Evaluation::Planned> Evaluation::plan(const std::vector<Section>& se
             RELUME_CHECK(!keys.contains(step.name));
             const std::string key = keys[step.name] = keyOf(step, keys);
             auto stored = mStore.find(step.name, key);
-            plan.push_back({&section, &step, key, stored.has_value()});
+            if (isAsked(section)) plan.push_back({&section, &step, key, stored.has_value()});
             if (stored) mResults[step.name] = std::move(*stored);
         }
     return plan;
@@ -147,6 +145,22 @@ bool Evaluation::run(const std::vector<Section>& sections, const SceneInputs& in
     return mFailures.empty();
 }
 
+ReportSection Evaluation::reportOf(const Section& section) const {
+    ReportSection written{section.title, {}};
+    size_t left = 0;
+    for (const Step& step : section.steps) {
+        const auto failed = mFailures.find(step.name);
+        if (failed != mFailures.end())
+            written.say(fmt::format("Failed: {}: {}.", step.title, failed->second));
+        else if (!mResults.contains(step.name))
+            left++;
+    }
+    if (left > 0)
+        written.say(fmt::format("{} of its {} steps are not done yet.", left, section.steps.size()));
+    if (written.items.empty()) section.write(mResults, written);
+    return written;
+}
+
 void Evaluation::writeReport(const std::vector<Section>& sections, const SceneInputs& inputs) const {
     for (const char* folder : {"tables", "plots"})
         std::filesystem::create_directories(mOptions.output / folder);
@@ -154,9 +168,8 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
     report.title = "All-frequency relighting of glossy objects: the evaluation";
     report.facts = {
         {"Program", "relume " RELUME_VERSION},
-        {"Options", fmt::format("{}{}{}", mOptions.quick ? "--quick" : "full",
-                                mOptions.data.empty() ? ", installed data alone" : ", with --data",
-                                mOptions.only.empty() ? "" : ", only " + joined(mOptions.only))},
+        {"Options", fmt::format("{}{}", mOptions.quick ? "--quick" : "full",
+                                mOptions.data.empty() ? ", installed data alone" : ", with --data")},
         {"Device", fmt::format("{} ({}), {}", mDevice.name(), mDevice.info().type, mDevice.info().driver)},
         {"Processor", fmt::format("{} hardware threads", std::thread::hardware_concurrency())},
         {"Written", today()},
@@ -168,19 +181,11 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
     };
     report.skipped = inputs.missing();
     for (const Section& section : sections) {
-        ReportSection& written = report.sections.emplace_back(ReportSection{section.title, {}});
-        size_t left = 0;
-        for (const Step& step : section.steps) {
-            const auto failed = mFailures.find(step.name);
-            if (failed != mFailures.end())
-                written.say(fmt::format("Failed: {}: {}.", step.title, failed->second));
-            else if (!mResults.contains(step.name))
-                left++;
-        }
-        if (left > 0)
-            written.say(fmt::format("{} of its {} steps are not done yet.", left, section.steps.size()));
-        if (written.items.empty()) section.write(mResults, written);
-        for (const ReportItem& item : written.items) {
+        const bool isDone = std::ranges::all_of(
+            section.steps, [&](const Step& step) { return mResults.contains(step.name); });
+        if (!isAsked(section) && (section.steps.empty() || !isDone)) continue;
+        report.sections.push_back(reportOf(section));
+        for (const ReportItem& item : report.sections.back().items) {
             if (const auto* table = std::get_if<ReportTable>(&item))
                 writeFileAtomically(mOptions.output / "tables" / (table->file + ".csv"), csvOf(*table));
             if (const auto* plot = std::get_if<ReportPlot>(&item))

@@ -17,7 +17,7 @@ namespace relume {
 struct EvaluationOptions {
     std::filesystem::path output, data; // data: may be empty
     bool quick = false;
-    std::vector<std::string> only; // names of sections; empty: all
+    std::vector<std::string> only; // names of sections that are run; empty: all
 };
 
 // Results of the steps that are done, by name.
@@ -92,9 +92,10 @@ class Evaluation {
     // Throws Error when the folder cannot be written.
     Evaluation(const vk::Device& device, EvaluationOptions options);
 
-    // Runs what is not done yet of these sections, writes report.html after each. A step that fails with an
-    // Error is told in the report, and the others go on. Throws BakeStopped when an interrupt was caught.
-    // Returns whether all steps are done.
+    // Runs what is not done yet of these sections, as far as the options ask for them, and writes report.html
+    // after each: of them, and of the others that earlier runs have done. A step that fails with an Error is
+    // told in the report, and the others go on. Throws BakeStopped when an interrupt was caught. Returns
+    // whether none failed.
     bool run(const std::vector<Section>& sections, const SceneInputs& inputs);
 
     std::filesystem::path reportPath() const { return mOptions.output / "report.html"; }
@@ -106,11 +107,13 @@ class Evaluation {
         std::string key;
         bool done = false;
     };
-    std::vector<Planned> plan(const std::vector<Section>& sections);
+    bool isAsked(const Section& section) const;
+    std::vector<Planned> plan(const std::vector<Section>& sections); // of those that are asked for
     std::string keyOf(const Step& step, const std::map<std::string, std::string>& keys) const;
     void runStep(Planned& planned);
     void removeBakes(const std::vector<Planned>& plan, const Step& step) const;
     void tellStart(const std::vector<Planned>& plan, size_t index) const;
+    ReportSection reportOf(const Section& section) const;
     void writeReport(const std::vector<Section>& sections, const SceneInputs& inputs) const;
 
     const vk::Device& mDevice;

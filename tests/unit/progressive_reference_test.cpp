@@ -130,6 +130,31 @@ TEST_CASE("progressive reference: an image's error is told without the reference
     CHECK(reference.errorOf(truth)->noise == doctest::Approx(rmse(reference.mean(), truth)).epsilon(0.1));
 }
 
+TEST_CASE("progressive reference: squared errors scatter as their standard error says") {
+    const Asset asset = makeScene(kDiffuse);
+    const LightCube light = makeSunnySky();
+    Image grey(kWidth, kHeight);
+    for (vec4& pixel : grey.pixels) pixel = vec4(0.3f, 0.3f, 0.3f, 1);
+    ProgressiveReference reference(asset);
+    constexpr int kViews = 16;
+    double scatter = 0; // squared, in standard errors
+    for (int view = 0; view < kViews; view++) {
+        Camera camera = kCamera;
+        camera.eye.x += 0.05f * float(view);
+        reference.restart(camera, light, defaultAppearance(asset), kWidth, kHeight);
+        addPasses(reference, 4);
+        const ReferenceError early = *reference.errorOf(grey);
+        addPasses(reference, 252);
+        const ReferenceError late = *reference.errorOf(grey);
+        CHECK(late.rmse * late.rmse == doctest::Approx(late.square));
+        CHECK(late.squareNoise < 0.2 * early.squareNoise);
+        const double off = (early.square - late.square) / early.squareNoise;
+        scatter += off * off / kViews;
+    }
+    CHECK(scatter > 0.3);
+    CHECK(scatter < 2.5);
+}
+
 TEST_CASE("progressive reference: mean squared errors of many halves come to the true one") {
     const Asset asset = makeScene(kGlossy);
     const LightCube light = makeSunnySky();
