@@ -139,6 +139,7 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
         .add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
         ->type_name("TRIANGLES")
         ->capture_default_str();
+    command.add_option("--refine", options.refinementError, "Refine")->type_name("ERROR");
 }
 
 void BakeArguments::resolve() {

@@ -29,6 +29,8 @@ struct BakeOptions {
     size_t occluderTriangles = 0;
     // Whether a file keeps the visibility it was made from: KeptVisibility. An asset in memory does not.
     bool keepVisibility = false;
+    // Error of interpolation that meshes are refined to (refinement.h), none: they stay as they are.
+    std::optional<double> refinementError = std::nullopt;
 
     // Throws UsageError naming the option, its valid values and what was given.
     void validate() const;

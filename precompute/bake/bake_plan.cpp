@@ -13,6 +13,7 @@
 #include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/layout/same_sums.h"
+#include "precompute/refine/refinement.h"
 #include "precompute/visibility/occluder.h"
 
 #include <chrono>
@@ -80,6 +81,16 @@ void makeParts(std::vector<Part> parts, BakePlan& plan) {
                                     part.paintedByColors});
         checkPaint(plan.asset.parts.back());
     }
+}
+
+// The occluder is the surface as it was: the same, with fewer triangles.
+void refineMeshes(BakePlan& plan, BakeObserver& observer) {
+    Asset& asset = plan.asset;
+    const Refinement refinement = refine(asset.parts, asset.occluder, asset.visibilityOffset,
+                                         *plan.options.refinementError, observer);
+    spdlog::info("refined from {} to {} vertices, error {:.4f} to {:.4f}", refinement.startVertices,
+                 refinement.vertices, refinement.startError, refinement.error);
+    for (AssetPart& part : asset.parts) orderVertices(part.mesh);
 }
 
 void cutBlocks(BakePlan& plan) {
@@ -174,6 +185,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     makeParts(std::move(scene.parts), plan);
     plan.factorisationSeconds = secondsSince(stage);
 
+    if (options.refinementError) refineMeshes(plan, observer);
     finish(plan);
     return plan;
 }
