@@ -83,14 +83,13 @@ void makeParts(std::vector<Part> parts, BakePlan& plan) {
     }
 }
 
-// The occluder is the surface as it was: the same, with fewer triangles.
+// The occluder stays what it was: the same surface, with fewer triangles.
 void refineMeshes(BakePlan& plan, BakeObserver& observer) {
     Asset& asset = plan.asset;
-    const Refinement refinement = refine(asset.parts, asset.occluder, asset.visibilityOffset,
-                                         *plan.options.refinementError, observer);
-    spdlog::info("refined from {} to {} vertices, error {:.4f} to {:.4f}", refinement.startVertices,
-                 refinement.vertices, refinement.startError, refinement.error);
+    RefinementRecord& record = *plan.options.refinement;
+    record = refine(asset.parts, asset.occluder, asset.visibilityOffset, record.wanted, observer);
     for (AssetPart& part : asset.parts) orderVertices(part.mesh);
+    observer.refined(record);
 }
 
 void cutBlocks(BakePlan& plan) {
@@ -185,7 +184,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     makeParts(std::move(scene.parts), plan);
     plan.factorisationSeconds = secondsSince(stage);
 
-    if (options.refinementError) refineMeshes(plan, observer);
+    if (options.refinement) refineMeshes(plan, observer);
     finish(plan);
     return plan;
 }

@@ -1,15 +1,12 @@
 #include "precompute/refine/refinement.h"
 
 #include "engine/base/check.h"
-#include "precompute/refine/edge_split.h"
-#include "precompute/refine/transport_probe.h"
+#include "precompute/refine/refined_part.h"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
-#include <spdlog/spdlog.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 namespace relume {
 
@@ -17,206 +14,133 @@ namespace {
 
 // Of the error, what is worked on in one round: the edges that make most of it.
 constexpr double kRoundShare = 0.35;
-constexpr float kShortestEdge = 8; // in visibility offsets: below, visibility is not known
-constexpr size_t kProbesAtOnce = 512;
+// A round leaves so much of the squared error that is wanted, that the last rounds are few.
+constexpr double kAim = 0.9;
+// It ends as well where edges that may be split make less than this of the squared error that is wanted.
+constexpr double kLeastShare = 0.1;
+// In visibility offsets. What lies closer is told apart by the offset rather than by the scene.
+constexpr float kShortestEdge = 8;
 
-double squaredSum(const ProbeAnswers& answers) {
-    double sum = 0;
-    for (const float answer : answers) sum += double(answer) * double(answer);
-    return sum;
-}
-
-// What interpolation makes of the middle of an edge, against what is there.
-double squaredError(const ProbeAnswers& first, const ProbeAnswers& second, const ProbeAnswers& middle) {
-    double sum = 0;
-    for (size_t i = 0; i < middle.size(); i++) {
-        const double difference = 0.5 * (double(first[i]) + double(second[i])) - double(middle[i]);
-        sum += difference * difference;
-    }
-    return sum;
-}
-
-// Where a vertex is, whichever part it belongs to.
+// Numbers positions, whichever part they belong to.
 class Places {
   public:
-    uint32_t of(vec3 position) {
+    uint32_t number(vec3 position) {
         const auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); }; // -0 is 0
         const std::array key = {bits(position.x), bits(position.y), bits(position.z)};
-        return mPlaces.try_emplace(key, uint32_t(mPlaces.size())).first->second;
+        return mNumbers.try_emplace(key, uint32_t(mNumbers.size())).first->second;
     }
 
   private:
-    std::map<std::array<uint32_t, 3>, uint32_t> mPlaces;
+    std::map<std::array<uint32_t, 3>, uint32_t> mNumbers;
 };
 
-struct ProbedEdge {
-    Edge edge;
-    Edge place; // its ends, as places
-    double area = 0; // a third of the triangles that have it
-    bool isProbed = false;
-    ProbeAnswers middle{};
-    double squaredError = 0; // at the middle
-};
-
-struct RefinedPart {
-    RefinedPart(AssetPart& assetPart, const CpuVisibility& visibility, const ProbeLights& lights)
-        : part(assetPart), probe(assetPart, visibility, lights) {}
-
-    AssetPart& part;
-    TransportProbe probe;
-    std::vector<uint32_t> places;      // of vertices
-    std::vector<ProbeAnswers> answers; // of vertices
-    std::vector<ProbedEdge> edges;     // sorted by edge
+// Edges that lie on each other, and what they add up to. Errors are squared and times area.
+struct EdgeGain {
+    Edge places;
+    double error = 0;
+    uint32_t sides = 0; // as many vertices does a split take
 };
 
 class Refiner {
   public:
     Refiner(std::vector<AssetPart>& parts, const Mesh& occluder, float offset, BakeObserver& observer)
         : mVisibility(occluder, TransportProbe::kVisibilitySize), mOffset(offset), mObserver(observer) {
-        for (AssetPart& part : parts) mParts.emplace_back(part, mVisibility, mLights);
-        for (RefinedPart& part : mParts) placeVertices(part);
+        mParts.reserve(parts.size());
+        for (AssetPart& part : parts) mParts.emplace_back(part, mVisibility, mLights, offset);
+        mPlaces.resize(parts.size());
     }
 
-    Refinement run(double wanted) {
-        Refinement result;
-        result.startVertices = vertices();
-        for (RefinedPart& part : mParts) probeVertices(part);
-        for (int round = 0;; round++) {
-            for (RefinedPart& part : mParts) findEdges(part), probeEdges(part);
+    RefinementRecord run(double wanted) {
+        RefinementRecord record{.wanted = wanted, .startVertices = vertices()};
+        mObserver.stage(BakeStage::Refinement, "");
+        for (bool isFirst = true;; isFirst = false) {
+            probe();
             measure();
-            result.error = std::sqrt(mError / mEnergy);
-            if (round == 0) result.startError = result.error;
-            if (!(result.error > wanted)) break;
-            if (!splitWorst(wanted * wanted * mEnergy)) {
-                result.isLimited = true;
-                break;
-            }
-            spdlog::info("round {}: {} error {:.4f}, {} now", round, result.vertices, result.error, vertices());
+            record.error = mEnergy > 0 ? std::sqrt(mError / mEnergy) : 0;
+            if (isFirst) record.startError = record.error;
+            if (record.error <= wanted || !splitWorst(wanted * wanted * mEnergy)) break;
         }
-        result.vertices = vertices();
-        return result;
+        record.vertices = vertices();
+        return record;
     }
 
   private:
     uint64_t vertices() const {
         uint64_t count = 0;
-        for (const RefinedPart& part : mParts) count += part.part.mesh.vertexCount();
+        for (const RefinedPart& part : mParts) count += part.mesh().vertexCount();
         return count;
     }
 
-    void placeVertices(RefinedPart& part) {
-        const std::vector<vec3>& positions = part.part.mesh.positions;
-        for (size_t i = part.places.size(); i < positions.size(); i++) part.places.push_back(mPlaces.of(positions[i]));
-    }
-
-    // Calls probe(i, workspace) for i < count on all threads.
-    template <typename Probe>
-    void probeAll(const RefinedPart& part, size_t count, const Probe& probe) {
-        tbb::enumerable_thread_specific<TransportProbe::Workspace> workspaces(
-            [&] { return part.probe.makeWorkspace(); });
-        for (size_t first = 0; first < count; first += kProbesAtOnce) {
-            if (mObserver.wantsStop()) throw BakeStopped("stopped");
-            tbb::parallel_for(first, std::min(count, first + kProbesAtOnce),
-                              [&](size_t i) { probe(i, workspaces.local()); });
+    void probe() {
+        for (size_t number = 0; number < mParts.size(); number++) {
+            RefinedPart& part = mParts[number];
+            part.probe([this](size_t done, size_t count) {
+                if (mObserver.wantsStop()) throw BakeStopped("stopped while refining");
+                if (count > 0)
+                    mObserver.progress(
+                        {.vertices = count, .done = done, .fraction = double(done) / double(count)});
+            });
+            const std::vector<vec3>& positions = part.mesh().positions;
+            std::vector<uint32_t>& places = mPlaces[number];
+            for (size_t i = places.size(); i < positions.size(); i++)
+                places.push_back(mNumbers.number(positions[i]));
         }
     }
 
-    void probeVertices(RefinedPart& part) {
-        const Mesh& mesh = part.part.mesh;
-        part.answers.resize(mesh.vertexCount());
-        probeAll(part, mesh.vertexCount(), [&](size_t i, TransportProbe::Workspace& own) {
-            part.answers[i] =
-                part.probe.answers(mesh.positions[i] + mOffset * mesh.normals[i], mesh.normals[i], own);
-        });
+    Edge placesOf(size_t part, Edge edge) const {
+        return {mPlaces[part][edge.first], mPlaces[part][edge.second]};
     }
 
-    // Keeps what is known of edges that are there still.
-    void findEdges(RefinedPart& part) {
-        const Mesh& mesh = part.part.mesh;
-        std::vector<std::pair<Edge, double>> sides;
-        for (const uvec3& t : mesh.triangles) {
-            const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-            const double third = double(glm::length(glm::cross(b - a, c - a))) / 6;
-            for (const Edge edge : {Edge(t.x, t.y), Edge(t.y, t.z), Edge(t.z, t.x)}) sides.emplace_back(edge, third);
-        }
-        std::ranges::sort(sides);
-        std::vector<ProbedEdge> edges;
-        auto known = part.edges.begin();
-        for (const auto& [edge, third] : sides) {
-            if (edges.empty() || edges.back().edge != edge) {
-                while (known != part.edges.end() && known->edge < edge) known++;
-                if (known != part.edges.end() && known->edge == edge)
-                    edges.push_back(*known);
-                else
-                    edges.push_back({edge, Edge(part.places[edge.first], part.places[edge.second])});
-                edges.back().area = 0;
-            }
-            edges.back().area += third;
-        }
-        part.edges = std::move(edges);
-    }
-
-    void probeEdges(RefinedPart& part) {
-        std::vector<ProbedEdge*> open;
-        for (ProbedEdge& edge : part.edges)
-            if (!edge.isProbed) open.push_back(&edge);
-        probeAll(part, open.size(), [&](size_t i, TransportProbe::Workspace& own) {
-            ProbedEdge& edge = *open[i];
-            const EdgeMiddle middle = middleOf(part.part.mesh, edge.edge);
-            edge.middle =
-                part.probe.answers(middle.position + mOffset * middle.normal, middle.normal, own);
-            edge.squaredError = squaredError(part.answers[edge.edge.first], part.answers[edge.edge.second], edge.middle);
-            edge.isProbed = true;
-        });
+    bool isSplittable(size_t part, Edge edge) const {
+        const Mesh& mesh = mParts[part].mesh();
+        const Edge places = placesOf(part, edge);
+        return places.first != places.second &&
+               glm::distance(mesh.positions[edge.first], mesh.positions[edge.second]) >=
+                   kShortestEdge * mOffset;
     }
 
     void measure() {
         mError = mEnergy = 0;
-        for (const RefinedPart& part : mParts)
-            for (const ProbedEdge& edge : part.edges) {
+        std::map<Edge, EdgeGain> gains;
+        for (size_t part = 0; part < mParts.size(); part++)
+            for (const ProbedEdge& edge : mParts[part].edges()) {
                 mError += edge.area * edge.squaredError;
-                mEnergy += edge.area * squaredSum(edge.middle);
+                mEnergy += edge.area * edge.squaredAnswer;
+                if (!isSplittable(part, edge.edge)) continue;
+                const Edge places = placesOf(part, edge.edge);
+                EdgeGain& gain = gains.try_emplace(places, EdgeGain{places}).first->second;
+                gain.error += edge.area * edge.squaredError;
+                gain.sides++;
             }
+        mGains.clear();
+        for (const auto& [places, gain] : gains) mGains.push_back(gain);
     }
 
-    bool isSplittable(const RefinedPart& part, const ProbedEdge& edge) const {
-        const Mesh& mesh = part.part.mesh;
-        return edge.place.first != edge.place.second &&
-               glm::length(mesh.positions[edge.edge.first] - mesh.positions[edge.edge.second]) >=
-                   kShortestEdge * mOffset;
-    }
-
-    // Whether there was anything to split.
+    // Splits the edges that make most of the error, as long as one vertex helps more than others. False if
+    // that leads nowhere.
     bool splitWorst(double wanted) {
-        std::map<Edge, double> gains; // by place
-        for (const RefinedPart& part : mParts)
-            for (const ProbedEdge& edge : part.edges)
-                if (isSplittable(part, edge)) gains[edge.place] += edge.area * edge.squaredError;
-        std::vector<std::pair<double, Edge>> worst;
-        for (const auto& [place, gain] : gains) worst.emplace_back(gain, place);
-        std::ranges::sort(worst, std::greater());
-        const double share = std::min(kRoundShare * mError, mError - 0.9 * wanted);
-        double sum = 0;
+        std::ranges::stable_sort(mGains, std::greater(), [](const EdgeGain& g) { return g.error / g.sides; });
+        double within = 0, sum = 0;
+        for (const EdgeGain& gain : mGains) within += gain.error;
+        if (within < kLeastShare * wanted) return false;
+        const double share = std::min(kRoundShare * mError, mError - kAim * wanted);
+        uint64_t room = kMostRefinedVertices - vertices();
         std::vector<Edge> chosen;
-        for (const auto& [gain, place] : worst) {
-            if (sum >= share || !(gain > 0) || vertices() + chosen.size() >= kMostRefinedVertices) break;
-            sum += gain;
-            chosen.push_back(place);
+        for (const EdgeGain& gain : mGains) {
+            if (sum >= share || !(gain.error > 0) || gain.sides > room) break;
+            sum += gain.error;
+            room -= gain.sides;
+            chosen.push_back(gain.places);
         }
         std::ranges::sort(chosen);
-        for (RefinedPart& part : mParts) split(part, chosen);
+        for (size_t part = 0; part < mParts.size(); part++) {
+            std::vector<uint32_t> numbers;
+            const std::vector<ProbedEdge>& edges = mParts[part].edges();
+            for (uint32_t i = 0; i < edges.size(); i++)
+                if (std::ranges::binary_search(chosen, placesOf(part, edges[i].edge))) numbers.push_back(i);
+            mParts[part].split(numbers);
+        }
         return !chosen.empty();
-    }
-
-    void split(RefinedPart& part, const std::vector<Edge>& chosen) {
-        std::vector<Edge> edges;
-        for (const ProbedEdge& edge : part.edges)
-            if (std::ranges::binary_search(chosen, edge.place)) {
-                edges.push_back(edge.edge);
-                part.answers.push_back(edge.middle);
-            }
-        splitEdges(part.part.mesh, edges);
-        placeVertices(part);
     }
 
     ProbeLights mLights;
@@ -224,15 +148,22 @@ class Refiner {
     float mOffset;
     BakeObserver& mObserver;
     std::vector<RefinedPart> mParts;
-    Places mPlaces;
-    double mError = 0, mEnergy = 0; // over the surface
+    Places mNumbers;
+    std::vector<std::vector<uint32_t>> mPlaces; // per part and vertex
+    double mError = 0, mEnergy = 0;             // squared and times area
+    std::vector<EdgeGain> mGains;
 };
 
 } // namespace
 
-Refinement refine(std::vector<AssetPart>& parts, const Mesh& occluder, float visibilityOffset, double wanted,
-                  BakeObserver& observer) {
+RefinementRecord refine(std::vector<AssetPart>& parts, const Mesh& occluder, float visibilityOffset,
+                        double wanted, BakeObserver& observer) {
     RELUME_CHECK(wanted > 0);
+    uint64_t given = 0;
+    for (const AssetPart& part : parts) given += part.mesh.vertexCount();
+    if (given > kMostRefinedVertices)
+        throw Error("--refine: expected at most {} vertices to begin with, found {}; bake without it",
+                    kMostRefinedVertices, given);
     return Refiner(parts, occluder, visibilityOffset, observer).run(wanted);
 }
 

@@ -16,7 +16,8 @@ namespace relume {
 constexpr int kProbeLights = 64;
 using ProbeAnswers = std::array<float, kProbeLights>;
 
-// The lights at the probes' own size, texel after texel along the CPU baker's curve, kProbeLights floats each.
+// The lights at the probes' own size, texel after texel along the CPU baker's curve, kProbeLights floats
+// each.
 class ProbeLights {
   public:
     static constexpr int kFaceSize = 32; // F of the probes: fine enough to tell vertices apart
