@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <map>
 
@@ -74,11 +75,17 @@ class Refiner {
     void probe() {
         for (size_t number = 0; number < mParts.size(); number++) {
             RefinedPart& part = mParts[number];
-            part.probe([this](size_t done, size_t count) {
+            const auto start = std::chrono::steady_clock::now();
+            part.probe([&](size_t done, size_t count) {
                 if (mObserver.wantsStop()) throw BakeStopped("stopped while refining");
-                if (count > 0)
-                    mObserver.progress(
-                        {.vertices = count, .done = done, .fraction = double(done) / double(count)});
+                if (done == 0) return;
+                const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+                const double rate = double(done) / taken.count();
+                mObserver.progress({.vertices = count,
+                                    .done = done,
+                                    .fraction = double(done) / double(count),
+                                    .verticesPerSecond = rate,
+                                    .secondsLeft = double(count - done) / rate});
             });
             const std::vector<vec3>& positions = part.mesh().positions;
             std::vector<uint32_t>& places = mPlaces[number];
@@ -116,8 +123,8 @@ class Refiner {
         for (const auto& [places, gain] : gains) mGains.push_back(gain);
     }
 
-    // Splits the edges that make most of the error, as long as one vertex helps more than others. False if
-    // that leads nowhere.
+    // Splits the edges that make most of the error for the vertices that it takes. False if that leads
+    // nowhere.
     bool splitWorst(double wanted) {
         std::ranges::stable_sort(mGains, std::greater(), [](const EdgeGain& g) { return g.error / g.sides; });
         double within = 0, sum = 0;
