@@ -28,7 +28,7 @@ void run(Arguments& arguments) {
             "or raster, not auto");
     options.keepVisibility = job.keepVisibility;
     job.prepare();
-    Scene scene = arguments.scene.load();
+    Scene scene = arguments.scene.load(arguments.bake.options.refinement.has_value());
     const std::unique_ptr<vk::Device> device = job.device.open();
     for (const Part& part : scene.parts) logPart(part.name, part.mesh, part.material);
     job.run(*device, [&](BakeObserver& observer) {

@@ -18,6 +18,8 @@ const char* stageName(BakeStage stage) {
         return "occluder";
     case BakeStage::Factorisation:
         return "factorisation";
+    case BakeStage::Refinement:
+        return "refinement";
     case BakeStage::Sample:
         return "sample";
     case BakeStage::Preview:
@@ -41,13 +43,30 @@ void BakeReport::event(const char* name, nlohmann::ordered_json fields) const {
 }
 
 void BakeReport::stage(BakeStage stage, const std::string& part) {
-    mIsAside = stage == BakeStage::Sample || stage == BakeStage::Preview;
+    mIsAside = stage == BakeStage::Refinement || stage == BakeStage::Sample || stage == BakeStage::Preview;
     mStage = stageName(stage);
     event("stage", {{"stage", mStage}, {"part", part}});
     if (!part.empty()) mStage += " " + part;
     if (mStyle != ReportStyle::Text) return;
     if (!mBar) mBar.emplace(mStage, 0, "vertices");
     mBar->setTitle(mStage);
+}
+
+void BakeReport::refined(const RefinementRecord& record) {
+    event("refined", {{"wanted_error", record.wanted},
+                      {"start_error", record.startError},
+                      {"error", record.error},
+                      {"start_vertices", record.startVertices},
+                      {"vertices", record.vertices}});
+    close();
+    if (mStyle == ReportStyle::Text)
+        spdlog::info("refined: {} vertices with an error of {:.2f} % become {} with {:.2f} %",
+                     record.startVertices, 100 * record.startError, record.vertices, 100 * record.error);
+    if (record.error > record.wanted)
+        spdlog::warn(
+            "--refine {}: not reached, the error is {:.4f}; there are at most {} vertices, and what is "
+            "as small as the visibility offset is not split",
+            record.wanted, record.error, kMostRefinedVertices);
 }
 
 void BakeReport::resumed(uint64_t done, uint64_t vertices) {

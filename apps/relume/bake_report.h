@@ -19,6 +19,7 @@ class BakeReport : public BakeObserver {
     BakeReport(ReportStyle style, bool stoppable) : mStyle(style), mStoppable(stoppable) {}
 
     void stage(BakeStage stage, const std::string& part) override;
+    void refined(const RefinementRecord& record) override;
     void resumed(uint64_t done, uint64_t vertices) override;
     void progress(const BakeStatus& status) override;
     void preview(double bakedShare) override;

@@ -160,7 +160,7 @@ void print(const Json& result) {
 void run(Arguments& arguments) {
     arguments.bake.resolve();
     const BakeOptions& options = arguments.bake.options;
-    Scene scene = arguments.scene.load();
+    Scene scene = arguments.scene.load(arguments.bake.options.refinement.has_value());
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const BakeSample sample = sampleBake(*device, std::move(scene), options, arguments.vertices);
 

@@ -73,7 +73,7 @@ void print(const nlohmann::ordered_json& result) {
 
 void run(Arguments& arguments) {
     arguments.bake.resolve();
-    Scene scene = arguments.scene.load();
+    Scene scene = arguments.scene.load(arguments.bake.options.refinement.has_value());
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     BakeTimes times;
     const Asset asset =

@@ -44,12 +44,14 @@ void SceneArguments::add(CLI::App& command) {
         command.add_option("--ground-material", mGroundMaterial, "Material of the ground")
             ->type_name("MATERIAL")
             ->capture_default_str());
-    mGroundDetails.push_back(
+    mTessellationOption =
         command
             .add_option("--ground-tessellation", mGroundOptions.tessellation, "Quads a side of the ground")
             ->type_name("QUADS")
             ->check(CLI::Range(1, kMostGroundQuads))
-            ->capture_default_str());
+            ->default_str(
+                fmt::format("{}, before --refine {}", mGroundOptions.tessellation, kRefinedGroundQuads));
+    mGroundDetails.push_back(mTessellationOption);
     mGroundDetails.push_back(
         command.add_option("--ground-extent", mGroundOptions.extent, "Side of the ground, in object sizes")
             ->type_name("X")
@@ -57,8 +59,10 @@ void SceneArguments::add(CLI::App& command) {
             ->capture_default_str());
 }
 
-Scene SceneArguments::load() const {
+Scene SceneArguments::load(bool isRefined) const {
     Scene scene;
+    GroundOptions groundOptions = mGroundOptions;
+    if (isRefined && mTessellationOption->count() == 0) groundOptions.tessellation = kRefinedGroundQuads;
     const bool isScene = input.ends_with(".json");
     for (const CLI::Option* option : {mMaterialOption, mUpOption})
         if (isScene && option->count() > 0)
@@ -68,13 +72,13 @@ Scene SceneArguments::load() const {
         if (!ground && option->count() > 0) throw UsageError("{}: needs --ground", option->get_name());
     if (mSeparate && mMaterials.size() < 2) throw UsageError("--separate: needs several --material");
     if (isScene)
-        scene = readScene(input);
+        scene = readScene(input, groundOptions);
     else
         scene.parts = loadParts(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, chosenMaterial());
     if (ground) {
         for (const Part& part : scene.parts)
             if (part.name == "ground") throw UsageError("--ground: {} has a ground already", input);
-        addGround(scene, mGroundOptions, mGroundMaterial);
+        addGround(scene, groundOptions, mGroundMaterial);
     }
     checkMaterials(scene);
     return scene;
@@ -139,6 +143,14 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
         .add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
         ->type_name("TRIANGLES")
         ->capture_default_str();
+    command
+        .add_option("--refine", mRefinementError,
+                    fmt::format("Add vertices where interpolation between them would be seen, until it is "
+                                "estimated to change reflected light by this share of it at most, root mean "
+                                "square over all surfaces: {} to {}, 0.01 is good, 0.03 coarse (default: "
+                                "meshes stay as they are)",
+                                kLeastRefinementError, kMostRefinementError))
+        ->type_name("ERROR");
 }
 
 void BakeArguments::resolve() {
@@ -150,6 +162,8 @@ void BakeArguments::resolve() {
     options.visibilityMethod.reset();
     for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
         if (mVisibility == visibilityMethodName(method)) options.visibilityMethod = method;
+    options.refinement.reset();
+    if (mRefinementError) options.refinement = RefinementRecord{.wanted = *mRefinementError};
     options.occluderTriangles = 0;
     if (mOccluder != "full") {
         const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&

@@ -25,8 +25,9 @@ struct SceneArguments {
     bool ground = false;
 
     void add(CLI::App& command);
-    // Throws UsageError for options that the input cannot obey, Error for bad files.
-    Scene load() const;
+    // Throws UsageError for options that the input cannot obey, Error for bad files. `isRefined`: a ground
+    // whose tessellation is not given starts coarse.
+    Scene load(bool isRefined) const;
 
   private:
     void checkMaterials(const Scene& scene) const;
@@ -38,6 +39,7 @@ struct SceneArguments {
     CLI::Option* mMaterialOption = nullptr;
     CLI::Option* mUpOption = nullptr;
     std::vector<CLI::Option*> mGroundDetails; // mean nothing without --ground
+    CLI::Option* mTessellationOption = nullptr;
     std::string mUp = "y";
     std::string mGroundMaterial = "white-diffuse";
     GroundOptions mGroundOptions;
@@ -57,6 +59,7 @@ struct BakeArguments {
     LayoutArguments mLayout;
     std::optional<int> mCoefficients;
     std::string mOccluder = "full", mVisibility = "traced";
+    std::optional<double> mRefinementError;
 };
 
 // Bakes in memory with progress on stderr.

@@ -10,6 +10,9 @@ struct GroundOptions {
     float extent = 3.0f;    // Side, in units of the object's largest horizontal or vertical extent.
 };
 
+// Quads a side of a ground that is refined, unless it says its own.
+constexpr int kRefinedGroundQuads = 16;
+
 // What addGround() and scene files accept.
 constexpr int kMostGroundQuads = 4096;
 constexpr float kSmallestGroundExtent = 0.01f, kLargestGroundExtent = 1000.0f;

@@ -61,8 +61,8 @@ std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optio
 // out of range.
 void addGround(Scene& scene, const GroundOptions& options, const std::string& material = "white-diffuse");
 
-// Reads a scene file (JSON: docs/scene_format.md). Mesh paths in it are relative to its folder.
-// Throws Error naming file, key and remedy.
-Scene readScene(const std::filesystem::path& path);
+// Reads a scene file (JSON: docs/scene_format.md). Mesh paths in it are relative to its folder. `ground`:
+// what a ground is like where the file does not say it. Throws Error naming file, key and remedy.
+Scene readScene(const std::filesystem::path& path, const GroundOptions& ground = {});
 
 } // namespace relume

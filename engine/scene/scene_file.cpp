@@ -79,12 +79,11 @@ std::vector<Part> readParts(const Json& json, const std::string& place, const st
     return parts;
 }
 
-void readGround(const Json& json, const std::string& place, Scene& scene) {
+void readGround(const Json& json, const std::string& place, GroundOptions options, Scene& scene) {
     static constexpr std::string_view kKeys[] = {"tessellation", "extent", "material"};
     static const Json kDefaults = Json::object();
     if (json.is_boolean() && !json.get<bool>()) return;
     const JsonObject node(json.is_boolean() ? kDefaults : json, place, kKeys);
-    GroundOptions options;
     const float quads = node.number("tessellation", float(options.tessellation), 1, kMostGroundQuads);
     if (quads != std::floor(quads)) node.fail("tessellation", "a whole number");
     options.tessellation = int(quads);
@@ -94,7 +93,7 @@ void readGround(const Json& json, const std::string& place, Scene& scene) {
 
 } // namespace
 
-Scene readScene(const std::filesystem::path& path) {
+Scene readScene(const std::filesystem::path& path, const GroundOptions& ground) {
     static constexpr std::string_view kKeys[] = {"parts", "ground"};
     const std::string name = path.string();
     const Json document = readJson(path);
@@ -105,7 +104,7 @@ Scene readScene(const std::filesystem::path& path) {
     for (size_t i = 0; i < parts->size(); i++)
         std::ranges::move(readParts((*parts)[i], fmt::format("{}: parts[{}]", name, i), path.parent_path()),
                           std::back_inserter(scene.parts));
-    if (const Json* ground = root.find("ground")) readGround(*ground, name + ": ground", scene);
+    if (const Json* own = root.find("ground")) readGround(*own, name + ": ground", ground, scene);
     for (Part& part : scene.parts) part.materialFolder = path.parent_path();
     return scene;
 }

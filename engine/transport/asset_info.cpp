@@ -79,9 +79,32 @@ std::string describeLayout(const Transport& transport) {
     return "";
 }
 
+// What the options say of how meshes were refined; null if they were not.
+Json refinementOf(const Asset& asset) {
+    const Json options = jsonOrText(asset.provenance.options);
+    return options.is_object() && options.contains("refinement") ? options["refinement"] : Json();
+}
+
+// Empty for records that are none.
+std::string describeRefinement(const Json& record) {
+    const auto number = [&](const char* key) {
+        return record.is_object() && record.contains(key) && record[key].is_number()
+                   ? record[key].get<double>()
+                   : -1;
+    };
+    const double error = number("error"), from = number("start_vertices"), to = number("vertices");
+    if (error < 0 || from < 0 || to < 0) return "";
+    return fmt::format(
+        "interpolation between vertices: {:.2f} % of reflected light as estimated, meshes refined "
+        "from {:.0f} to {:.0f} vertices",
+        100 * error, from, to);
+}
+
 Json describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
     Json list = Json::array();
+    if (const std::string refinement = describeRefinement(refinementOf(asset)); !refinement.empty())
+        list.push_back(refinement);
     list.push_back("transport: " + describeSamples(asset.transportSamples));
     if (asset.coefficients < all)
         list.push_back(
@@ -159,6 +182,7 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t v
                    {"device", asset.provenance.device},
                    {"options", jsonOrText(asset.provenance.options)},
                    {"inputs", jsonOrText(asset.provenance.inputs)}}}};
+    if (const Json refinement = refinementOf(asset); !refinement.is_null()) info["refinement"] = refinement;
     if (asset.provenance.bakedShare) info["preview"] = {{"baked_share", *asset.provenance.bakedShare}};
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "engine/base/error.h"
+#include "precompute/refine/refinement_record.h"
 
 #include <cstdint>
 #include <string>
 
 namespace relume {
 
-enum class BakeStage { Occluder, Factorisation, Sample, Preview, Baking, Writing };
+enum class BakeStage { Occluder, Factorisation, Refinement, Sample, Preview, Baking, Writing };
 
 // Where a bake stands.
 struct BakeStatus {
@@ -25,10 +26,13 @@ class BakeObserver {
     virtual ~BakeObserver() = default;
     // `part` is its name while baking, for a preview too, else empty.
     virtual void stage(BakeStage, const std::string& /*part*/) {}
+    // After the stage Refinement, if there is one.
+    virtual void refined(const RefinementRecord&) {}
     // Before the first block: vertices that a checkpoint holds already, of how many.
     virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
     // After every few tenths of a second of baking; the last time with done == vertices. In
-    // the stages Sample and Preview of the vertices that these take alone.
+    // the stages Sample and Preview of the vertices that these take alone, in the stage Refinement of the
+    // points that a round looks at in a part.
     virtual void progress(const BakeStatus&) {}
     // A preview was written to the output, with such a share of the vertices baked.
     virtual void preview(double /*bakedShare*/) {}

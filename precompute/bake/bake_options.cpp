@@ -27,6 +27,10 @@ void BakeOptions::validate() const {
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});
     expectOneOf("--transport-samples", transportSamples, "1, 4 or 16", {1, 4, 16});
     expectRange("--coefficients", coefficients, 1, 6 * faceSize * faceSize);
+    if (refinement &&
+        !(refinement->wanted >= kLeastRefinementError && refinement->wanted <= kMostRefinementError))
+        throw UsageError("--refine: expected an error of {} to {}, found {}", kLeastRefinementError,
+                         kMostRefinementError, refinement->wanted);
     const int ratio = visibilitySize / faceSize;
     if (transportSamples > ratio * ratio)
         throw UsageError(

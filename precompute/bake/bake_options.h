@@ -3,6 +3,7 @@
 
 #include "precompute/brdf/factorization.h"
 #include "precompute/layout/layout_options.h"
+#include "precompute/refine/refinement_record.h"
 #include "precompute/visibility/visibility.h"
 
 #include <cstddef>
@@ -29,6 +30,9 @@ struct BakeOptions {
     size_t occluderTriangles = 0;
     // Whether a file keeps the visibility it was made from: KeptVisibility. An asset in memory does not.
     bool keepVisibility = false;
+    // None: meshes stay as they are. A bake's options hold what is wanted, an asset's what came of it as
+    // well.
+    std::optional<RefinementRecord> refinement = std::nullopt;
 
     // Throws UsageError naming the option, its valid values and what was given.
     void validate() const;

@@ -13,6 +13,7 @@
 #include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/layout/same_sums.h"
+#include "precompute/refine/refinement.h"
 #include "precompute/visibility/occluder.h"
 
 #include <chrono>
@@ -80,6 +81,15 @@ void makeParts(std::vector<Part> parts, BakePlan& plan) {
                                     part.paintedByColors});
         checkPaint(plan.asset.parts.back());
     }
+}
+
+// The occluder stays what it was: the same surface, with fewer triangles.
+void refineMeshes(BakePlan& plan, BakeObserver& observer) {
+    Asset& asset = plan.asset;
+    RefinementRecord& record = *plan.options.refinement;
+    record = refine(asset.parts, asset.occluder, asset.visibilityOffset, record.wanted, observer);
+    for (AssetPart& part : asset.parts) orderVertices(part.mesh);
+    observer.refined(record);
 }
 
 void cutBlocks(BakePlan& plan) {
@@ -174,6 +184,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     makeParts(std::move(scene.parts), plan);
     plan.factorisationSeconds = secondsSince(stage);
 
+    if (options.refinement) refineMeshes(plan, observer);
     finish(plan);
     return plan;
 }

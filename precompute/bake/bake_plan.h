@@ -34,8 +34,9 @@ struct BakePlan {
     uint64_t vertices() const;
 };
 
-// Puts vertices in bake order (vertex_order.h), makes the occluder and factors the materials. The device only
-// gives its name. Options that leave the visibility's method open give a plan for Traced. Throws Error.
+// Puts vertices in bake order (vertex_order.h), makes the occluder, factors the materials and refines the
+// meshes where `options` ask for it. The device only gives its name. Options that leave the visibility's
+// method open give a plan for Traced. Throws Error.
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer);
 
 // For the meshes, occluder, textures and inputs of a bake that was read without rows (readSkeleton): gives

@@ -2,7 +2,9 @@
 
 #include "engine/base/error.h"
 #include "precompute/brdf/material_json.h"
+#include "precompute/layout/conversion.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -38,6 +40,27 @@ class OptionReader {
         if (!value.is_number() || !(value.get<double>() > 0 && value.get<double>() <= most))
             fail(fmt::format("\"{}\": expected null, or a number above 0 and up to {}", key, most));
         return value.get<double>();
+    }
+
+    // Of bakes that refined their meshes alone.
+    std::optional<RefinementRecord> refinement() {
+        if (!mOptions.contains("refinement")) return std::nullopt;
+        const json& value = take("refinement");
+        const auto number = [&](const char* key) {
+            const auto found = value.is_object() ? value.find(key) : value.end();
+            if (found == value.end() || !found->is_number() || !(found->get<double>() >= 0))
+                fail(fmt::format("\"refinement\": expected an object with numbers, \"{}\" among them", key));
+            return found->get<double>();
+        };
+        const auto count = [&](const char* key) {
+            const double vertices = number(key);
+            if (vertices > double(kMostRefinedVertices) || vertices != std::floor(vertices))
+                fail(fmt::format("\"refinement\": \"{}\": expected a whole number up to {}", key,
+                                 kMostRefinedVertices));
+            return uint64_t(vertices);
+        };
+        return RefinementRecord{number("wanted_error"), number("start_error"), number("error"),
+                                count("start_vertices"), count("vertices")};
     }
 
     // `parse` gives an std::optional, empty for a name it does not know.
@@ -83,7 +106,7 @@ bool isByError(const LayoutOptions& layout) {
 
 std::string describeOptions(const BakeOptions& options) {
     const FactorizationOptions& factorization = options.factorization;
-    return json{
+    json description = {
         {"terms", factorization.terms},
         {"error", factorization.wantedError ? json(*factorization.wantedError) : nullptr},
         {"factorization", factorizationName(factorization.method)},
@@ -98,8 +121,14 @@ std::string describeOptions(const BakeOptions& options) {
         {"transport_samples", options.transportSamples},
         {"occluder_triangles", options.occluderTriangles},
         {"visibility", visibilityMethodName(*options.visibilityMethod)},
-        {"vertex_order", kVertexOrder}}
-        .dump();
+        {"vertex_order", kVertexOrder}};
+    if (const auto& refinement = options.refinement)
+        description["refinement"] = {{"wanted_error", refinement->wanted},
+                                     {"start_error", refinement->startError},
+                                     {"error", refinement->error},
+                                     {"start_vertices", refinement->startVertices},
+                                     {"vertices", refinement->vertices}};
+    return description.dump();
 }
 
 BakeOptions optionsOf(const Asset& asset) {
@@ -123,6 +152,7 @@ BakeOptions optionsOf(const Asset& asset) {
     in.name("vertex_order", [](const std::string& name) {
         return name == kVertexOrder ? std::optional(true) : std::nullopt;
     });
+    options.refinement = in.refinement();
     in.expectEnd();
     try {
         options.validate();
@@ -130,7 +160,9 @@ BakeOptions optionsOf(const Asset& asset) {
         OptionReader::fail(wrong.what());
     }
     if (options.coefficients != asset.coefficients || options.faceSize != asset.faceSize ||
-        options.visibilitySize != asset.visibilitySize || options.transportSamples != asset.transportSamples)
+        options.visibilitySize != asset.visibilitySize ||
+        options.transportSamples != asset.transportSamples ||
+        (options.refinement && options.refinement->vertices != verticesOf(asset)))
         OptionReader::fail("they are not those of what it holds");
     return options;
 }

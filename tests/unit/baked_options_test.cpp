@@ -40,15 +40,25 @@ TEST_CASE("baked options: they come back") {
     clusters.layout = {.layout = TransportLayout::Clusters, .bytesPerVertex = 123.5};
     options.layout.error = 0.03;
     rows.layout = {.layout = TransportLayout::Rows};
+    rows.refinement = {0.01, 0.25, 0.0098, 0, 0};
     for (const BakeOptions& each : {options, clusters, rows, BakeOptions()}) {
         const BakeOptions back = optionsOf(assetOf(each));
         CHECK_EQ(describeOptions(back), describeOptions(each));
         CHECK(back.factorization == each.factorization);
         CHECK(back.layout == each.layout);
+        CHECK(back.refinement == each.refinement);
     }
 }
 
 TEST_CASE("baked options: others are refused") {
+    const auto refined = [](const nlohmann::json& wanted, const nlohmann::json& error,
+                            const nlohmann::json& vertices) {
+        return nlohmann::json{{"wanted_error", wanted},
+                              {"start_error", 1},
+                              {"error", error},
+                              {"start_vertices", 0},
+                              {"vertices", vertices}};
+    };
     const auto change = [](const char* key, const nlohmann::json& value) {
         Asset asset = assetOf({});
         auto options = nlohmann::json::parse(asset.provenance.options);
@@ -57,6 +67,7 @@ TEST_CASE("baked options: others are refused") {
         return asset;
     };
     optionsOf(change("terms", 3)); // that the change itself is no fault
+    optionsOf(change("refinement", refined(0.01, 0.01, 0)));
     for (const auto& [key, value] :
          std::vector<std::pair<const char*, nlohmann::json>>{{"terms", 0},
                                                              {"terms", -1},
@@ -82,6 +93,15 @@ TEST_CASE("baked options: others are refused") {
                                                              {"occluder_triangles", -5},
                                                              {"visibility", "auto"},
                                                              {"vertex_order", "none"},
+                                                             {"refinement", nullptr},
+                                                             {"refinement", 0.01},
+                                                             {"refinement", {{"error", 0.01}}},
+                                                             {"refinement", refined(2, 0.01, 0)},
+                                                             {"refinement", refined(0.01, -1, 0)},
+                                                             {"refinement", refined(0.01, "x", 0)},
+                                                             {"refinement", refined(0.01, 0.01, 1e300)},
+                                                             {"refinement", refined(0.01, 0.01, 0.5)},
+                                                             {"refinement", refined(0.01, 0.01, 1)},
                                                              {"more", 1}}) {
         CAPTURE(key);
         CAPTURE(value.dump());

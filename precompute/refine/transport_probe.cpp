@@ -1,0 +1,105 @@
+#include "precompute/refine/transport_probe.h"
+
+#include "engine/base/check.h"
+#include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
+#include "precompute/cpu/morton.h"
+#include "precompute/layout/light_spectrum.h"
+
+#include <cmath>
+#include <random>
+
+namespace relume {
+
+namespace {
+
+// Root mean square of a term's view maps, over all layers.
+float shownOf(const FactoredBrdf& brdf, int term) {
+    double sum = 0;
+    for (int layer = 0; layer < brdf.layers; layer++)
+        for (size_t texel = 0; texel < brdf.mapTexels(); texel++) {
+            const vec3 value = brdf.viewMap(layer, term)[texel];
+            sum += double(glm::dot(value, value)) / 3;
+        }
+    return float(std::sqrt(sum / double(brdf.mapTexels() * size_t(brdf.layers))));
+}
+
+CpuTransport weightedTransport(const AssetPart& part) {
+    std::vector<FactoredBrdf> weighted;
+    for (const MaterialSet& set : part.sets) {
+        weighted.push_back(set.brdf);
+        FactoredBrdf& brdf = weighted.back();
+        for (int term = 0; term < brdf.terms; term++) {
+            const float shown = shownOf(brdf, term);
+            for (size_t texel = 0; texel < brdf.mapTexels(); texel++)
+                brdf.lightMaps[size_t(term) * brdf.mapTexels() + texel] *= shown;
+        }
+    }
+    std::vector<const FactoredBrdf*> brdfs;
+    for (const FactoredBrdf& brdf : weighted) brdfs.push_back(&brdf);
+    return CpuTransport(brdfs, ProbeLights::kFaceSize, TransportProbe::kVisibilitySize, 1);
+}
+
+} // namespace
+
+ProbeLights::ProbeLights() : mValues(size_t(kCubeFaces * kFaceSize * kFaceSize) * kProbeLights) {
+    constexpr size_t kFaceTexels = size_t(kFaceSize) * kFaceSize;
+    const std::vector<float> spectrum = lightSpectrum(kFaceSize);
+    std::mt19937 random; // the same everywhere
+    std::vector<vec3> face(kFaceTexels);
+    for (size_t light = 0; light < kProbeLights; light++)
+        for (size_t f = 0; f < kCubeFaces; f++) {
+            for (size_t i = 0; i < kFaceTexels; i++)
+                face[i] = vec3(random() & 1 ? spectrum[f * kFaceTexels + i] : -spectrum[f * kFaceTexels + i]);
+            haarInverse(face, kFaceSize);
+            for (size_t i = 0; i < kFaceTexels; i++) {
+                const ivec2 place = mortonPlace(uint32_t(i));
+                mValues[(f * kFaceTexels + i) * kProbeLights + light] =
+                    face[size_t(place.y * kFaceSize + place.x)].x;
+            }
+        }
+}
+
+TransportProbe::TransportProbe(const AssetPart& part, const CpuVisibility& visibility,
+                               const ProbeLights& lights)
+    : mVisibility(visibility), mLights(lights), mTransport(weightedTransport(part)) {
+    RELUME_CHECK_EQ(visibility.texels(), size_t(kCubeFaces * kVisibilitySize * kVisibilitySize));
+}
+
+TransportProbe::Workspace TransportProbe::makeWorkspace() const {
+    Workspace workspace{std::vector<uint64_t>(mVisibility.texels() / 64), mTransport.makeWorkspace(), {}};
+    workspace.sums.resize(size_t(workspace.texels.stride) * kProbeLights);
+    return workspace;
+}
+
+ProbeAnswers TransportProbe::answers(vec3 origin, vec3 normal, Workspace& workspace) const {
+    constexpr size_t kBlock = CpuCoefficients::kBlock;
+    mVisibility.trace(origin, normal, workspace.bits);
+    CpuCoefficients& texels = workspace.texels;
+    mTransport.evaluate(normal, workspace.bits, texels);
+    const auto stride = size_t(texels.stride);
+    ProbeAnswers answers{};
+    std::mt19937_64 random; // a sign for every term and channel of every light: they must not add up
+    for (int group = 0; group < texels.groups; group++) {
+        std::ranges::fill(workspace.sums, 0.0f);
+        for (size_t block = 0; block < texels.blocks.size(); block++)
+            for (size_t i = 0; i < kBlock; i++) {
+                const float* values = texels.block(group, block) + i * stride;
+                const float* light = mLights.texel(texels.blocks[block] * kBlock + i);
+                for (size_t lane = 0; lane < stride; lane++) {
+                    if (values[lane] == 0) continue;
+                    float* sums = &workspace.sums[lane * kProbeLights];
+                    for (size_t j = 0; j < kProbeLights; j++) sums[j] += values[lane] * light[j];
+                }
+            }
+        for (size_t lane = 0; lane < stride; lane++) {
+            const uint64_t signs = random();
+            const float* sums = &workspace.sums[lane * kProbeLights];
+            for (size_t j = 0; j < kProbeLights; j++)
+                answers[j] += (signs >> j & 1) != 0 ? sums[j] : -sums[j];
+        }
+    }
+    return answers;
+}
+
+} // namespace relume
