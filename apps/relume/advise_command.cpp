@@ -19,69 +19,85 @@ struct Arguments {
     StudiedLightArguments light;
     DeviceArguments device;
     double error = 0;
+    bool asIs = false;
     bool json = false;
 };
 
+std::string optionsOf(const BakeOptions& options) {
+    std::string text = fmt::format("--terms {}", options.factorization.terms);
+    if (options.layout.layout == TransportLayout::Rows)
+        text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
+    else
+        text += fmt::format(" --error {:.3g}", options.layout.error);
+    if (options.refinement) text += fmt::format(" --refine {:.3g}", options.refinement->wanted);
+    return text;
+}
+
 nlohmann::ordered_json describe(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
     if (!bake) return nullptr;
-    nlohmann::ordered_json json = {{"terms", bake->options.factorization.terms}};
-    if (bake->options.layout.layout == TransportLayout::Rows)
-        json["coefficients"] = bake->options.coefficients;
-    else
-        json["layout_error"] = bake->options.layout.error;
-    json["error"] = bake->error;
-    json["bytes"] = bake->bytes;
-    json["bytes_per_vertex"] = bake->bytes / double(vertices);
-    json["seconds"] = bake->seconds;
-    return json;
+    return {{"options", optionsOf(bake->options)},
+            {"terms", bake->options.factorization.terms},
+            {"error", bake->error},
+            {"bytes", bake->bytes},
+            {"bytes_per_vertex", bake->bytes / double(vertices)},
+            {"seconds", bake->seconds}};
 }
 
-std::string optionsOf(const BakeOptions& options) {
-    if (options.layout.layout == TransportLayout::Rows)
-        return fmt::format("--terms {} --layout rows --coefficients {}", options.factorization.terms,
-                           options.coefficients);
-    return fmt::format("--terms {} --error {:.3g}", options.factorization.terms, options.layout.error);
+nlohmann::ordered_json describe(const MeshAdvice& advice) {
+    return {{"vertices", advice.vertices},
+            {"bases", describe(advice.bases, advice.vertices)},
+            {"rows", describe(advice.rows, advice.vertices)},
+            {"least_errors", advice.leastErrors}};
 }
 
-void print(const char* title, const AdvisedBake& bake, uint64_t vertices) {
-    fmt::print("{:<12} relume bake … {}\n", title, optionsOf(bake.options));
-    fmt::print("             error {:.4f}, {:.1f} MB of transport ({:.0f} bytes a vertex), about {:.0f} s\n",
-               bake.error, bake.bytes * 1e-6, bake.bytes / double(vertices), bake.seconds);
+void print(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
+    if (!bake) return;
+    fmt::print("  relume bake … {}\n", optionsOf(bake->options));
+    fmt::print("    error {:.4f}, {:.1f} MB of transport ({:.0f} bytes a vertex), baked in about {:.0f} s\n",
+               bake->error, bake->bytes * 1e-6, bake->bytes / double(vertices), bake->seconds);
+}
+
+void print(const char* title, const MeshAdvice& advice) {
+    fmt::print("{}, {} vertices:\n", title, advice.vertices);
+    print(advice.bases, advice.vertices);
+    print(advice.rows, advice.vertices);
+    fmt::print("    least error by terms:");
+    for (size_t terms = 1; terms <= advice.leastErrors.size(); terms = terms < 4 ? terms + 1 : terms + 4)
+        fmt::print("  {}: {:.4f}", terms, advice.leastErrors[terms - 1]);
+    fmt::print("\n");
 }
 
 void print(const Advice& advice) {
-    if (advice.bases) print("in bases:", *advice.bases, advice.vertices);
-    if (advice.rows) print("in rows:", *advice.rows, advice.vertices);
-    fmt::print("least error by K, all coefficients kept:");
-    for (size_t terms = 1; terms <= advice.leastErrors.size(); terms++)
-        if (terms <= 4 || terms % 4 == 0 || terms == advice.leastErrors.size())
-            fmt::print("  {}: {:.4f}", terms, advice.leastErrors[terms - 1]);
-    fmt::print("\n");
+    if (const AdvisedBake* best = advice.best())
+        fmt::print("of fewest bytes: relume bake … {}\n\n", optionsOf(best->options));
+    print("mesh as it is", advice.plain);
+    if (advice.refined) print("refined", *advice.refined);
 }
 
 void run(Arguments& arguments) {
     const StudiedLight light = arguments.light.studied();
-    AdviceRequest request{arguments.scene.load(), arguments.error, {}};
+    AdviceRequest request{arguments.scene.load(false), {}, arguments.error};
+    if (!arguments.asIs) request.refinable = arguments.scene.load(true);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
-    Progress progress("looking", request.points, "points");
+    const size_t points = request.points;
+    Progress progress("looking", points, "points");
     BakeObserver observer;
-    const Advice advice = advise(*device, request, light, observer, [&](double share) {
-        progress.update(uint64_t(double(request.points) * share));
-    });
-    if (arguments.json)
-        fmt::print("{}\n", nlohmann::ordered_json({{"asked", arguments.error},
-                                                   {"vertices", advice.vertices},
-                                                   {"bases", describe(advice.bases, advice.vertices)},
-                                                   {"rows", describe(advice.rows, advice.vertices)},
-                                                   {"least_errors", advice.leastErrors}})
-                               .dump(2));
-    else
+    const Advice advice = advise(*device, std::move(request), light, observer,
+                                 [&](double share) { progress.update(uint64_t(double(points) * share)); });
+    if (arguments.json) {
+        nlohmann::ordered_json json = {{"asked", arguments.error}, {"plain", describe(advice.plain)}};
+        if (advice.refined) json["refined"] = describe(*advice.refined);
+        const AdvisedBake* best = advice.best();
+        json["best"] = best ? nlohmann::ordered_json(optionsOf(best->options)) : nullptr;
+        fmt::print("{}\n", json.dump(2));
+    } else {
         print(advice);
+    }
     DeviceArguments::expectNoMessages(*device);
-    if (!advice.bases && !advice.rows)
+    if (!advice.best())
         throw Error("an error of {} is not reached: with {} terms and all coefficients it is {:.3g}; ask for "
-                    "more, or take a finer mesh",
-                    arguments.error, advice.leastErrors.size(), advice.leastErrors.back());
+                    "a larger one, keep more of the light (--threshold), or take a finer mesh",
+                    arguments.error, advice.plain.leastErrors.size(), advice.bestMesh().leastErrors.back());
 }
 
 } // namespace
@@ -98,6 +114,7 @@ void addAdviseCommand(CLI::App& program) {
         ->type_name("ERROR")
         ->required()
         ->check(between(0.001f, 1));
+    command->add_flag("--as-is", arguments->asIs, "Leave vertices as they are; saves half of the time");
     arguments->light.add(*command);
     arguments->device.add(*command);
     command->add_flag("--json", arguments->json, "Data on stdout instead of words");

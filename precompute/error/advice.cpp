@@ -90,56 +90,110 @@ std::optional<int> termsForBases(const ErrorGrid& grid, size_t rung, double want
     return std::nullopt;
 }
 
-} // namespace
+using Report = std::function<void(double)>;
 
-Advice advise(const vk::Device& device, const AdviceRequest& request, const StudiedLight& light,
-              BakeObserver& observer, const std::function<void(double)>& progress) {
-    if (request.options.factorization.method == Factorization::NonNegative)
-        throw UsageError("advise: terms of factorization \"nonnegative\" are only good together, so that no "
-                         "number of them can be advised; choose another factorization");
-    const auto share = [&](double first, double last) {
-        return [=, &progress](double done) {
-            if (progress) progress(first + (last - first) * done);
-        };
+Report shareOf(const Report& report, double first, double last) {
+    return [=](double done) {
+        if (report) report(first + (last - first) * done);
     };
+}
+
+// In bases, of a plan for the most terms and what a grid says of it.
+std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceRequest& request,
+                                       const Scene& scene, const ErrorGrid& grid, const LightVector& light,
+                                       std::span<const SeenPoints> points, BakeObserver& observer) {
     BakeOptions options = request.options;
-    options.layout = {};
-    options.coefficients = defaultCoefficients(TransportLayout::Bases);
+    const auto rung =
+        size_t(std::ranges::find(kTriedCoefficients, options.coefficients) - kTriedCoefficients.begin());
+    const std::optional<int> terms = termsForBases(grid, rung, request.error);
+    if (!terms) return std::nullopt;
+    options.factorization.terms = *terms;
+    const BakePlan plan = planBake(device, scene, options, observer);
+    std::vector<vec3> eyes;
+    for (const SeenPoints& seen : points) eyes.push_back(seen.eye);
+    const LayoutCosts costs =
+        layoutCosts(device, plan, defaultAppearance(plan.asset), light, eyes, grid, observer);
+    // What is lost by storing is about independent of the rest, so that squares add.
+    const double before = grid.errors[size_t(*terms) - 1][rung];
+    const double left = std::sqrt(request.error * request.error - before * before);
+    const double place = placeOf(costs.errors, left).value_or(double(costs.errors.size() - 1));
+    options.layout.error = valueAt(kTriedLayoutErrors, place);
+    return AdvisedBake{options, std::hypot(before, valueAt(costs.errors, place)), valueAt(costs.bytes, place),
+                       costs.bakeSeconds};
+}
+
+MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, const Scene& scene,
+                      const StudiedLight& light, BakeObserver& observer, const Report& report) {
+    BakeOptions options = request.options;
     options.factorization.terms = kMaxTerms;
-    options.factorization.wantedError.reset();
-    BakePlan plan = planBake(device, request.scene, options, observer);
+    const BakePlan plan = planBake(device, scene, options, observer);
     const Appearance appearance = defaultAppearance(plan.asset);
     const LightVector vector =
         makeLightVector(sampleLight(light.light, plan.asset.faceSize), light.selection);
     const std::vector<SeenPoints> points = seenPoints(plan.asset, request.points);
-    const std::vector<vec3> exact = exactRadiance(plan.asset, appearance, points, light.fine, share(0, 0.2));
-    const ErrorGrid grid = errorGrid(plan.asset, appearance, points, exact, vector, share(0.2, 0.8));
+    const std::vector<vec3> exact =
+        exactRadiance(plan.asset, appearance, points, light.fine, shareOf(report, 0, 0.2));
+    const ErrorGrid grid =
+        errorGrid(plan.asset, appearance, points, exact, vector, shareOf(report, 0.2, 0.8));
 
-    Advice advice;
+    MeshAdvice advice;
     advice.vertices = plan.vertices();
     for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
-    const size_t rung =
-        size_t(std::ranges::find(kTriedCoefficients, options.coefficients) - kTriedCoefficients.begin());
-    const std::optional<int> terms = termsForBases(grid, rung, request.error);
-    if (!terms) return advice;
+    advice.bases = adviseBases(device, request, scene, grid, vector, points, observer);
+    if (advice.rows && advice.bases) // which take as long for a term
+        advice.rows->seconds = advice.bases->seconds * advice.rows->options.factorization.terms /
+                               advice.bases->options.factorization.terms;
+    if (report) report(1);
+    return advice;
+}
 
-    options.factorization.terms = *terms;
-    plan = planBake(device, request.scene, options, observer);
-    std::vector<vec3> eyes;
-    for (const SeenPoints& seen : points) eyes.push_back(seen.eye);
-    const LayoutCosts costs = layoutCosts(device, plan, appearance, vector, eyes, grid, observer);
-    const double before = grid.errors[size_t(*terms) - 1][rung];
-    const double left = std::sqrt(request.error * request.error - before * before);
-    const double place = placeOf(costs.errors, left).value_or(double(costs.errors.size() - 1));
-    AdvisedBake bake{options, std::hypot(before, valueAt(costs.errors, place)), valueAt(costs.bytes, place),
-                     costs.bakeSeconds};
-    bake.options.layout.error = valueAt(kTriedLayoutErrors, place);
-    advice.bases = bake;
-    // Rows take as long, but for their number.
-    if (advice.rows)
-        advice.rows->seconds = costs.bakeSeconds * advice.rows->options.factorization.terms / double(*terms);
-    if (progress) progress(1);
+// The scene as a bake refines it. With a few terms, which differ from vertex to vertex as all of them do.
+Scene refinedScene(const vk::Device& device, const AdviceRequest& request, double wanted,
+                   BakeObserver& observer) {
+    constexpr int kTerms = 4;
+    BakeOptions options = request.options;
+    options.factorization.terms = kTerms;
+    options.refinement = RefinementRecord{.wanted = wanted};
+    const BakePlan plan = planBake(device, *request.refinable, options, observer);
+    Scene scene = *request.refinable;
+    for (size_t part = 0; part < scene.parts.size(); part++)
+        scene.parts[part].mesh = plan.asset.parts[part].mesh;
+    return scene;
+}
+
+const AdvisedBake* bestOf(const MeshAdvice& advice) {
+    return advice.bases ? &*advice.bases : advice.rows ? &*advice.rows : nullptr;
+}
+
+} // namespace
+
+const MeshAdvice& Advice::bestMesh() const {
+    if (!refined || !bestOf(*refined)) return plain;
+    const AdvisedBake* own = bestOf(plain);
+    return !own || bestOf(*refined)->bytes < own->bytes ? *refined : plain;
+}
+
+const AdvisedBake* Advice::best() const { return bestOf(bestMesh()); }
+
+Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLight& light,
+              BakeObserver& observer, const Report& report) {
+    if (request.options.factorization.method == Factorization::NonNegative)
+        throw UsageError("advise: terms of factorization \"nonnegative\" are only good together, so that no "
+                         "number of them can be advised; choose another factorization");
+    request.options.layout = {};
+    request.options.coefficients = defaultCoefficients(TransportLayout::Bases);
+    request.options.factorization.wantedError.reset();
+    request.options.refinement.reset();
+    const double half = request.refinable ? 0.5 : 1;
+    Advice advice{adviseMesh(device, request, request.scene, light, observer, shareOf(report, 0, half)), {}};
+    if (!request.refinable) return advice;
+    // Half of the error for what lies between vertices is a quarter of it, squared.
+    const double wanted = std::clamp(request.error / 2, kLeastRefinementError, kMostRefinementError);
+    const Scene refined = refinedScene(device, request, wanted, observer);
+    advice.refined = adviseMesh(device, request, refined, light, observer, shareOf(report, half, 1));
+    for (auto* bake : {&advice.refined->bases, &advice.refined->rows})
+        if (*bake) (*bake)->options.refinement = RefinementRecord{.wanted = wanted};
     return advice;
 }
 

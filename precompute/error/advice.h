@@ -10,31 +10,42 @@ namespace relume {
 
 struct AdviceRequest {
     Scene scene;
-    double error = 0; // wanted: root mean square over pixels, relative to that of the exact image
-    // All that is not advised on: K, N and the layout with what it may lose.
-    BakeOptions options;
-    size_t points = 600; // that are looked at, over all views
+    // The same as a bake that refines takes it; none: refinement is not considered.
+    std::optional<Scene> refinable;
+    double error = 0;         // wanted: root mean square over pixels, relative to that of the exact image
+    BakeOptions options = {}; // all that is not advised on: K, N, the layout, what it may lose, refinement
+    size_t points = 600;      // that are looked at, over all views
 };
 
 // A bake that gives images of the error.
 struct AdvisedBake {
-    BakeOptions options; // K, N and layout are set
+    BakeOptions options; // K, N, layout and refinement are set
     double error = 0;    // predicted
     double bytes = 0;    // of transport in memory
     double seconds = 0;  // of the bake on this device, from a sample
 };
 
-struct Advice {
+// What can be had of meshes as they are, or as they are refined.
+struct MeshAdvice {
     uint64_t vertices = 0;
-    // By K, from 1: the error with all coefficients and nothing quantised.
-    std::vector<double> leastErrors;
-    // In bases, and in rows; none where the error is not reached.
-    std::optional<AdvisedBake> bases, rows;
+    std::vector<double> leastErrors;        // by K, from 1: with all coefficients and nothing quantised
+    std::optional<AdvisedBake> bases, rows; // of fewest bytes; none where the error is not reached
 };
 
-// Looks at the object from four sides, default appearance. Takes a minute or so. Throws UsageError for
+struct Advice {
+    MeshAdvice plain;
+    std::optional<MeshAdvice> refined;
+
+    // The bake in bases of fewest bytes, or in rows where there is none; null where nothing reaches the
+    // error.
+    const AdvisedBake* best() const;
+    // The mesh that it is of; of the plain one where there is none.
+    const MeshAdvice& bestMesh() const;
+};
+
+// Looks at the object from four sides, default appearance. Takes a minute or a few. Throws UsageError for
 // Factorization::NonNegative, whose terms are only good together, and as planBake() and StageTracer do.
-Advice advise(const vk::Device& device, const AdviceRequest& request, const StudiedLight& light,
+Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLight& light,
               BakeObserver& observer, const std::function<void(double)>& progress = {});
 
 } // namespace relume
