@@ -60,7 +60,7 @@ Section parametersFigure(const SectionInputs& inputs) {
             "Factored as it is, the polar table's first term is that of grazing directions, where f grows "
             "without bound and the outermost centres of the map lie at 89 degrees: nothing is left for "
             "others. "
-            "Weighted by the cosines of both directions it shows what the paper shows.");
+            "Weighted by the cosines of both directions it is a broad highlight over the diffuse part.");
     };
     return section;
 }
