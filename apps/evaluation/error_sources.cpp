@@ -33,7 +33,8 @@ nlohmann::ordered_json describe(const ErrorStudy& study) {
             {"noise", study.noise},
             {"drawn_aside", study.drawnAside},
             {"truth_aside", study.truthAside},
-            {"harmonics", study.lowOrder->error}};
+            {"harmonics", study.lowOrder->error},
+            {"harmonics_of_terms", study.lowOrder->termsError}};
 }
 
 // Of one light: what was drawn, what is true, what harmonics give, and heat.
@@ -55,7 +56,7 @@ nlohmann::ordered_json work(StepRun& run, const Study& study) {
     std::vector<StudiedLight> lights;
     for (const SceneInput& input : study.lights) {
         const SceneLight light = environmentLight(input);
-        lights.push_back({light.light, light.truth, {}});
+        lights.push_back({light.light, light.truth, kUsualLight});
     }
     const ImageSize size = study.quick ? ImageSize{64, 48} : ImageSize{120, 90};
     const auto pixels = uint64_t(size.width) * uint64_t(size.height);
@@ -98,12 +99,13 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
     for (size_t i = 0; i < kErrorSources; i++) parts.columns.emplace_back(errorSourceTitle(ErrorSource(i)));
     ReportTable harmonics{
         "error-harmonics",
-        "Against 25 spherical harmonics, all else exact",
-        {"model", "material", "environment", "relume", "harmonics", "times"},
+        "Against 25 spherical harmonics",
+        {"model", "material", "environment", "relume", "harmonics, same K terms", "harmonics, exact BRDF"},
         {},
-        "Harmonics: the exact BRDF and shadows in the light that is left of the environment "
-        "in the harmonics of degrees 0 to 4, which is what transport in 25 coefficients "
-        "sees. Engines that factor or blur further are farther off."};
+        "Harmonics: what is left of the environment in those of degrees 0 to 4, which is all that "
+        "transport in 25 coefficients sees; shadows exact, nothing interpolated or stored. With "
+        "relume's K terms, the difference to relume is wavelets against harmonics; with the "
+        "exact BRDF it is what no way of relighting with 25 coefficients can better."};
     for (const Study& study : studies)
         for (size_t i = 0; i < study.lights.size(); i++) {
             const auto& numbers = results.at(study.name).numbers.at(i);
@@ -124,10 +126,8 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
                     fmt::format("{} ({:.0f} %)", percent(source.at(0)), 100 * source.at(1).get<double>()));
             parts.rows.push_back(row);
             row = scene;
-            const double low = number(numbers, "harmonics");
-            for (const std::string& cell :
-                 {percent(measured), percent(low), fmt::format("{:.1f}", low / measured)})
-                row.push_back(cell);
+            for (const char* key : {"measured", "harmonics_of_terms", "harmonics"})
+                row.push_back(percent(number(numbers, key)));
             harmonics.rows.push_back(row);
         }
     report.add(std::move(sums));

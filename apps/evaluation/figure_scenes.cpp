@@ -63,7 +63,7 @@ std::optional<Shot> shotOf(const SectionInputs& inputs, const PaperPicture& pict
                   .elevation = picture.elevation,
                   .distance = 1.1f,
                   .light = light,
-                  .images = {{"paper", "the paper's way", recipe(paperOptions(4)), {}},
+                  .images = {{"paper", "the paper's way", recipe(paperOptions(4)), {.selection = {}}},
                              {"usual", "relume's defaults", recipe(usualOptions()), {}}},
                   .effort = referenceEffort(inputs.quick),
                   .seconds = inputs.quick ? 5.0 : 120.0};

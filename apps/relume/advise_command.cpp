@@ -19,6 +19,7 @@ struct Arguments {
     StudiedLightArguments light;
     DeviceArguments device;
     double error = 0;
+    int points = 600;
     bool asIs = false;
     bool json = false;
 };
@@ -77,6 +78,7 @@ void print(const Advice& advice) {
 void run(Arguments& arguments) {
     const StudiedLight light = arguments.light.studied();
     AdviceRequest request{arguments.scene.load(false), {}, arguments.error};
+    request.points = size_t(arguments.points);
     if (!arguments.asIs) request.refinable = arguments.scene.load(true);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const size_t points = request.points;
@@ -114,10 +116,18 @@ void addAdviseCommand(CLI::App& program) {
         ->type_name("ERROR")
         ->required()
         ->check(between(0.001f, 1));
+    command
+        ->add_option("--points", arguments->points, "Points of the surface that are looked at: more is surer")
+        ->type_name("COUNT")
+        ->check(CLI::Range(40, 100000))
+        ->capture_default_str();
     command->add_flag("--as-is", arguments->asIs, "Leave vertices as they are; saves half of the time");
     arguments->light.add(*command);
     arguments->device.add(*command);
     command->add_flag("--json", arguments->json, "Data on stdout instead of words");
+    command->footer("For instance: relume advise bunny.obj --ground -m clay -e forest.exr --error 0.03\n"
+                    "It looks at the object from four sides, under the light as it is given.\n"
+                    "docs/errors.md says how it knows.");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -53,7 +53,8 @@ nlohmann::ordered_json describe(const ErrorStudy& study) {
             {"reference_passes", study.passes},
             {"unexplained_drawing", study.drawnAside},
             {"unexplained_truth", study.truthAside},
-            {"spherical_harmonics", study.lowOrder->error}};
+            {"spherical_harmonics", study.lowOrder->error},
+            {"spherical_harmonics_of_terms", study.lowOrder->termsError}};
 }
 
 void print(const ErrorStudy& study) {
@@ -67,18 +68,22 @@ void print(const ErrorStudy& study) {
                study.measured, study.noise, study.passes);
     fmt::print("not accounted for            {:>8.4f}   of drawing, {:.4f} of the reference\n",
                study.drawnAside, study.truthAside);
-    fmt::print(
-        "spherical harmonics          {:>8.4f}   would be the error of {} coefficients, all else exact\n",
-        study.lowOrder->error, kLowOrder * kLowOrder);
+    fmt::print("{} spherical harmonics       {:>8.4f}   instead, all else exact; {:.4f} with these K terms\n",
+               kLowOrder * kLowOrder, study.lowOrder->error, study.lowOrder->termsError);
 }
 
 void run(const Arguments& arguments) {
+    constexpr uint64_t kMostPixels = 1u << 20; // of which each takes tens of milliseconds
+    const auto pixels = uint64_t(arguments.camera.width) * uint64_t(arguments.camera.height);
+    if (pixels > kMostPixels)
+        throw UsageError("--size: expected at most {} pixels, each of which is traced many thousand times; "
+                         "found {}",
+                         kMostPixels, pixels);
     const Asset asset = readAsset(arguments.file);
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const StudiedLight light = arguments.light.studied();
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
-    const auto pixels = uint64_t(view.width) * uint64_t(view.height);
     Progress progress("tracing", pixels, "pixels");
     const ErrorStudies studies =
         studyErrors(*device, asset, appearance, std::span(&light, 1), {.view = view, .lowOrder = kLowOrder},
@@ -110,6 +115,8 @@ void addErrorsCommand(CLI::App& program) {
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     command->add_flag("--json", arguments->json, "Data on stdout instead of a table");
+    command->footer("Errors are root mean squares over pixels, relative to that of the exact image.\n"
+                    "docs/errors.md explains every source.");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -123,7 +123,7 @@ void run(const Arguments& arguments) {
         commands.begin();
         if (lightChanges) {
             light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
-                         arguments.selection.selection);
+                         arguments.selection.selection());
             relighter.record(commands, light, appearance);
         }
         view.record(commands, arguments.camera.camera(asset, turnsCamera ? angle : 0), relighter);

@@ -5,19 +5,27 @@
 namespace relume {
 
 void SelectionArguments::add(CLI::App& command) {
-    CLI::Option* threshold = command
-                                 .add_option("--threshold", selection.threshold,
-                                             "Drop light coefficients below this, where the largest is 32767")
-                                 ->check(CLI::Range(0, kLightMaximum))
-                                 ->capture_default_str();
-    command
-        .add_option("--coefficients", selection.count,
-                    "Keep so many light coefficients, the largest, instead")
+    CLI::Option* threshold =
+        command
+            .add_option("--threshold", mThreshold,
+                        "Drop light coefficients below this, where the largest is 32767; the paper's is 1024")
+            ->type_name("VALUE")
+            ->check(CLI::Range(0, kLightMaximum));
+    command.add_option("--coefficients", mCount, "Keep so many light coefficients, the largest, instead")
         ->type_name("COUNT")
         ->check(CLI::Range(1, int(kMaximumLightEntries)))
+        ->default_str(std::to_string(*kUsualLight.count))
         ->excludes(threshold);
-    command.add_flag("--area-weighted", selection.areaWeighted,
+    command.add_flag("--area-weighted", mAreaWeighted,
                      "Weigh light coefficients by the area of their functions when selecting");
+}
+
+LightSelection SelectionArguments::selection() const {
+    LightSelection selection = kUsualLight;
+    if (mThreshold) selection = {.threshold = *mThreshold};
+    if (mCount) selection.count = mCount;
+    selection.areaWeighted = mAreaWeighted;
+    return selection;
 }
 
 } // namespace relume

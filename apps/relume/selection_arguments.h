@@ -1,16 +1,20 @@
 // --threshold, --coefficients, --area-weighted: which coefficients of the light are kept.
 #pragma once
 
-#include "engine/light/light_selection.h"
+#include "engine/light/usual_light.h"
 
 #include <CLI/CLI.hpp>
 
 namespace relume {
 
-struct SelectionArguments {
-    LightSelection selection;
-
+class SelectionArguments {
+  public:
     void add(CLI::App& command);
+    LightSelection selection() const; // kUsualLight, unless something else is asked for
+
+  private:
+    std::optional<int> mThreshold, mCount;
+    bool mAreaWeighted = false;
 };
 
 } // namespace relume

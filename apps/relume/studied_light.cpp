@@ -12,13 +12,13 @@ StudiedLight StudiedLightArguments::studied() const {
     const float rotation = radians(light.rotationDegrees);
     if (!light.isEnvironment()) {
         const Light all = turned(light.light(), rotation);
-        return {all, sampleLight(all, kTruthFaceSize), selection.selection};
+        return {all, sampleLight(all, kTruthFaceSize), selection.selection()};
     }
     const Environment map = light.environment();
     const auto prepared = std::make_shared<const Environment>(prepareForSampling(map));
     return {{.environments = {{prepared, rotation}}},
             sampleEnvironment(prepareForSampling(map, kFineWidth), kTruthFaceSize, rotation),
-            selection.selection};
+            selection.selection()};
 }
 
 } // namespace relume

@@ -1,8 +1,8 @@
 // What lights the object, as hands choose it, and the light that it stands for.
 #pragma once
 
-#include "engine/light/light_selection.h"
 #include "engine/light/moving_light.h"
+#include "engine/light/usual_light.h"
 
 #include <filesystem>
 #include <memory>
@@ -51,9 +51,6 @@ struct StrokeChoice {
     bool operator==(const StrokeChoice&) const = default;
 };
 
-// Lights with a sun keep the sky beside it with these, which the default threshold may drop.
-constexpr int kDefaultCoefficients = 512;
-
 struct LightState {
     std::vector<EnvironmentChoice> environments; // at least one
     size_t environment = 0;
@@ -67,7 +64,7 @@ struct LightState {
     std::filesystem::path fileName;
     double seconds = 0; // of a light file that moves
     bool plays = false;
-    LightSelection selection = {.count = kDefaultCoefficients};
+    LightSelection selection = kUsualLight;
 
     const EnvironmentChoice& chosen() const { return environments[environment]; }
     bool isDay() const { return !file && chosen().kind == EnvironmentChoice::Kind::DaySky; }

@@ -26,6 +26,10 @@ std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
         SeenPoints& seen = views.emplace_back(SeenPoints{camera.eye, {}});
         for (size_t i = 0; i < own; i++) seen.hits.push_back(hits[(2 * i + 1) * hits.size() / (2 * own)]);
     }
+    if (std::ranges::all_of(views, [](const SeenPoints& seen) { return seen.hits.empty(); }))
+        throw UsageError("advise: nothing of the scene is seen from any of {} sides: is it smaller than its "
+                         "position can be told apart?",
+                         kViews);
     return views;
 }
 

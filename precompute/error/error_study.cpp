@@ -1,6 +1,6 @@
 #include "precompute/error/error_study.h"
 
-#include "engine/base/check.h"
+#include "engine/base/error.h"
 #include "engine/render/view_pass.h"
 #include "precompute/error/low_order_light.h"
 
@@ -68,23 +68,29 @@ StageLight stageLight(const Light& light, const LightCube& fine, int faceSize,
     return {std::move(vector), std::move(coarse), fine};
 }
 
-// Only its last stage is looked at.
-StageLight lowOrderStage(const LightCube& fine, int order, int faceSize) {
-    const LightCube black{faceSize, std::vector<vec3>(size_t(6 * faceSize * faceSize), vec3(0))};
-    return {makeLightVector(black), black, lowOrderLight(fine, order)};
+// Stages before kTermsStage are not looked at.
+StageLight lowOrderStage(const StageLight& light, int order) {
+    return {light.drawn, lowOrderLight(light.coarse, order), lowOrderLight(light.fine, order)};
+}
+constexpr size_t kTermsStage = size_t(ErrorSource::Interpolation) + 1; // K terms, all before them exact
+
+// Against the truth in `exact`.
+double errorOf(std::span<const StageRadiance> stages, size_t stage, std::span<const StageRadiance> exact,
+               double level) {
+    double sum = 0;
+    for (size_t i = 0; i < stages.size(); i++) {
+        const glm::dvec3 difference =
+            glm::dvec3(glm::max(stages[i][stage], vec3(0))) - glm::dvec3(exact[i][kErrorSources]);
+        sum += glm::dot(difference, difference);
+    }
+    return level > 0 ? std::sqrt(sum / (3 * double(stages.size()))) / level : 0;
 }
 
 LowOrderStudy studyLowOrder(const ViewPoints& points, std::span<const StageRadiance> low,
                             const ErrorStudy& study) {
-    LowOrderStudy result{points.image([&](size_t i) { return glm::max(low[i][kErrorSources], vec3(0)); })};
-    double sum = 0;
-    for (size_t i = 0; i < low.size(); i++) {
-        const glm::dvec3 difference =
-            glm::dvec3(glm::max(low[i][kErrorSources], vec3(0))) - glm::dvec3(study.stages[i][kErrorSources]);
-        sum += glm::dot(difference, difference);
-    }
-    if (study.budget.level > 0) result.error = std::sqrt(sum / (3 * double(low.size()))) / study.budget.level;
-    return result;
+    return {points.image([&](size_t i) { return glm::max(low[i][kErrorSources], vec3(0)); }),
+            errorOf(low, kErrorSources, study.stages, study.budget.level),
+            errorOf(low, kTermsStage, study.stages, study.budget.level)};
 }
 
 } // namespace
@@ -95,14 +101,17 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
     const ErrorView& view = options.view;
     ErrorStudies studies{viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height), {}};
     const ViewPoints& points = studies.points;
+    if (points.hits.empty())
+        throw UsageError("none of {} x {} pixels shows the asset: choose another view", view.width,
+                         view.height);
     const std::vector<Image> drawn = draw(device, asset, appearance, lights, view);
 
     std::vector<StageLight> stageLights;
     for (const StudiedLight& studied : lights)
         stageLights.push_back(stageLight(studied.light, studied.fine, asset.faceSize, studied.selection));
     if (options.lowOrder > 0)
-        for (const StudiedLight& studied : lights)
-            stageLights.push_back(lowOrderStage(studied.fine, options.lowOrder, asset.faceSize));
+        for (size_t i = 0; i < lights.size(); i++)
+            stageLights.push_back(lowOrderStage(stageLights[i], options.lowOrder));
     constexpr double kStagesShare = 0.85; // of the work, roughly
     const auto stagesProgress = [&](double share) {
         if (progress) progress(kStagesShare * share);

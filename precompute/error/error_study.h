@@ -21,11 +21,11 @@ struct StudiedLight {
     LightSelection selection;
 };
 
-// What low-order spherical harmonics would give, all else exact: the truth under lowOrderLight() of the fine
-// light.
+// What low-order spherical harmonics would give.
 struct LowOrderStudy {
-    Image image; // linear, clamped at zero
-    double error = 0;
+    Image image;           // all else exact: the truth under lowOrderLight(); linear, clamped at zero
+    double error = 0;      // of that
+    double termsError = 0; // with the K terms of the bake, under lowOrderLight() of 6 F² texels
 };
 
 // Of one light. Root mean squares relative to that of the truth.

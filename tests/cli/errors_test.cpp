@@ -1,0 +1,107 @@
+// Errors taken apart, and advice that holds.
+#include "tests/support/run_relume.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace relume::test;
+using Json = nlohmann::json;
+
+namespace {
+
+Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
+    const Outcome outcome = runRelume(folder, arguments, "LP_NUM_THREADS=0");
+    REQUIRE_MESSAGE(outcome.exitCode == 0, arguments << ": " << outcome.err);
+    return outcome;
+}
+
+Json errorsOf(const TemporaryFolder& folder, const std::string& arguments) {
+    return Json::parse(run(folder, "errors " + arguments + " --size 24x18 --json").out);
+}
+
+double rms(const Json& errors, const char* source) { return errors["sources"][source]["rms"]; }
+
+} // namespace
+
+TEST_CASE("errors: the sources sum to what is measured, in rows and bases") {
+    const TemporaryFolder folder;
+    run(folder, "bake sphere --ground --ground-tessellation 10 -m ashikhmin-shirley -K 3 -N 48 "
+                "--visibility-size 64 --map-size 24 --layout rows -q -o rows.relume");
+    run(folder, "convert rows.relume --layout bases --error 0.2 -q -o bases.relume");
+    const Json rows = errorsOf(folder, "rows.relume"), bases = errorsOf(folder, "bases.relume");
+    for (const Json& errors : {rows, bases}) {
+        CAPTURE(errors.dump(2));
+        const double measured = errors["measured"], total = errors["total"];
+        CHECK(measured > 0.02);
+        CHECK(std::abs(total - measured) < 0.15 * measured);
+        CHECK(errors["unexplained_drawing"].get<double>() < 1e-3);
+        CHECK(errors["unexplained_truth"].get<double>() < 0.3 * measured);
+        double shares = 0;
+        for (const Json& source : errors["sources"]) shares += source["share"].get<double>();
+        CHECK(shares == doctest::Approx(1).epsilon(1e-6));
+    }
+    CHECK(rms(bases, "storage") > 3 * rms(rows, "storage"));
+    CHECK(rms(bases, "terms") == doctest::Approx(rms(rows, "terms")));
+
+    const Json all = errorsOf(folder, "rows.relume --threshold 0");
+    CHECK(rms(all, "light_selection") < 0.1 * rms(rows, "light_selection"));
+}
+
+TEST_CASE("errors: images and heat maps of every source are written") {
+    const TemporaryFolder folder;
+    run(folder, "bake sphere -m clay -K 1 --visibility-size 64 --face-size 32 --map-size 16 -q -o a.relume");
+    std::filesystem::create_directory(folder.path() / "images");
+    run(folder, "errors a.relume --size 16x12 --images images");
+    for (const char* name : {"drawn.exr", "reference.exr", "harmonics.exr", "total.png", "terms.png",
+                             "interpolation.png", "visibility.png"})
+        CHECK(std::filesystem::file_size(folder.path() / "images" / name) > 50);
+}
+
+TEST_CASE("errors: what it cannot look at is said") {
+    const TemporaryFolder folder;
+    run(folder, "bake sphere -m clay -K 1 --visibility-size 64 --face-size 32 --map-size 16 -q -o a.relume");
+    const auto fails = [&](const std::string& arguments, int code, const std::string& what) {
+        const Outcome outcome = runRelume(folder, arguments, "LP_NUM_THREADS=0");
+        CAPTURE(outcome.err);
+        CHECK_EQ(outcome.exitCode, code);
+        CHECK(says(outcome.err, what));
+    };
+    fails("errors a.relume --size 16x12 --eye 9,0,0 --target 99,0,0", 2, "another view");
+    fails("errors a.relume --size 9000x9000", 2, "--size");
+    fails("errors a.relume --images nowhere", 2, "nowhere");
+    fails("advise sphere", 2, "--error");
+    fails("advise sphere --error 0", 2, "--error");
+}
+
+TEST_CASE("advise: a bake of its options has the error that was asked for") {
+    const TemporaryFolder folder;
+    const std::string scene = "torus -m gold";
+    const Outcome outcome = run(folder, "advise " + scene + " --error 0.1 --as-is --points 160 --json");
+    const Json advice = Json::parse(outcome.out);
+    CAPTURE(advice.dump(2));
+    CHECK_EQ(advice["asked"], 0.1);
+    for (const char* layout : {"bases", "rows"}) {
+        const Json& own = advice["plain"][layout];
+        REQUIRE(own.is_object());
+        CHECK(own["error"].get<double>() == doctest::Approx(0.1).epsilon(0.02));
+        const std::string options = own["options"];
+        run(folder, "bake " + scene + " " + options + " -q -o " + layout + ".relume");
+        double squares = 0;
+        for (const char* view : {"30,15,1", "120,15,1"})
+            squares += std::pow(
+                errorsOf(folder, std::string(layout) + ".relume --orbit " + view)["total"].get<double>(), 2);
+        CHECK(std::sqrt(squares / 2) == doctest::Approx(0.1).epsilon(0.3));
+        const Json info = Json::parse(run(folder, "info " + std::string(layout) + ".relume --json").out);
+        const double bytes = info["total"]["bytes_per_vertex"];
+        CHECK(bytes == doctest::Approx(own["bytes_per_vertex"].get<double>()).epsilon(0.35));
+    }
+}
+
+TEST_CASE("advise: an error out of reach says what is in reach") {
+    const TemporaryFolder folder;
+    const Outcome outcome = runRelume(
+        folder, "advise torus -m ashikhmin-shirley --error 0.001 --as-is --points 40", "LP_NUM_THREADS=0");
+    CHECK_EQ(outcome.exitCode, 1);
+    CHECK(says(outcome.err, "not reached"));
+    CHECK(says(outcome.out, "least error by terms"));
+}
