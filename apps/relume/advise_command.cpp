@@ -24,7 +24,7 @@ struct Arguments {
     bool json = false;
 };
 
-std::string optionsOf(const BakeOptions& options) {
+std::string commandLineOf(const BakeOptions& options) {
     std::string text = fmt::format("--terms {}", options.factorization.terms);
     if (options.layout.layout == TransportLayout::Rows)
         text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
@@ -36,12 +36,12 @@ std::string optionsOf(const BakeOptions& options) {
 
 nlohmann::ordered_json describe(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
     if (!bake) return nullptr;
-    return {{"options", optionsOf(bake->options)},
+    return {{"options", commandLineOf(bake->options)},
             {"terms", bake->options.factorization.terms},
             {"error", bake->error},
-            {"bytes", bake->bytes},
-            {"bytes_per_vertex", bake->bytes / double(vertices)},
-            {"seconds", bake->seconds}};
+            {"bytes", uint64_t(bake->bytes)},
+            {"bytes_per_vertex", uint64_t(bake->bytes / double(vertices))},
+            {"seconds", bake->seconds ? nlohmann::ordered_json(*bake->seconds) : nullptr}};
 }
 
 nlohmann::ordered_json describe(const MeshAdvice& advice) {
@@ -53,9 +53,10 @@ nlohmann::ordered_json describe(const MeshAdvice& advice) {
 
 void print(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
     if (!bake) return;
-    fmt::print("  relume bake … {}\n", optionsOf(bake->options));
-    fmt::print("    error {:.4f}, {:.1f} MB of transport ({:.0f} bytes a vertex), baked in about {:.0f} s\n",
-               bake->error, bake->bytes * 1e-6, bake->bytes / double(vertices), bake->seconds);
+    fmt::print("  relume bake … {}\n", commandLineOf(bake->options));
+    const std::string time = bake->seconds ? fmt::format(", baked in about {:.0f} s", *bake->seconds) : "";
+    fmt::print("    error {:.4f}, {:.1f} MB of transport ({:.0f} bytes a vertex){}\n", bake->error,
+               bake->bytes * 1e-6, bake->bytes / double(vertices), time);
 }
 
 void print(const char* title, const MeshAdvice& advice) {
@@ -70,7 +71,7 @@ void print(const char* title, const MeshAdvice& advice) {
 
 void print(const Advice& advice) {
     if (const AdvisedBake* best = advice.best())
-        fmt::print("of fewest bytes: relume bake … {}\n\n", optionsOf(best->options));
+        fmt::print("of fewest bytes: relume bake … {}\n\n", commandLineOf(best->options));
     print("mesh as it is", advice.plain);
     if (advice.refined) print("refined", *advice.refined);
 }
@@ -90,16 +91,21 @@ void run(Arguments& arguments) {
         nlohmann::ordered_json json = {{"asked", arguments.error}, {"plain", describe(advice.plain)}};
         if (advice.refined) json["refined"] = describe(*advice.refined);
         const AdvisedBake* best = advice.best();
-        json["best"] = best ? nlohmann::ordered_json(optionsOf(best->options)) : nullptr;
+        json["best"] = best ? nlohmann::ordered_json(commandLineOf(best->options)) : nullptr;
         fmt::print("{}\n", json.dump(2));
     } else {
         print(advice);
     }
     DeviceArguments::expectNoMessages(*device);
-    if (!advice.best())
-        throw Error("an error of {} is not reached: with {} terms and all coefficients it is {:.3g}; ask for "
-                    "a larger one, keep more of the light (--threshold), or take a finer mesh",
-                    arguments.error, advice.plain.leastErrors.size(), advice.bestMesh().leastErrors.back());
+    if (!advice.best()) {
+        double least = std::ranges::min(advice.plain.leastErrors);
+        if (advice.refined) least = std::min(least, std::ranges::min(advice.refined->leastErrors));
+        throw Error(
+            "an error of {} is not reached: with all coefficients and as many as {} terms it is {:.3g}; "
+            "ask for a larger one, keep more of the light (--coefficients, here of the light), or take "
+            "a finer mesh",
+            arguments.error, kMaxTerms, least);
+    }
 }
 
 } // namespace
@@ -119,15 +125,17 @@ void addAdviseCommand(CLI::App& program) {
     command
         ->add_option("--points", arguments->points, "Points of the surface that are looked at: more is surer")
         ->type_name("COUNT")
-        ->check(CLI::Range(40, 100000))
+        ->check(CLI::Range(40, 40000))
         ->capture_default_str();
-    command->add_flag("--as-is", arguments->asIs, "Leave vertices as they are; saves half of the time");
+    command->add_flag("--as-is", arguments->asIs, "Leave vertices as they are; takes half as long, about");
     arguments->light.add(*command);
     arguments->device.add(*command);
     command->add_flag("--json", arguments->json, "Data on stdout instead of words");
-    command->footer("For instance: relume advise bunny.obj --ground -m clay -e forest.exr --error 0.03\n"
-                    "It looks at the object from four sides, under the light as it is given.\n"
-                    "docs/errors.md says how it knows.");
+    command->footer(
+        "For instance: relume advise bunny.obj --ground -m clay -e forest.exr --error 0.03\n"
+        "It looks at the object from four sides, under the light as it is given.\n"
+        "What it prints are options of `relume bake`, whose --error is that of its transport and\n"
+        "whose --coefficients are those of rows. docs/errors.md says how it knows.");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -28,6 +28,8 @@ constexpr int kLowOrder = 5; // 25 coefficients: what most engines keep
 
 void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, const ViewPoints& points) {
     constexpr int kScale = 4;
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure); // writing says why not
     const double full = fullHeat(study);
     writeExr(folder / "drawn.exr", study.drawn);
     writeExr(folder / "reference.exr", study.reference);
@@ -73,13 +75,17 @@ void print(const ErrorStudy& study) {
 }
 
 void run(const Arguments& arguments) {
-    constexpr uint64_t kMostPixels = 1u << 20; // of which each takes tens of milliseconds
+    constexpr uint64_t kMostPixels = 1u << 18; // of which each takes tens of milliseconds: hours
     const auto pixels = uint64_t(arguments.camera.width) * uint64_t(arguments.camera.height);
     if (pixels > kMostPixels)
         throw UsageError("--size: expected at most {} pixels, each of which is traced many thousand times; "
                          "found {}",
                          kMostPixels, pixels);
     const Asset asset = readAsset(arguments.file);
+    if (asset.provenance.bakedShare)
+        throw Error(
+            "{}: is a preview, whose rows are interpolated for the most part; wait for the bake to end",
+            arguments.file);
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const StudiedLight light = arguments.light.studied();
@@ -111,9 +117,8 @@ void addErrorsCommand(CLI::App& program) {
     arguments->device.add(*command);
     command
         ->add_option("--images", arguments->images,
-                     "Also write the images and a heat map of every source into this folder, which exists")
-        ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory);
+                     "Also write the images and a heat map of every source into this folder")
+        ->type_name("FOLDER");
     command->add_flag("--json", arguments->json, "Data on stdout instead of a table");
     command->footer("Errors are root mean squares over pixels, relative to that of the exact image.\n"
                     "docs/errors.md explains every source.");

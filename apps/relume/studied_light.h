@@ -12,7 +12,8 @@ struct StudiedLightArguments {
     SelectionArguments selection;
 
     void add(CLI::App& command);
-    // At the moment that the options name; a single environment's fine cube has its full resolution.
+    // At the moment that the options name; a single environment's fine cube has all of its
+    // resolution that 6 × kTruthFaceSize² texels can hold.
     StudiedLight studied() const;
 };
 

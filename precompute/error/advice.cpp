@@ -1,9 +1,11 @@
 #include "precompute/error/advice.h"
 
+#include "engine/base/check.h"
 #include "precompute/error/error_grid.h"
 #include "precompute/error/layout_costs.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace relume {
@@ -14,7 +16,7 @@ constexpr size_t kRungs = kTriedCoefficients.size();
 
 // From four sides, a little from above.
 std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
-    constexpr int kViews = 4, kWidth = 128, kHeight = 96;
+    constexpr int kViews = 4, kWidth = 320, kHeight = 240;
     const RayTracer tracer(partMeshes(asset));
     std::vector<SeenPoints> views;
     for (int view = 0; view < kViews; view++) {
@@ -27,8 +29,8 @@ std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
         for (size_t i = 0; i < own; i++) seen.hits.push_back(hits[(2 * i + 1) * hits.size() / (2 * own)]);
     }
     if (std::ranges::all_of(views, [](const SeenPoints& seen) { return seen.hits.empty(); }))
-        throw UsageError("advise: nothing of the scene is seen from any of {} sides: is it smaller than its "
-                         "position can be told apart?",
+        throw UsageError("advise: none of {} views shows the scene: it is a surface seen from its edge, or "
+                         "too small for its distance from the origin",
                          kViews);
     return views;
 }
@@ -58,10 +60,14 @@ double rowBytes(const Asset& asset, const ErrorGrid& grid, size_t terms, double 
     constexpr double kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t),
                      kRowBytes = sizeof(float) + sizeof(uint64_t);
     double bytes = 0;
-    for (size_t part = 0; part < asset.parts.size(); part++)
-        for (size_t term = 0; term < std::min(terms, grid.entries[part].size()); term++)
-            bytes += double(asset.parts[part].mesh.vertexCount()) *
-                     (kRowBytes + kEntryBytes * valueAt(grid.entries[part][term], place));
+    for (size_t part = 0; part < asset.parts.size(); part++) {
+        const auto& entries = grid.entries[part]; // of the worn set: others are taken to have as many
+        for (const MaterialSet& set : asset.parts[part].sets)
+            for (size_t term = 0; term < std::min(terms, size_t(set.brdf.terms)); term++)
+                bytes +=
+                    double(asset.parts[part].mesh.vertexCount()) *
+                    (kRowBytes + kEntryBytes * valueAt(entries[std::min(term, entries.size() - 1)], place));
+    }
     return bytes;
 }
 
@@ -109,6 +115,7 @@ std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceReq
     BakeOptions options = request.options;
     const auto rung =
         size_t(std::ranges::find(kTriedCoefficients, options.coefficients) - kTriedCoefficients.begin());
+    RELUME_CHECK_LT(rung, kRungs);
     const std::optional<int> terms = termsForBases(grid, rung, request.error);
     if (!terms) return std::nullopt;
     options.factorization.terms = *terms;
@@ -120,14 +127,16 @@ std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceReq
     // What is lost by storing is about independent of the rest, so that squares add.
     const double before = grid.errors[size_t(*terms) - 1][rung];
     const double left = std::sqrt(request.error * request.error - before * before);
-    const double place = placeOf(costs.errors, left).value_or(double(costs.errors.size() - 1));
-    options.layout.error = valueAt(kTriedLayoutErrors, place);
-    return AdvisedBake{options, std::hypot(before, valueAt(costs.errors, place)), valueAt(costs.bytes, place),
-                       costs.bakeSeconds};
+    const std::optional<double> place = placeOf(costs.errors, left);
+    if (!place) return std::nullopt;
+    options.layout.error = valueAt(kTriedLayoutErrors, *place);
+    return AdvisedBake{options, std::hypot(before, valueAt(costs.errors, *place)),
+                       valueAt(costs.bytes, *place), costs.bakeSeconds};
 }
 
 MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, const Scene& scene,
-                      const StudiedLight& light, BakeObserver& observer, const Report& report) {
+                      const StudiedLight& light, double secondsBefore, BakeObserver& observer,
+                      const Report& report) {
     BakeOptions options = request.options;
     options.factorization.terms = kMaxTerms;
     const BakePlan plan = planBake(device, scene, options, observer);
@@ -145,8 +154,9 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
     advice.bases = adviseBases(device, request, scene, grid, vector, points, observer);
+    if (advice.bases) *advice.bases->seconds += secondsBefore;
     if (advice.rows && advice.bases) // which take as long for a term
-        advice.rows->seconds = advice.bases->seconds * advice.rows->options.factorization.terms /
+        advice.rows->seconds = *advice.bases->seconds * advice.rows->options.factorization.terms /
                                advice.bases->options.factorization.terms;
     if (report) report(1);
     return advice;
@@ -167,7 +177,14 @@ Scene refinedScene(const vk::Device& device, const AdviceRequest& request, doubl
 }
 
 const AdvisedBake* bestOf(const MeshAdvice& advice) {
-    return advice.bases ? &*advice.bases : advice.rows ? &*advice.rows : nullptr;
+    if (!advice.bases) return advice.rows ? &*advice.rows : nullptr;
+    return advice.rows && advice.rows->bytes < advice.bases->bytes ? &*advice.rows : &*advice.bases;
+}
+
+uint64_t verticesOf(const Scene& scene) {
+    uint64_t vertices = 0;
+    for (const Part& part : scene.parts) vertices += part.mesh.vertexCount();
+    return vertices;
 }
 
 } // namespace
@@ -189,13 +206,17 @@ Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLigh
     request.options.coefficients = defaultCoefficients(TransportLayout::Bases);
     request.options.factorization.wantedError.reset();
     request.options.refinement.reset();
+    if (request.refinable && verticesOf(*request.refinable) > kMostRefinedVertices) request.refinable.reset();
     const double half = request.refinable ? 0.5 : 1;
-    Advice advice{adviseMesh(device, request, request.scene, light, observer, shareOf(report, 0, half)), {}};
+    Advice advice{adviseMesh(device, request, request.scene, light, 0, observer, shareOf(report, 0, half)),
+                  {}};
     if (!request.refinable) return advice;
     // Half of the error for what lies between vertices is a quarter of it, squared.
     const double wanted = std::clamp(request.error / 2, kLeastRefinementError, kMostRefinementError);
+    const auto start = std::chrono::steady_clock::now();
     const Scene refined = refinedScene(device, request, wanted, observer);
-    advice.refined = adviseMesh(device, request, refined, light, observer, shareOf(report, half, 1));
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    advice.refined = adviseMesh(device, request, refined, light, seconds, observer, shareOf(report, half, 1));
     for (auto* bake : {&advice.refined->bases, &advice.refined->rows})
         if (*bake) (*bake)->options.refinement = RefinementRecord{.wanted = wanted};
     return advice;

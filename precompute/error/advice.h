@@ -22,14 +22,17 @@ struct AdvisedBake {
     BakeOptions options; // K, N, layout and refinement are set
     double error = 0;    // predicted
     double bytes = 0;    // of transport in memory
-    double seconds = 0;  // of the bake on this device, from a sample
+    // Of the bake on this device, refinement included, from a sample; none: not known.
+    std::optional<double> seconds;
 };
 
 // What can be had of meshes as they are, or as they are refined.
 struct MeshAdvice {
     uint64_t vertices = 0;
-    std::vector<double> leastErrors;        // by K, from 1: with all coefficients and nothing quantised
-    std::optional<AdvisedBake> bases, rows; // of fewest bytes; none where the error is not reached
+    std::vector<double> leastErrors; // by K, from 1: with all coefficients and nothing quantised
+    // Rows of the fewest bytes; bases of the least K that leaves them some of the error. None where the error
+    // is not reached.
+    std::optional<AdvisedBake> bases, rows;
 };
 
 struct Advice {
@@ -43,8 +46,9 @@ struct Advice {
     const MeshAdvice& bestMesh() const;
 };
 
-// Looks at the object from four sides, default appearance. Takes a minute or a few. Throws UsageError for
-// Factorization::NonNegative, whose terms are only good together, and as planBake() and StageTracer do.
+// Looks at the object from four sides, default appearance. Takes minutes. Meshes of more than
+// kMostRefinedVertices are left as they are. Throws UsageError for Factorization::NonNegative, whose terms
+// are only good together, and as planBake() and StageTracer do.
 Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLight& light,
               BakeObserver& observer, const std::function<void(double)>& progress = {});
 

@@ -15,7 +15,7 @@ struct SourceError {
 struct ErrorBudget {
     double level = 0;          // root mean square of the truth's radiance, over points and channels
     double total = 0;          // √ mean D², relative to that
-    double uncertainty = 0;    // standard error of `total`, as points are a sample of the pixels
+    double uncertainty = 0;    // standard error of `total`, were points a random sample of a finer image's
     double rootSumSquares = 0; // of the sources' rms: `total`, were they independent of each other
     std::array<SourceError, kErrorSources> sources;
 };

@@ -1,6 +1,7 @@
 #include "precompute/error/error_grid.h"
 
 #include "engine/base/check.h"
+#include "engine/base/error.h"
 #include "precompute/error/shared_progress.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/reference/transport_stages.h"
@@ -38,19 +39,19 @@ struct Ladder {
 
 Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light) {
     std::vector<uint32_t> order;
-    for (uint32_t i = 0; i < coefficients.size(); i++)
-        if (coefficients[i] != vec3(0)) order.push_back(i);
+    float scale = 0;
+    for (uint32_t i = 0; i < coefficients.size(); i++) {
+        if (coefficients[i] == vec3(0)) continue;
+        order.push_back(i);
+        const vec3 magnitude = glm::abs(coefficients[i]);
+        scale = std::max({scale, magnitude.x, magnitude.y, magnitude.z});
+    }
     const auto key = [&](uint32_t i) { return glm::dot(coefficients[i], coefficients[i]); };
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
         const float keyA = key(a), keyB = key(b);
         return keyA > keyB || (keyA == keyB && a < b);
     });
     Ladder ladder;
-    float scale = 0;
-    for (size_t i = 0; i < std::min(order.size(), size_t(kTriedCoefficients.front())); i++) {
-        const vec3 magnitude = glm::abs(coefficients[order[i]]);
-        scale = std::max({scale, magnitude.x, magnitude.y, magnitude.z});
-    }
     glm::dvec3 sum(0);
     float entries = 0;
     size_t next = 0;
@@ -197,6 +198,13 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         const uvec3 corners = asset.parts[seen.hit->mesh].mesh.triangles[seen.hit->triangle];
         for (int corner = 0; corner < 3; corner++) vertices.add(seen.hit->mesh, corners[corner]);
     }
+    // Entries of parts that are hardly seen take bytes, too.
+    constexpr uint32_t kLeastOfPart = 16;
+    for (uint32_t part = 0; part < asset.parts.size(); part++) {
+        const auto all = uint32_t(asset.parts[part].mesh.vertexCount());
+        const uint32_t count = std::min(all, kLeastOfPart);
+        for (uint32_t i = 0; i < count; i++) vertices.add(part, uint32_t(uint64_t(all) * i / count));
+    }
     vertices.fill(progress);
     vertices.addEntries(grid);
 
@@ -222,9 +230,10 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         level += glm::dot(glm::dvec3(exact[i]), glm::dvec3(exact[i]));
         grid.shares[hit.mesh] += 1 / double(list.size());
     }
+    if (level == 0) throw Error("what is seen is black: under no light no error can be told");
     grid.level = std::sqrt(level / (3 * double(list.size())));
     for (auto& errors : grid.errors)
-        for (double& error : errors) error = level > 0 ? std::sqrt(error / level) : 0;
+        for (double& error : errors) error = std::sqrt(error / level);
     return grid;
 }
 

@@ -33,9 +33,9 @@ struct ErrorGrid {
 };
 
 // `asset` has meshes, occluder and factored materials, those of the most terms to be tried; its transport is
-// not looked at. Factors are nested: the first K terms are those of a factorization into K
-// (Factorization::NonNegative's are not). `light`: what is drawn under. `exact`: of the points. On all cores;
-// the same input gives the same grid.
+// not looked at. Throws Error where `exact` is black. Factors are nested: the first K terms are those of a
+// factorization into K (Factorization::NonNegative's are not). `light`: what is drawn under. `exact`: of the
+// points. On all cores; the same input gives the same grid.
 ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
                     std::span<const vec3> exact, const LightVector& light,
                     const std::function<void(double)>& progress = {});

@@ -43,12 +43,16 @@ double differenceOf(const Image& image, const ViewPoints& points, std::span<cons
 }
 
 // Adds passes until the noise is small against the error of `study.drawn`, and says what came of it.
-void measure(ProgressiveReference& reference, const ViewPoints& points, int mostPasses, ErrorStudy& study) {
+void measure(ProgressiveReference& reference, const ViewPoints& points, int mostPasses,
+             const std::function<void()>& afterPass, ErrorStudy& study) {
     constexpr int kFirstCheck = 16;
     constexpr double kEnough = 0.1;
     std::optional<ReferenceError> error;
     for (int next = kFirstCheck; reference.passes() < mostPasses; next *= 2) {
-        while (reference.passes() < std::min(next, mostPasses)) reference.addPass();
+        while (reference.passes() < std::min(next, mostPasses)) {
+            reference.addPass();
+            afterPass();
+        }
         error = reference.errorOf(study.drawn);
         if (!error || error->noise <= kEnough * error->rmse) break;
     }
@@ -127,10 +131,16 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
         study.drawn = drawn[i];
         study.drawnAside = differenceOf(study.drawn, points, study.stages, study.budget.level);
         reference.restart(view.camera, lights[i].fine, appearance, view.width, view.height);
-        measure(reference, points, options.mostPasses, study);
+        const double done = kStagesShare + (1 - kStagesShare) * double(i) / double(lights.size());
+        const auto afterPass = [&] {
+            if (progress) progress(done);
+        };
+        measure(reference, points, options.mostPasses, afterPass, study);
         if (options.lowOrder > 0) study.lowOrder = studyLowOrder(points, stages[lights.size() + i], study);
-        if (progress) progress(kStagesShare + (1 - kStagesShare) * double(i + 1) / double(lights.size()));
+        if (study.budget.level == 0)
+            throw Error("what is seen is black: under no light no error can be told");
     }
+    if (progress) progress(1);
     return studies;
 }
 

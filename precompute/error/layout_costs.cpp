@@ -111,8 +111,7 @@ LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Ap
                                             relight(bases.parts[0].sets[worn.set].transport, light), eyes);
         }
     }
-    for (size_t i = 0; i < squares.size(); i++)
-        costs.errors[i] = grid.level > 0 ? std::sqrt(squares[i]) / grid.level : 0;
+    for (size_t i = 0; i < squares.size(); i++) costs.errors[i] = std::sqrt(squares[i]) / grid.level;
     return costs;
 }
 

@@ -65,17 +65,21 @@ struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
 };
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance)
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const BakeOptions& options)
     : mAsset(asset), mAppearance(appearance), mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs),
       mLighting(asset.faceSize),
       mEvaluations(asset.faceSize * int(std::lround(std::sqrt(double(asset.transportSamples))))),
       mTruth(kTruthFaceSize), mBaked(asset.occluder, asset.visibilitySize),
-      mFull(mergedMesh(asset), kTruthFaceSize), mFullFine(mergedMesh(asset), kTruthVisibility),
+      mFull(mergedMesh(asset), asset.visibilitySize), mFullFine(mergedMesh(asset), kTruthVisibility),
       mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {
-    const Factorization method = optionsOf(asset).factorization.method;
     for (size_t part = 0; part < asset.parts.size(); part++)
-        mTables.emplace_back(asset.parts[part].sets[appearance[part].set], method, mBrdfs);
+        mTables.emplace_back(asset.parts[part].sets[appearance[part].set],
+                             wornLayers(asset.parts[part], appearance[part]), options.factorization.method,
+                             mBrdfs);
 }
+
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance)
+    : StageTracer(asset, appearance, optionsOf(asset)) {}
 
 StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
@@ -190,7 +194,8 @@ void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t
     std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
     const size_t cellsPerBit = mTruth.count() / (baked.size() * 64);
     for (size_t i = 0; i < mTruth.count(); i++) {
-        const float bakedShare = shareOfOnes(baked, i / cellsPerBit, 1), fullShare = shareOfOnes(whole, i, 1),
+        const float bakedShare = shareOfOnes(baked, i / cellsPerBit, 1),
+                    fullShare = shareOfOnes(whole, i / cellsPerBit, 1),
                     fineShare = shareOfOnes(fine, 4 * i, 4);
         if (bakedShare + fullShare + fineShare == 0) continue;
         const vec3 local = point.frame.toLocal(mTruth.directions[i]);

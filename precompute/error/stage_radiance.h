@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/light/light_vector.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/cpu/cpu_visibility.h"
 #include "precompute/error/error_source.h"
 #include "precompute/error/lit_cells.h"
@@ -29,7 +30,8 @@ struct StageLight {
 
 class StageTracer {
   public:
-    // Refers to `asset` and `appearance`, which it is dressed in. Throws Error as Embree, and as makeBrdf().
+    // Refers to `asset` and `appearance`, which it is dressed in. Throws Error as Embree, as makeBrdf(), and
+    // as baked_options.h's optionsOf().
     StageTracer(const Asset& asset, const Appearance& appearance);
 
     // Of points that rays from `eye` hit (RayHit::mesh is the part), under each light: [light][point]. On all
@@ -40,6 +42,8 @@ class StageTracer {
                                                   const std::function<void(double)>& progress = {}) const;
 
   private:
+    StageTracer(const Asset& asset, const Appearance& appearance, const BakeOptions& options);
+
     struct Light;
     struct Tuples;
     struct Vertices;
@@ -62,8 +66,8 @@ class StageTracer {
     std::vector<TabulatedBrdf> mTables; // per part, of the worn set
     CubeCells mLighting, mEvaluations, mTruth;
     CpuVisibility mBaked;    // what the bake saw
-    CpuVisibility mFull;     // the mesh itself, with as many rays as texels of the truth's light
-    CpuVisibility mFullFine; // and with four times as many
+    CpuVisibility mFull;     // the mesh itself, with as many rays
+    CpuVisibility mFullFine; // and with four for each texel of the truth's light
     float mFullOffset;
 };
 

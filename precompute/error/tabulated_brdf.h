@@ -6,26 +6,30 @@
 #include "precompute/brdf/tabulation.h"
 #include "precompute/reference/material_brdfs.h"
 
+#include <map>
+
 namespace relume {
 
 class TabulatedBrdf {
   public:
-    // The tables that `set` was factored from, by this method. Throws as makeBrdf() does.
-    TabulatedBrdf(const MaterialSet& set, Factorization method, MaterialBrdfs& brdfs);
+    // Of these layers the tables that `set` was factored from, by this method. Throws as makeBrdf() and
+    // tabulate() do.
+    TabulatedBrdf(const MaterialSet& set, std::span<const WornLayer> layers, Factorization method,
+                  MaterialBrdfs& brdfs);
 
     // f(·, outgoing) as a light map of S × S texels, extended beyond the disk as light maps are, summed over
-    // `layers` times their weights. `outgoing` in the local frame, above the horizon.
+    // `layers`, among those it was made with, times their weights. `outgoing` in the local frame, above the
+    // horizon.
     std::vector<vec3> lightMap(std::span<const WornLayer> layers, std::span<const vec3> weights,
                                vec3 outgoing) const;
 
   private:
-    struct Layer {
-        std::array<Eigen::MatrixXf, 3> channels;
-    };
+    using Channels = std::array<Eigen::MatrixXf, 3>;
     int mSize;
     DiskMapping mMapping;
-    std::vector<int> mNearest; // of each texel, the direction whose values it has
-    std::vector<Layer> mLayers;
+    size_t mDirections = 0;
+    std::vector<int> mNearest;       // of each texel, the direction whose values it has
+    std::map<int, Channels> mLayers; // by WornLayer::layer
 };
 
 } // namespace relume
