@@ -2,6 +2,7 @@
 #include "tests/support/run_relume.h"
 
 #include <doctest/doctest.h>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 using namespace relume::test;
@@ -67,7 +68,8 @@ TEST_CASE("errors: what it cannot look at is said") {
     };
     fails("errors a.relume --size 16x12 --eye 9,0,0 --target 99,0,0", 2, "another view");
     fails("errors a.relume --size 9000x9000", 2, "--size");
-    fails("errors a.relume --size 16x12 --sphere-light 0,-90,1 --intensity 0", 1, "black");
+    std::ofstream(folder.path() / "dark.json") << R"({"lamps": []})";
+    fails("errors a.relume --size 16x12 --light dark.json", 1, "black");
     fails("advise sphere", 2, "--error");
     fails("advise sphere --error 0", 2, "--error");
 }
