@@ -13,6 +13,7 @@ const std::vector<SectionEntry>& sectionList() {
         {"scenes", "the scenes of figures 1, 6 and 7", sceneFigures},
         {"layouts", "the paper's transport against the layouts and factorisations of now", layoutComparison},
         {"sources", "where error comes from, and 25 spherical harmonics", errorSources},
+        {"refinement", "refined grounds against uniform ones", refinedGround},
     };
     return kSections;
 }

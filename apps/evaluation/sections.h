@@ -14,6 +14,7 @@ Section parametersFigure(const SectionInputs& inputs); // figure_parameters.cpp
 Section sceneFigures(const SectionInputs& inputs);     // figure_scenes.cpp
 Section layoutComparison(const SectionInputs& inputs); // layout_comparison.cpp
 Section errorSources(const SectionInputs& inputs);     // error_sources.cpp
+Section refinedGround(const SectionInputs& inputs);    // refined_ground.cpp
 
 // All of them by name, in the report's order.
 struct SectionEntry {

@@ -64,8 +64,8 @@ void BakeReport::refined(const RefinementRecord& record) {
                      record.startVertices, 100 * record.startError, record.vertices, 100 * record.error);
     if (record.error > record.wanted)
         spdlog::warn(
-            "--refine {}: not reached, the error is {:.4f}; there are at most {} vertices, and what is "
-            "as small as the visibility offset is not split",
+            "--refine {}: not reached, the error is {:.4f}; there are at most {} vertices, and edges "
+            "of a few visibility offsets stay whole",
             record.wanted, record.error, kMostRefinedVertices);
 }
 

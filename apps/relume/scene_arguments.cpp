@@ -50,7 +50,7 @@ void SceneArguments::add(CLI::App& command) {
             ->type_name("QUADS")
             ->check(CLI::Range(1, kMostGroundQuads))
             ->default_str(
-                fmt::format("{}, before --refine {}", mGroundOptions.tessellation, kRefinedGroundQuads));
+                fmt::format("{}; {} where it is refined", mGroundOptions.tessellation, kRefinedGroundQuads));
     mGroundDetails.push_back(mTessellationOption);
     mGroundDetails.push_back(
         command.add_option("--ground-extent", mGroundOptions.extent, "Side of the ground, in object sizes")
@@ -146,8 +146,8 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
     command
         .add_option("--refine", mRefinementError,
                     fmt::format("Add vertices where interpolation between them would be seen, until it is "
-                                "estimated to change reflected light by this share of it at most, root mean "
-                                "square over all surfaces: {} to {}, 0.01 is good, 0.03 coarse (default: "
+                                "estimated to change reflected light by this share of it, root mean square "
+                                "over all surfaces: {} to {}, 0.01 is good, 0.03 coarse (default: "
                                 "meshes stay as they are)",
                                 kLeastRefinementError, kMostRefinementError))
         ->type_name("ERROR");

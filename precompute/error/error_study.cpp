@@ -135,7 +135,7 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
         const auto afterPass = [&] {
             if (progress) progress(done);
         };
-        measure(reference, points, options.mostPasses, afterPass, study);
+        if (options.mostPasses > 0) measure(reference, points, options.mostPasses, afterPass, study);
         if (options.lowOrder > 0) study.lowOrder = studyLowOrder(points, stages[lights.size() + i], study);
         if (study.budget.level == 0)
             throw Error("what is seen is black: under no light no error can be told");

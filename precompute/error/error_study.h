@@ -49,7 +49,7 @@ struct ErrorStudies {
 
 struct ErrorStudyOptions {
     ErrorView view;
-    int mostPasses = 512; // of the reference: added until its noise is a tenth of the measured error
+    int mostPasses = 512; // of the reference, added until its noise is a tenth of the measured error; 0: none
     int lowOrder = 0;     // of LowOrderStudy; 0: none
 };
 

@@ -13,7 +13,8 @@ namespace relume {
 // come after the old ones, which stay. The same for any number of threads.
 //
 // Edges shorter than a few `visibilityOffset`s stay whole, and there are never more than
-// kMostRefinedVertices: the error that is left may be above `wanted`. Throws Error for parts that have more
+// kMostRefinedVertices; where the edges that may be split make next to nothing of the error it ends as well:
+// what is left may be above `wanted`. Throws Error for parts that have more
 // to begin with, and BakeStopped where `observer` asks for it.
 RefinementRecord refine(std::vector<AssetPart>& parts, const Mesh& occluder, float visibilityOffset,
                         double wanted, BakeObserver& observer);
