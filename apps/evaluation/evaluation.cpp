@@ -1,6 +1,6 @@
 #include "apps/evaluation/evaluation.h"
 
-#include "apps/evaluation/relit_scene.h"
+#include "apps/evaluation/expect_no_stop.h"
 #include "apps/evaluation/report_html.h"
 #include "engine/base/check.h"
 #include "engine/base/file.h"
@@ -185,6 +185,7 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
             section.steps, [&](const Step& step) { return mResults.contains(step.name); });
         if (!isAsked(section) && (section.steps.empty() || !isDone)) continue;
         report.sections.push_back(reportOf(section));
+        for (const std::string& finding : report.sections.back().findings) report.findings.push_back(finding);
         for (const ReportItem& item : report.sections.back().items) {
             if (const auto* table = std::get_if<ReportTable>(&item))
                 writeFileAtomically(mOptions.output / "tables" / (table->file + ".csv"), csvOf(*table));
@@ -192,6 +193,8 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
                 writeFileAtomically(mOptions.output / "plots" / (plot->file + ".svg"), plot->svg);
         }
     }
+    if (mOptions.quick && !report.findings.empty())
+        report.findings.emplace_back("All this with --quick: numbers for seeing that everything works.");
     writeFileAtomically(reportPath(), htmlOf(report, mOptions.output));
 }
 
