@@ -225,7 +225,8 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
         }
     }
     if (mOptions.quick && !report.findings.empty())
-        report.findings.emplace_back("All this with --quick: numbers for seeing that everything works.");
+        report.findings.insert(report.findings.begin(),
+                               "With --quick: these numbers are for seeing that everything works.");
     writeFileAtomically(reportPath(), htmlOf(report, mOptions.output));
 }
 
