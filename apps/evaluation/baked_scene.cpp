@@ -1,5 +1,6 @@
 #include "apps/evaluation/baked_scene.h"
 
+#include "apps/evaluation/evaluation_folder.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/interrupt.h"
@@ -87,7 +88,11 @@ Scene makeScene(const BakeRecipe& recipe) {
 }
 
 std::filesystem::path BakeStore::pathOf(const BakeRecipe& recipe) const {
-    const std::string key = recipe.key().dump();
+    const Json identity = {{"recipe", recipe.key()},
+                           {"program", RELUME_VERSION},
+                           {"device", mDevice.name()},
+                           {"driver", mDevice.info().driver}};
+    const std::string key = identity.dump();
     return mFolder / (hashText(std::as_bytes(std::span(key))) + ".relume");
 }
 
@@ -96,10 +101,16 @@ BakeRecord BakeStore::make(const BakeRecipe& recipe) const {
     std::error_code failure;
     if (std::filesystem::is_regular_file(path, failure))
         if (const auto record = readRecord(recordPath(path))) return *record;
-    std::filesystem::create_directories(mFolder);
-    BarObserver observer("baking " + recipe.name);
-    const BakeSummary summary = bakeToFile(mDevice, makeScene(recipe), recipe.options, path, {}, observer);
-    const uint64_t baked = std::max<uint64_t>(1, summary.vertices - summary.resumed);
+    makeFolder(mFolder);
+    const Scene scene = makeScene(recipe);
+    const auto bake = [&] {
+        BarObserver observer("baking " + recipe.name);
+        return bakeToFile(mDevice, scene, recipe.options, path, {}, observer);
+    };
+    BakeSummary summary = bake();
+    // Where the checkpoint held nearly all, the time of the rest tells nothing: again, from the first vertex.
+    if (10 * (summary.vertices - summary.resumed) < summary.vertices) summary = bake();
+    const uint64_t baked = summary.vertices - summary.resumed;
     const BakeRecord record{summary.vertices, summary.bytes, 1e3 * summary.times.total / double(baked)};
     writeRecord(recordPath(path), record);
     return record;

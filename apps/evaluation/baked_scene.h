@@ -29,7 +29,7 @@ Scene makeScene(const BakeRecipe& recipe);
 // What a bake cost.
 struct BakeRecord {
     uint64_t vertices = 0, bytes = 0; // of transport, in memory
-    double msPerVertex = 0;           // of wall-clock time, over the vertices of its last run
+    double msPerVertex = 0; // of wall-clock time, over the vertices of its last run: a tenth or more
 };
 
 class BakeStore {
@@ -38,7 +38,7 @@ class BakeStore {
         : mDevice(device), mFolder(std::move(folder)) {}
 
     // Bakes unless it is there, from its checkpoint on where there is one. Shows progress. Throws BakeStopped
-    // when an interrupt was caught, Error.
+    // when an interrupt was caught, Error. Files are of this program and device alone.
     BakeRecord make(const BakeRecipe& recipe) const;
     Asset read(const BakeRecipe& recipe) const; // after make()
     void remove(const BakeRecipe& recipe) const;

@@ -1,5 +1,7 @@
 // Where error comes from: every stage made exact in turn, and what low-order spherical harmonics would leave.
+#include "apps/evaluation/expect_no_stop.h"
 #include "apps/evaluation/figure_steps.h"
+#include "apps/evaluation/range_text.h"
 #include "apps/evaluation/scene_setup.h"
 #include "apps/evaluation/sections.h"
 #include "engine/base/progress.h"
@@ -89,23 +91,21 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
          "reference's noise", "not accounted for"},
         {},
         "Measured: the device's image against the sampled reference. Summed: the changes of all "
-        "sources, point by point; independent: the root of the sum of their squares, which is the "
-        "same where they do not correlate. Not accounted for: of drawing, and of the reference."};
+        "sources, point by point; independent: the root of the sum of their squares. Not accounted "
+        "for: of drawing, and of the reference."};
     ReportTable parts{"error-sources",
                       "Where error comes from: change by each source, and its share of the squared total",
                       {"model", "material", "environment"},
                       {},
-                      "A share below 0 makes up for others; shares sum to 100 %."};
+                      "A share below 0 makes up for others."};
     for (size_t i = 0; i < kErrorSources; i++) parts.columns.emplace_back(errorSourceTitle(ErrorSource(i)));
     ReportTable harmonics{
         "error-harmonics",
         "Against 25 spherical harmonics",
         {"model", "material", "environment", "relume", "harmonics, same K terms", "harmonics, exact BRDF"},
         {},
-        "Harmonics: what is left of the environment in those of degrees 0 to 4, which is all that "
-        "transport in 25 coefficients sees; shadows exact, nothing interpolated or stored. With "
-        "relume's K terms, the difference to relume is wavelets against harmonics; with the "
-        "exact BRDF it is what no way of relighting with 25 coefficients can better."};
+        "Harmonics: the environment in those of degrees 0 to 4 alone; shadows exact, nothing "
+        "interpolated or stored; of relume's K terms, and of the exact BRDF."};
     for (const Study& study : studies)
         for (size_t i = 0; i < study.lights.size(); i++) {
             const auto& numbers = results.at(study.name).numbers.at(i);
@@ -114,7 +114,8 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
             const double measured = number(numbers, "measured"), total = number(numbers, "total");
             std::vector<std::string> row = scene;
             for (const std::string& cell :
-                 {percent(measured), percent(total), fmt::format("{:.3f}", total / measured),
+                 {percent(measured), percent(total),
+                  measured > 0 ? fmt::format("{:.3f}", total / measured) : "-",
                   percent(number(numbers, "root_sum_squares")), percent(number(numbers, "noise")),
                   fmt::format("{}; {}", percent(number(numbers, "drawn_aside")),
                               percent(number(numbers, "truth_aside")))})
@@ -133,6 +134,27 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
     report.add(std::move(sums));
     report.add(std::move(parts));
     report.add(std::move(harmonics));
+}
+
+void addFindings(const std::vector<Study>& studies, const StepResults& results, ReportSection& report) {
+    std::vector<double> sums, harmonics;
+    double mean = 0, worst = 1;
+    for (const Study& study : studies)
+        for (size_t i = 0; i < study.lights.size(); i++) {
+            const auto& numbers = results.at(study.name).numbers.at(i);
+            const double measured = number(numbers, "measured");
+            if (!(measured > 0)) continue;
+            sums.push_back(number(numbers, "total") / measured);
+            harmonics.push_back(number(numbers, "harmonics_of_terms") / measured);
+            mean += sums.back();
+            if (std::abs(sums.back() - 1) > std::abs(worst - 1)) worst = sums.back();
+        }
+    if (sums.empty()) return;
+    report.findings.push_back(fmt::format(
+        "Sources of error: over {} scenes their sum is {:.3f} of the measured error in the mean, and "
+        "{:.3f} where it is furthest from 1. 25 spherical harmonics with the same terms leave {} times "
+        "relume's error.",
+        sums.size(), mean / double(sums.size()), worst, rangeText(harmonics)));
 }
 
 ReportFigure heatFigure(const Study& study, size_t light) {
@@ -188,6 +210,7 @@ Section errorSources(const SectionInputs& inputs) {
             "rays. What a stage changes is the error of what it replaces. Baked with relume's defaults.");
         report.say(quickNote(quick));
         addTables(studies, results, report);
+        addFindings(studies, results, report);
         for (const Study& study : studies) report.add(heatFigure(study, 0));
     };
     return section;

@@ -1,6 +1,6 @@
 #include "apps/evaluation/evaluation.h"
 
-#include "apps/evaluation/relit_scene.h"
+#include "apps/evaluation/expect_no_stop.h"
 #include "apps/evaluation/report_html.h"
 #include "engine/base/check.h"
 #include "engine/base/file.h"
@@ -38,10 +38,8 @@ std::string today() {
 } // namespace
 
 Evaluation::Evaluation(const vk::Device& device, EvaluationOptions options)
-    : mDevice(device), mOptions(std::move(options)), mStore(mOptions.output),
+    : mDevice(device), mOptions(std::move(options)), mLock(mOptions.output), mStore(mOptions.output),
       mBakes(device, mOptions.output / "bakes") {
-    std::error_code failure;
-    std::filesystem::create_directories(mOptions.output, failure); // expectWritable() says why not
     expectWritable(reportPath());
 }
 
@@ -59,8 +57,12 @@ std::string Evaluation::keyOf(const Step& step, const std::map<std::string, std:
     return hashText(std::as_bytes(std::span(text)));
 }
 
-bool Evaluation::isAsked(const Section& section) const {
-    return mOptions.only.empty() || std::ranges::find(mOptions.only, section.name) != mOptions.only.end();
+bool Evaluation::isAsked(const std::string& section) const {
+    return mOptions.only.empty() || std::ranges::find(mOptions.only, section) != mOptions.only.end();
+}
+
+bool Evaluation::isWanted(const std::string& section) const {
+    return isAsked(section) || mStore.hasAny(section + "-");
 }
 
 std::vector<Evaluation::Planned> Evaluation::plan(const std::vector<Section>& sections) {
@@ -68,10 +70,10 @@ std::vector<Evaluation::Planned> Evaluation::plan(const std::vector<Section>& se
     std::map<std::string, std::string> keys;
     for (const Section& section : sections)
         for (const Step& step : section.steps) {
-            RELUME_CHECK(!keys.contains(step.name));
+            RELUME_CHECK(!keys.contains(step.name) && step.name.starts_with(section.name + "-"));
             const std::string key = keys[step.name] = keyOf(step, keys);
             auto stored = mStore.find(step.name, key);
-            if (isAsked(section)) plan.push_back({&section, &step, key, stored.has_value()});
+            if (isAsked(section.name)) plan.push_back({&section, &step, key, stored.has_value()});
             if (stored) mResults[step.name] = std::move(*stored);
         }
     return plan;
@@ -94,19 +96,24 @@ void Evaluation::runStep(Planned& planned) {
             mFailures[step.name] = "a step that it needs failed";
             return;
         }
+    const auto fail = [&](const char* why) {
+        spdlog::error("{}: {}", step.title, why);
+        mFailures[step.name] = why;
+    };
     const auto start = std::chrono::steady_clock::now();
     try {
-        StepRun run(mDevice, mBakes, mResults, mOptions.output, step.name);
-        StepResult result{step.work(run), {}};
+        StepRun run(mDevice, mBakes, mOptions.output, step.name);
+        StepResult result{step.work(run), {}, true};
         result.files = run.files();
         mStore.store(step.name, planned.key, result);
         mResults[step.name] = std::move(result);
         planned.done = true;
     } catch (const BakeStopped&) {
         throw;
-    } catch (const Error& failure) {
-        spdlog::error("{}: {}", step.title, failure.what());
-        mFailures[step.name] = failure.what();
+    } catch (const std::bad_alloc&) {
+        fail("out of memory");
+    } catch (const std::exception& failure) {
+        fail(failure.what());
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     spdlog::info("{:.1f} s", seconds);
@@ -145,8 +152,34 @@ bool Evaluation::run(const std::vector<Section>& sections, const SceneInputs& in
     return mFailures.empty();
 }
 
-ReportSection Evaluation::reportOf(const Section& section) const {
-    ReportSection written{section.title, {}};
+// Says so of all those whose numbers were stored without a hash, or of all if there are none.
+void Evaluation::distrust(const Section& section, const char* why) {
+    const auto isTrusted = [&](const Step& step) { return mResults.at(step.name).isIntact; };
+    const bool areAllTrusted = std::ranges::all_of(section.steps, isTrusted);
+    spdlog::error("{}: its results cannot be read: {}", section.title, why);
+    for (const Step& step : section.steps) {
+        if (isTrusted(step) && !areAllTrusted) continue;
+        const std::string file = mStore.pathOf(step.name).string();
+        spdlog::error("{}: may be damaged; delete it, and the same command makes it anew", file);
+        mFailures[step.name] = fmt::format(
+            "its result may be damaged ({}); delete {}, and the same command makes it anew", why, file);
+    }
+}
+
+ReportSection Evaluation::reportOf(const Section& section) {
+    const auto isDone = [&](const Step& step) {
+        return mResults.contains(step.name) && !mFailures.contains(step.name);
+    };
+    if (std::ranges::all_of(section.steps, isDone)) {
+        try {
+            ReportSection written{.title = section.title};
+            section.write(mResults, written);
+            return written;
+        } catch (const Json::exception& damage) {
+            distrust(section, damage.what());
+        }
+    }
+    ReportSection written{.title = section.title};
     size_t left = 0;
     for (const Step& step : section.steps) {
         const auto failed = mFailures.find(step.name);
@@ -157,13 +190,11 @@ ReportSection Evaluation::reportOf(const Section& section) const {
     }
     if (left > 0)
         written.say(fmt::format("{} of its {} steps are not done yet.", left, section.steps.size()));
-    if (written.items.empty()) section.write(mResults, written);
     return written;
 }
 
-void Evaluation::writeReport(const std::vector<Section>& sections, const SceneInputs& inputs) const {
-    for (const char* folder : {"tables", "plots"})
-        std::filesystem::create_directories(mOptions.output / folder);
+void Evaluation::writeReport(const std::vector<Section>& sections, const SceneInputs& inputs) {
+    for (const char* folder : {"tables", "plots"}) makeFolder(mOptions.output / folder);
     Report report;
     report.title = "All-frequency relighting of glossy objects: the evaluation";
     report.facts = {
@@ -183,8 +214,9 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
     for (const Section& section : sections) {
         const bool isDone = std::ranges::all_of(
             section.steps, [&](const Step& step) { return mResults.contains(step.name); });
-        if (!isAsked(section) && (section.steps.empty() || !isDone)) continue;
+        if (!isAsked(section.name) && (section.steps.empty() || !isDone)) continue;
         report.sections.push_back(reportOf(section));
+        for (const std::string& finding : report.sections.back().findings) report.findings.push_back(finding);
         for (const ReportItem& item : report.sections.back().items) {
             if (const auto* table = std::get_if<ReportTable>(&item))
                 writeFileAtomically(mOptions.output / "tables" / (table->file + ".csv"), csvOf(*table));
@@ -192,6 +224,9 @@ void Evaluation::writeReport(const std::vector<Section>& sections, const SceneIn
                 writeFileAtomically(mOptions.output / "plots" / (plot->file + ".svg"), plot->svg);
         }
     }
+    if (mOptions.quick && !report.findings.empty())
+        report.findings.insert(report.findings.begin(),
+                               "With --quick: these numbers are for seeing that everything works.");
     writeFileAtomically(reportPath(), htmlOf(report, mOptions.output));
 }
 

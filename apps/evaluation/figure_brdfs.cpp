@@ -1,4 +1,5 @@
 // Figure 4: BRDFs factored, their maps, their errors, and what they look like.
+#include "apps/evaluation/expect_no_stop.h"
 #include "apps/evaluation/figure_steps.h"
 #include "apps/evaluation/scene_setup.h"
 #include "apps/evaluation/sections.h"
@@ -75,11 +76,11 @@ ReportTable tableOf(const StepResults& results, int terms) {
     for (int k = 1; k <= terms; k *= 2) table.columns.push_back(fmt::format("K = {}", k));
     for (const FigureBrdf& brdf : kBrdfs)
         for (const int size : kSizes) {
-            const auto errors =
-                results.at(stepName(brdf)).numbers.at(fmt::format("{}", size)).get<std::vector<double>>();
+            const Json& errors = results.at(stepName(brdf)).numbers.at(fmt::format("{}", size));
             std::vector<std::string> row = {brdf.title, fmt::format("{}", size)};
             for (int k = 1; k <= terms; k *= 2)
-                row.push_back(fmt::format("{:.4f}", errors[std::min(size_t(k), errors.size()) - 1]));
+                row.push_back(
+                    fmt::format("{:.4f}", errors.at(std::min(size_t(k), errors.size()) - 1).get<double>()));
             table.rows.push_back(std::move(row));
         }
     return table;
@@ -136,7 +137,7 @@ Section brdfFigure(const SectionInputs& inputs) {
         report.say("Where a larger S does worse: f grows steeply towards grazing angles, how near to the "
                    "horizon the "
                    "outermost centres of a map fall is a matter of chance, and at S = 64 the first terms of "
-                   "Ashikhmin-Shirley describe these. The default factorisation does not suffer from it.");
+                   "Ashikhmin-Shirley describe these.");
         for (const FigureSetup& bunny : bunnies) report.add(figureOf(bunny, results, bunny.title));
     };
     return section;

@@ -151,7 +151,9 @@ Section layoutComparison(const SectionInputs& inputs) {
                                   fmt::format("{:.2f}", one.bakeMs), fmt::format("{:.1f}", one.lightMs),
                                   fmt::format("{:.1f}", one.viewMs), textOf(one.error)});
         report.add(std::move(table));
-        report.say(bestWithin(variants, &Variant::bytes, "bytes"));
+        const std::string best = bestWithin(variants, &Variant::bytes, "bytes");
+        report.say(best);
+        report.findings.push_back("Layouts: " + best);
         report.say(bestWithin(variants, &Variant::lightMs, "time for a change of light"));
         report.add(figureOf(setup, results, scene.input.name));
     };

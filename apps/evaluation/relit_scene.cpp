@@ -1,9 +1,8 @@
 #include "apps/evaluation/relit_scene.h"
 
+#include "apps/evaluation/expect_no_stop.h"
 #include "engine/base/check.h"
-#include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
-#include "precompute/bake/bake_observer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +14,6 @@ namespace {
 constexpr int kTruthColumns = 1024;
 
 } // namespace
-
-void expectNoStop() {
-    if (caughtInterrupt() != 0) throw BakeStopped("stopped");
-}
 
 SceneLight environmentLight(const SceneInput& input, float rotationDegrees) {
     const Environment map = readEnvironment(input.file);

@@ -81,7 +81,4 @@ class SceneReference {
     double mNoise = 0;
 };
 
-// Throws BakeStopped when an interrupt was caught.
-void expectNoStop();
-
 } // namespace relume

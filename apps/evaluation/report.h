@@ -45,7 +45,8 @@ using ReportItem = std::variant<Paragraph, ReportTable, ReportFigure, ReportPlot
 
 struct ReportSection {
     std::string title;
-    std::vector<ReportItem> items;
+    std::vector<ReportItem> items = {};
+    std::vector<std::string> findings = {}; // a sentence or two each
 
     void add(ReportItem item) { items.push_back(std::move(item)); }
     void say(std::string text) { items.emplace_back(Paragraph{std::move(text)}); }
@@ -56,6 +57,7 @@ struct Report {
     std::vector<std::pair<std::string, std::string>> facts; // device, date, …: name and value
     std::vector<std::string> skipped;                       // a line each
     std::vector<ReportSection> sections;
+    std::vector<std::string> findings = {}; // of all sections: before all else
 };
 
 // RFC 4180: cells with commas, quotes or line breaks are quoted.

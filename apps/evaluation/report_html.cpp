@@ -16,7 +16,7 @@ body { font: 15px/1.5 Georgia, 'DejaVu Serif', serif; color: #1a1a1a; background
   margin: 2rem auto; padding: 0 1.5rem; }
 h1, h2, th, figcaption, .facts { font-family: Helvetica, Arial, 'DejaVu Sans', sans-serif; }
 h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; border-bottom: 1px solid #bbb; }
-p { max-width: 48rem; }
+p, li { max-width: 48rem; }
 table { border-collapse: collapse; margin: 1rem 0 .3rem; font-size: 13px; }
 caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
 th, td { padding: .2rem .7rem; border-bottom: 1px solid #ddd; text-align: right; vertical-align: baseline;
@@ -68,6 +68,14 @@ std::string paragraph(std::string_view text, std::string_view style = "") {
     return fmt::format("<p{}>{}</p>\n", name, escaped(text));
 }
 
+// Nothing where there are no lines.
+std::string list(const char* title, const std::vector<std::string>& lines) {
+    if (lines.empty()) return "";
+    std::string html = fmt::format("<h2>{}</h2>\n<ul>\n", title);
+    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", escaped(line));
+    return html + "</ul>\n";
+}
+
 // Writes items into a page.
 struct ItemWriter {
     const std::filesystem::path& folder;
@@ -113,16 +121,12 @@ struct ItemWriter {
 std::string htmlOf(const Report& report, const std::filesystem::path& folder) {
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n"
-        "<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n<table class=\"facts\">\n",
+        "<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
         escaped(report.title), kStyle, escaped(report.title));
+    html += list("What was found", report.findings) + "<table class=\"facts\">\n";
     for (const auto& [name, value] : report.facts)
         html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
-    html += "</table>\n";
-    if (!report.skipped.empty()) {
-        html += "<h2>What is missing</h2>\n<ul>\n";
-        for (const std::string& line : report.skipped) html += fmt::format("<li>{}</li>\n", escaped(line));
-        html += "</ul>\n";
-    }
+    html += "</table>\n" + list("What is missing", report.skipped);
     for (const ReportSection& section : report.sections) {
         html += fmt::format("<h2>{}</h2>\n", escaped(section.title));
         for (const ReportItem& item : section.items) std::visit(ItemWriter{folder, html}, item);

@@ -41,6 +41,27 @@ const Known& known(const std::array<Known, kCount>& list, const std::string& nam
     return *found;
 }
 
+// What readers know.
+constexpr std::array<std::string_view, 4> kMeshes = {".obj", ".ply", ".glb", ".gltf"};
+constexpr std::array<std::string_view, 2> kMaps = {".exr", ".hdr"};
+
+std::string lowerExtension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension;
+}
+
+// "DIR/meshes/lucy*.{obj,ply}": what was looked for.
+std::string patternOf(const std::filesystem::path& data, const char* folder, const std::string& name,
+                      std::span<const std::string_view> extensions) {
+    std::string list;
+    for (const std::string_view extension : extensions)
+        list += fmt::format("{}{}", list.empty() ? "" : ",", extension.substr(1));
+    return fmt::format("{}{}.{{{}}}", data.empty() ? "--data DIR with " : "",
+                       (data / folder / (name + "*")).string(), list);
+}
+
 std::filesystem::path installedLight(const std::string& name) {
     return std::filesystem::path(kInstalledLights) / (name + ".exr");
 }
@@ -52,12 +73,19 @@ std::string describe(const SceneInput& input) {
                                    : fmt::format("{}, standing for {}", input.name, input.standsFor);
 }
 
-std::filesystem::path SceneInputs::inData(const char* folder, const std::string& name) const {
+std::filesystem::path SceneInputs::inData(const char* folder, const std::string& name,
+                                          std::span<const std::string_view> extensions) const {
     if (mData.empty()) return {};
-    std::error_code failure;
+    std::error_code failure, unknown;
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(mData / folder, failure))
-        if (entry.path().filename().string().starts_with(name)) files.push_back(entry.path());
+    std::filesystem::directory_iterator entry(mData / folder, failure);
+    for (; !failure && entry != std::filesystem::directory_iterator(); entry.increment(failure)) {
+        const std::filesystem::path& path = entry->path();
+        if (path.filename().string().starts_with(name) &&
+            std::ranges::find(extensions, lowerExtension(path)) != extensions.end() &&
+            std::filesystem::is_regular_file(path, unknown))
+            files.push_back(path);
+    }
     return files.empty() ? std::filesystem::path() : *std::ranges::min_element(files);
 }
 
@@ -80,17 +108,16 @@ void SceneInputs::miss(const std::string& title, const std::string& lookedFor, c
 
 std::optional<SceneInput> SceneInputs::model(const std::string& name) {
     const Known& wanted = known(kModels, name);
-    const auto own = inData("meshes", name);
+    const auto own = inData("meshes", name, kMeshes);
     const bool isBunny = name == "bunny";
     if (auto found = find(wanted.title, {own, isBunny ? kInstalledBunny : ""})) {
         // What is installed has Y up, as has the usual file of every other model.
         found->up = found->file == own ? wanted.up : UpAxis::Y;
         return found;
     }
-    const std::string lookedFor = fmt::format("{}{}", mData.empty() ? "--data DIR with " : "",
-                                              (mData / "meshes" / (name + "*")).string());
+    const std::string lookedFor = patternOf(mData, "meshes", name, kMeshes);
     std::optional<SceneInput> standIn;
-    if (mStandIns && !isBunny) standIn = find("bunny", {inData("meshes", "bunny"), kInstalledBunny});
+    if (mStandIns && !isBunny) standIn = find("bunny", {inData("meshes", "bunny", kMeshes), kInstalledBunny});
     if (standIn) standIn->standsFor = wanted.title;
     miss(wanted.title, isBunny ? lookedFor + " and " + kInstalledBunny : lookedFor,
          standIn ? "the bunny stands for it" : "scenes that need it are skipped");
@@ -99,14 +126,12 @@ std::optional<SceneInput> SceneInputs::model(const std::string& name) {
 
 std::optional<SceneInput> SceneInputs::environment(const std::string& name) {
     const Known& wanted = known(kEnvironments, name);
-    if (auto found = find(wanted.title, {inData("environments", name)})) return found;
+    if (auto found = find(wanted.title, {inData("environments", name, kMaps)})) return found;
     std::optional<SceneInput> standIn;
     if (mStandIns)
         standIn = find(fmt::format("Blender's {}", wanted.installed), {installedLight(wanted.installed)});
     if (standIn) standIn->standsFor = wanted.title;
-    miss(wanted.title,
-         fmt::format("{}{}", mData.empty() ? "--data DIR with " : "",
-                     (mData / "environments" / (name + "*")).string()),
+    miss(wanted.title, patternOf(mData, "environments", name, kMaps),
          standIn ? standIn->name + " stands for it" : "scenes that need it are skipped");
     return standIn;
 }

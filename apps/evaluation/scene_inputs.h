@@ -5,6 +5,7 @@
 #include "engine/scene/scene.h"
 
 #include <map>
+#include <span>
 
 namespace relume {
 
@@ -38,8 +39,9 @@ class SceneInputs {
   private:
     std::optional<SceneInput> find(const std::string& title,
                                    const std::vector<std::filesystem::path>& places);
-    // The first file of a folder of the data, by name, that begins so.
-    std::filesystem::path inData(const char* folder, const std::string& name) const;
+    // The first file of a folder of the data, by name, that begins so and has one of these extensions.
+    std::filesystem::path inData(const char* folder, const std::string& name,
+                                 std::span<const std::string_view> extensions) const;
     void miss(const std::string& title, const std::string& lookedFor, const std::string& instead);
 
     std::filesystem::path mData;

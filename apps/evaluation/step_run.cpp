@@ -1,8 +1,6 @@
-// Internal to evaluation.h: what a step may use.
-#include "apps/evaluation/evaluation.h"
+#include "apps/evaluation/step_run.h"
 
-#include "engine/base/check.h"
-#include "engine/base/file.h"
+#include "apps/evaluation/evaluation_folder.h"
 #include "engine/image/image_file.h"
 #include "engine/render/tone_map.h"
 
@@ -12,19 +10,13 @@ std::filesystem::path pictureOf(const std::string& step, const std::string& name
     return std::filesystem::path("images") / step / name;
 }
 
-StepRun::StepRun(const vk::Device& opened, const BakeStore& bakes, const StepResults& results,
-                 std::filesystem::path folder, std::string step)
-    : device(opened), mBakes(bakes), mResults(results), mFolder(std::move(folder)), mStep(std::move(step)) {}
+StepRun::StepRun(const vk::Device& opened, const BakeStore& bakes, std::filesystem::path folder,
+                 std::string step)
+    : device(opened), mBakes(bakes), mFolder(std::move(folder)), mStep(std::move(step)) {}
 
 Asset StepRun::asset(const BakeRecipe& recipe) const {
     mBakes.make(recipe);
     return mBakes.read(recipe);
-}
-
-const nlohmann::ordered_json& StepRun::numbers(const std::string& step) const {
-    const auto found = mResults.find(step);
-    RELUME_CHECK(found != mResults.end());
-    return found->second.numbers;
 }
 
 Image StepRun::image(const std::string& step, const std::string& name) const {
@@ -33,7 +25,7 @@ Image StepRun::image(const std::string& step, const std::string& name) const {
 
 std::string StepRun::place(const std::string& file) {
     const std::filesystem::path path = pictureOf(mStep, file);
-    std::filesystem::create_directories((mFolder / path).parent_path());
+    makeFolder((mFolder / path).parent_path());
     mFiles.push_back(path.string());
     return (mFolder / path).string();
 }
@@ -56,10 +48,6 @@ void StepRun::writeDisplay(const std::string& name, const Image& display) {
     Image shown = display;
     for (vec4& pixel : shown.pixels) pixel = glm::mix(vec4(1), vec4(vec3(pixel), 1), pixel.w);
     writePng(place(name + ".png"), shown);
-}
-
-void StepRun::writeText(const std::string& name, const std::string& text) {
-    writeFileAtomically(place(name), text);
 }
 
 } // namespace relume

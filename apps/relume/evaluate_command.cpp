@@ -24,6 +24,7 @@ std::string namesOf(const std::vector<SectionEntry>& entries) {
 }
 
 void check(const EvaluationOptions& options) {
+    if (options.output.empty()) throw UsageError("--output: expected a folder, found nothing");
     std::vector<std::string_view> names;
     for (const SectionEntry& entry : sectionList()) names.emplace_back(entry.name);
     for (const std::string& name : options.only)
@@ -42,7 +43,8 @@ void run(const Arguments& arguments) {
     Evaluation evaluation(*device, options);
     SceneInputs inputs(options.data, options.quick);
     std::vector<Section> sections;
-    for (const SectionEntry& entry : sectionList()) sections.push_back(entry.make({inputs, options.quick}));
+    for (const SectionEntry& entry : sectionList())
+        if (evaluation.isWanted(entry.name)) sections.push_back(entry.make({inputs, options.quick}));
     for (const std::string& line : inputs.missing()) spdlog::warn("{}", line);
     catchInterrupts();
     try {
@@ -50,7 +52,8 @@ void run(const Arguments& arguments) {
         spdlog::info("{}", evaluation.reportPath().string());
         DeviceArguments::expectNoMessages(*device);
         if (!isWhole)
-            throw Error("some steps failed: the report says which; the same command tries them again");
+            throw Error(
+                "some steps failed: the report says which, and why; the same command tries them again");
     } catch (const BakeStopped&) {
         spdlog::warn("stopped; the same command goes on from there");
         throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
@@ -70,7 +73,7 @@ void addEvaluateCommand(CLI::App& program) {
     command
         ->add_option(
             "--data", options.data,
-            "Folder with meshes/{buddha,dragon,lucy}*.obj and environments/{grace,stpeters,rnl,uffizi}*; "
+            "Folder with meshes/{buddha,dragon,lucy}*.obj and environments/{grace,stpeters,rnl,uffizi}*.hdr; "
             "what is missing is named and skipped")
         ->type_name("FOLDER");
     command->add_flag(
@@ -81,7 +84,8 @@ void addEvaluateCommand(CLI::App& program) {
         ->add_option(
             "--only", options.only,
             "Sections to run, of those below; all if none is named. The report has others that are done, too")
-        ->type_name("SECTION…");
+        ->type_name("SECTION…")
+        ->delimiter(',');
     arguments->device.add(*command);
     command->footer(
         "Sections:\n" + namesOf(sectionList()) +

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 #include <spawn.h>
 
 using namespace relume::test;
@@ -52,7 +53,9 @@ TEST_CASE("cli: evaluate writes a report with what is missing, and does nothing 
     CHECK(says(report, "Pentium 4"));
     CHECK(says(report, "data/meshes/lucy*"));
     CHECK_FALSE(says(report, "Table 2"));
+    CHECK(says(report, "What was found"));
     CHECK(says(table, "bunny,4,"));
+    CHECK(says(table, ",paper's MB,"));
     CHECK_EQ(filesIn(out / "bakes"), 0u);
 
     const Outcome second = runRelume(folder, kTable);
@@ -70,6 +73,39 @@ TEST_CASE("cli: evaluate writes a report with what is missing, and does nothing 
 
     folder.write("data/meshes/bunny.obj", std::string(kOctahedron) + "v 5 5 5\n");
     CHECK(says(runRelume(folder, kTable).err, "2 steps, 0 of them done before"));
+}
+
+TEST_CASE("cli: evaluate names the result whose numbers are damaged") {
+    const TemporaryFolder folder;
+    writeData(folder);
+    REQUIRE_EQ(runRelume(folder, kTable).exitCode, 0);
+    const std::string name = "out/steps/table-1-bunny-k1.json";
+    auto result = nlohmann::ordered_json::parse(contents(folder.path() / name));
+    result["numbers"] = nlohmann::ordered_json::object();
+    result.erase("numbers_hash"); // as earlier versions stored it
+    folder.write(name, result.dump());
+    const Outcome damaged = runRelume(folder, kTable);
+    CHECK_EQ(damaged.exitCode, 1);
+    CHECK(says(damaged.err, name));
+    const std::string report = contents(folder.path() / "out" / "report.html");
+    CHECK(says(report, name + ", and the same command makes it anew"));
+    CHECK_FALSE(says(report, "table-1-bunny-k4.json"));
+    std::filesystem::remove(folder.path() / name);
+    const Outcome again = runRelume(folder, kTable);
+    CHECK_EQ(again.exitCode, 0);
+    CHECK(says(again.err, "2 steps, 1 of them done before"));
+}
+
+TEST_CASE("cli: evaluate tells what is missing of the sections that are asked for or have results") {
+    const TemporaryFolder folder;
+    writeData(folder);
+    const Outcome alone = runRelume(folder, kTable);
+    REQUIRE_EQ(alone.exitCode, 0);
+    CHECK(says(alone.err, "lucy*"));
+    CHECK_FALSE(says(alone.err, "uffizi*"));
+    CHECK_FALSE(says(contents(folder.path() / "out" / "report.html"), "uffizi*"));
+    folder.write("out/steps/scenes-dragon-reference.json", "{}");
+    CHECK(says(runRelume(folder, kTable).err, "uffizi*"));
 }
 
 TEST_CASE("cli: evaluate that is stopped exits with 130 and goes on") {
@@ -94,6 +130,10 @@ TEST_CASE("cli: evaluate refuses what it does not know") {
     const Outcome section = runRelume(folder, "evaluate --only tabel-1 -o out");
     CHECK_EQ(section.exitCode, 2);
     CHECK(says(section.err, "table-1"));
+    const Outcome several = runRelume(folder, "evaluate --only table-1,tabel-2 -o out");
+    CHECK_EQ(several.exitCode, 2);
+    CHECK(says(several.err, "\"table-2\""));
+    CHECK_EQ(runRelume(folder, "evaluate --quick -o ''").exitCode, 2);
     const Outcome data = runRelume(folder, "evaluate --data nowhere -o out");
     CHECK_EQ(data.exitCode, 2);
     CHECK(says(data.err, "nowhere"));

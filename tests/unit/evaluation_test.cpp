@@ -1,7 +1,10 @@
-// What an evaluation keeps and finds again, what it looks for, and how it states errors.
+// What an evaluation keeps and finds again, what it looks for, and how it states numbers.
+#include "apps/evaluation/evaluation_folder.h"
 #include "apps/evaluation/measured_error.h"
+#include "apps/evaluation/range_text.h"
 #include "apps/evaluation/scene_inputs.h"
 #include "apps/evaluation/step_store.h"
+#include "engine/base/error.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +14,14 @@ using namespace relume::test;
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Json readResult(const TemporaryFolder& folder) {
+    std::ifstream file(folder.path() / "steps" / "step.json");
+    return Json::parse(file);
+}
 
 } // namespace
 
@@ -56,6 +66,66 @@ TEST_CASE("step store: a result is made anew where its file or one of its files 
     }
 }
 
+TEST_CASE("step store: numbers that are not those that were stored are no result") {
+    const TemporaryFolder folder;
+    const StepStore store(folder.path());
+    store.store("step", "key", {{{"a", 0.1}, {"b", {1, -2.5e-9}}, {"c", nullptr}}, {}});
+    REQUIRE(store.find("step", "key"));
+    CHECK(store.find("step", "key")->isIntact);
+    Json result = readResult(folder);
+    result["numbers"] = Json::object();
+    folder.write("steps/step.json", result.dump());
+    CHECK_FALSE(store.find("step", "key"));
+    // As earlier versions stored it.
+    result.erase("numbers_hash");
+    folder.write("steps/step.json", result.dump());
+    REQUIRE(store.find("step", "key"));
+    CHECK_FALSE(store.find("step", "key")->isIntact);
+}
+
+TEST_CASE("step store: files outside of the folder are not looked at") {
+    const TemporaryFolder folder;
+    const auto inner = folder.path() / "inner";
+    std::filesystem::create_directories(inner / "images");
+    folder.write("outside.txt", "a");
+    folder.write("inner/images/a.txt", "a");
+    const StepStore store(inner);
+    store.store("step", "key", {1, {"images/a.txt"}});
+    REQUIRE(store.find("step", "key"));
+    std::ifstream file(inner / "steps" / "step.json");
+    Json result = Json::parse(file);
+    const std::string hash = result["files"]["images/a.txt"];
+    for (const std::string& path : {std::string("../outside.txt"), std::string("images/../../outside.txt"),
+                                    (folder.path() / "outside.txt").string()}) {
+        CAPTURE(path);
+        result["files"] = {{path, hash}};
+        folder.write("inner/steps/step.json", result.dump());
+        CHECK_FALSE(store.find("step", "key"));
+    }
+}
+
+TEST_CASE("step store: tells whether names that begin so have results") {
+    const TemporaryFolder folder;
+    const StepStore store(folder.path());
+    CHECK_FALSE(store.hasAny("table-1-"));
+    store.store("table-1-bunny", "key", {1, {}});
+    CHECK(store.hasAny("table-1-"));
+    CHECK_FALSE(store.hasAny("table-2-"));
+}
+
+TEST_CASE("evaluation folder: one evaluation at a time has it") {
+    const TemporaryFolder folder;
+    const auto inner = folder.path() / "a" / "b";
+    {
+        const FolderLock lock(inner);
+        CHECK_THROWS_WITH_AS(FolderLock{inner}, doctest::Contains("another evaluation"), Error);
+    }
+    const FolderLock again(inner);
+    CHECK(std::filesystem::is_empty(inner));
+    folder.write("file", "");
+    CHECK_THROWS_WITH_AS(makeFolder(folder.path() / "file" / "c"), doctest::Contains("file/c"), Error);
+}
+
 TEST_CASE("scene inputs: what is missing is named with where it was looked for, once") {
     const TemporaryFolder folder;
     SceneInputs inputs(folder.path(), false);
@@ -85,6 +155,22 @@ TEST_CASE("scene inputs: files are found by how their names begin, and told apar
     CHECK(inputs.missing().empty());
     folder.write("meshes/buddha_a.obj", "c");
     CHECK_NE(SceneInputs(folder.path(), true).model("buddha")->hash, buddha->hash);
+}
+
+TEST_CASE("scene inputs: what no reader knows is passed over") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "meshes" / "dragon.obj");
+    std::filesystem::create_directories(folder.path() / "environments");
+    for (const char* name : {"meshes/lucy.mtl", "meshes/lucy.txt", "meshes/lucy_b.PLY",
+                             "environments/grace.txt", "environments/rnl.hdr"})
+        folder.write(name, name);
+    SceneInputs inputs(folder.path(), false);
+    REQUIRE(inputs.model("lucy"));
+    CHECK_EQ(inputs.model("lucy")->file.filename(), "lucy_b.PLY");
+    CHECK_FALSE(inputs.model("dragon"));
+    CHECK_FALSE(inputs.environment("grace"));
+    REQUIRE(inputs.environment("rnl"));
+    CHECK_EQ(inputs.environment("rnl")->file.filename(), "rnl.hdr");
 }
 
 TEST_CASE("scene inputs: a stand-in says what it stands for") {
@@ -128,4 +214,11 @@ TEST_CASE("measured error: JSON gives it back") {
     CHECK_EQ(back.value, 0.1);
     CHECK_EQ(back.low, 0.05);
     CHECK_EQ(back.high, 0.2);
+}
+
+TEST_CASE("ranges: told by their ends in three digits") {
+    CHECK_EQ(rangeText({}), "-");
+    CHECK_EQ(rangeText({1.5}), "1.5");
+    CHECK_EQ(rangeText({2.004, 1.996}), "2");
+    CHECK_EQ(rangeText({3, 0.12345, 1234.5}), "0.123 to 1234");
 }

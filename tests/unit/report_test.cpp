@@ -48,13 +48,25 @@ TEST_CASE("report: all text is escaped") {
     section.add(ReportFigure{kHostile, 1, {{"a.png", kHostile, kHostile}}, kHostile});
     section.add(ReportPlot{"p", kHostile, "<svg/>"});
     report.sections.push_back(section);
+    report.findings = {kHostile};
     const std::string html = htmlOf(report, folder.path());
     CHECK_FALSE(says(html, "<script"));
     CHECK_FALSE(says(html, "\x01"));
     size_t count = 0;
     for (size_t at = html.find(kHarmless); at != std::string::npos; at = html.find(kHarmless, at + 1))
         count++;
-    CHECK_EQ(count, 19u);
+    CHECK_EQ(count, 20u);
+}
+
+TEST_CASE("report: what was found comes before all else") {
+    Report report{"title", {{"Device", "d"}}, {"missing"}, {{"first"}}, {"found a", "found b"}};
+    const std::string html = htmlOf(report, "");
+    const size_t a = html.find("found a"), b = html.find("found b");
+    REQUIRE_NE(b, std::string::npos);
+    CHECK_LT(a, b);
+    for (const char* later : {"Device", "missing", "<h2>first"}) CHECK_LT(b, html.find(later));
+    report.findings.clear();
+    CHECK_FALSE(says(htmlOf(report, ""), "What was found"));
 }
 
 TEST_CASE("report: pictures are in the page, which asks for nothing else") {
