@@ -93,11 +93,13 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
         "Measured: the device's image against the sampled reference. Summed: the changes of all "
         "sources, point by point; independent: the root of the sum of their squares. Not accounted "
         "for: of drawing, and of the reference."};
-    ReportTable parts{"error-sources",
-                      "Where error comes from: change by each source, and its share of the squared total",
-                      {"model", "material", "environment"},
-                      {},
-                      "A share below 0 makes up for others."};
+    ReportTable parts{
+        "error-sources",
+        "Where error comes from",
+        {"model", "material", "environment"},
+        {},
+        "The change by each source in percent of the truth, root mean square; in brackets its share of "
+        "the squared total in percent, below 0 where it makes up for others."};
     for (size_t i = 0; i < kErrorSources; i++) parts.columns.emplace_back(errorSourceTitle(ErrorSource(i)));
     ReportTable harmonics{
         "error-harmonics",
@@ -109,8 +111,7 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
     for (const Study& study : studies)
         for (size_t i = 0; i < study.lights.size(); i++) {
             const auto& numbers = results.at(study.name).numbers.at(i);
-            const std::vector<std::string> scene = {study.model, study.material,
-                                                    relume::describe(study.lights[i])};
+            const std::vector<std::string> scene = {study.model, study.material, study.lights[i].name};
             const double measured = number(numbers, "measured"), total = number(numbers, "total");
             std::vector<std::string> row = scene;
             for (const std::string& cell :
@@ -123,8 +124,8 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
             sums.rows.push_back(row);
             row = scene;
             for (const auto& source : numbers.at("sources"))
-                row.push_back(
-                    fmt::format("{} ({:.0f} %)", percent(source.at(0)), 100 * source.at(1).get<double>()));
+                row.push_back(fmt::format("{:.2f}\u00a0({:.0f})", 100 * source.at(0).get<double>(),
+                                          100 * source.at(1).get<double>()));
             parts.rows.push_back(row);
             row = scene;
             for (const char* key : {"measured", "harmonics_of_terms", "harmonics"})

@@ -79,7 +79,7 @@ Section shadowFigure(const SectionInputs& inputs) {
                                "an area light of 3 degrees' radius",
                                (setup.images[0].recipe.ground->tessellation + 1) *
                                    (setup.images[0].recipe.ground->tessellation + 1),
-                               kTruthFace));
+                               kTruthFaceSize));
         report.say(quickNote(quick));
         report.add(figureOf(setup, results, describe(*model)));
         report.add(tableOf(setup, results));

@@ -191,7 +191,7 @@ ReportFigure figureOf(const FigureSetup& setup, const StepResults& results, cons
     }
     figure.pictures.push_back({pictureOf(step, "reference.png"), "reference",
                                fmt::format("{} samples a pixel", numbers.at("passes").get<int>())});
-    figure.columns = std::min<int>(4, int(figure.pictures.size()));
+    figure.columns = int(figure.pictures.size()); // errors below the images that they are of
     figure.note = fmt::format("Exposure {:+.1f} stops; noise left in the reference {:.2f} %.",
                               numbers.at("exposure").get<double>(), 100 * numbers.at("noise").get<double>());
     if (!setup.showsErrors) return figure;

@@ -1,8 +1,11 @@
 // Vertices where shadows end: refined grounds against uniform ones.
+#include "apps/evaluation/expect_no_stop.h"
 #include "apps/evaluation/scene_setup.h"
 #include "apps/evaluation/sections.h"
 #include "engine/base/progress.h"
 #include "precompute/error/error_study.h"
+
+#include <algorithm>
 
 namespace relume {
 
@@ -69,6 +72,30 @@ std::vector<Ground> grounds(const SectionInputs& inputs, const SceneInput& model
     return grounds;
 }
 
+// The fewest vertices that are as good as the finest uniform ground's under every light.
+std::string finding(const std::vector<Ground>& all, const StepResults& results) {
+    const auto errorsOf = [&](const Ground& ground) -> std::vector<double> {
+        return results.at(ground.step).numbers.at("errors");
+    };
+    const auto verticesOf = [&](const Ground& ground) -> uint64_t {
+        return results.at(ground.step).numbers.at("vertices");
+    };
+    const Ground& uniform = all[kUniform.size() - 1];
+    const Ground* best = nullptr;
+    for (size_t i = kUniform.size(); i < all.size(); i++) {
+        const std::vector<double> own = errorsOf(all[i]), theirs = errorsOf(uniform);
+        const bool isAsGood = std::ranges::equal(own, theirs, std::less_equal());
+        if (isAsGood && (!best || verticesOf(all[i]) < verticesOf(*best))) best = &all[i];
+    }
+    if (!best)
+        return fmt::format("Refinement: none of the refined grounds is as good as {} under every light.",
+                           uniform.title);
+    return fmt::format("Refinement: {} vertices ({}) interpolate the ground as well as {} uniform ones under "
+                       "every light: {:.1f} times fewer.",
+                       verticesOf(*best), best->title, verticesOf(uniform),
+                       double(verticesOf(uniform)) / double(verticesOf(*best)));
+}
+
 } // namespace
 
 Section refinedGround(const SectionInputs& inputs) {
@@ -107,6 +134,7 @@ Section refinedGround(const SectionInputs& inputs) {
                 row.push_back(fmt::format("{:.2f} %", 100 * error.get<double>()));
             table.rows.push_back(std::move(row));
         }
+        report.findings.push_back(finding(all, results));
         report.add(std::move(table));
     };
     return section;

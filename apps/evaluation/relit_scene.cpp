@@ -21,14 +21,14 @@ SceneLight environmentLight(const SceneInput& input, float rotationDegrees) {
     const auto prepared = std::make_shared<const Environment>(prepareForSampling(map));
     return {describe(input),
             {.environments = {{prepared, rotation}}},
-            sampleEnvironment(prepareForSampling(map, kTruthColumns), kTruthFace, rotation)};
+            sampleEnvironment(prepareForSampling(map, kTruthColumns), kTruthFaceSize, rotation)};
 }
 
 SceneLight areaLight(float azimuth, float elevation, float radius) {
     const float angle = glm::radians(radius), sine = std::sin(angle);
     const Light light{.lamps = {{directionAt(azimuth, elevation), angle, vec3(1 / (sine * sine))}}};
     return {fmt::format("an area light of {} degrees' radius", radius), light,
-            sampleLight(light, kTruthFace)};
+            sampleLight(light, kTruthFaceSize)};
 }
 
 SceneLight distantLight(float azimuth, float elevation, int face) {

@@ -6,6 +6,7 @@
 #include "engine/light/light.h"
 #include "engine/light/usual_light.h"
 #include "engine/render/view_pass.h"
+#include "precompute/error/stage_radiance.h"
 
 #include <functional>
 
@@ -22,8 +23,6 @@ struct SceneLight {
     Light light;
     LightCube truth;
 };
-
-constexpr int kTruthFace = 256; // side of a face of the truth's light
 
 // A map at all of its resolution, up to 1024 columns. Throws Error.
 SceneLight environmentLight(const SceneInput& input, float rotationDegrees = 0);
