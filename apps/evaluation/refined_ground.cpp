@@ -36,7 +36,7 @@ nlohmann::ordered_json study(StepRun& run, const Ground& ground, const std::vect
         const SceneLight light = environmentLight(input);
         lights.push_back({light.light, light.truth, kUsualLight});
     }
-    const ImageSize size = quick ? ImageSize{80, 60} : ImageSize{120, 90};
+    const ImageSize size = quick ? ImageSize{56, 42} : ImageSize{120, 90};
     const auto pixels = uint64_t(size.width) * uint64_t(size.height);
     Progress progress("tracing", pixels, "pixels");
     // References are for whole images: here only what interpolation changes is asked for.
