@@ -2,9 +2,9 @@
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"
+#include "precompute/error/baked_transport.h"
 #include "precompute/error/shared_progress.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_views.h"
 
 #include <algorithm>
@@ -71,14 +71,7 @@ Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light)
 class VertexLadders {
   public:
     VertexLadders(const Asset& asset, const Appearance& appearance, const LightVector& light)
-        : mAsset(asset), mAppearance(appearance), mLighting(asset.faceSize),
-          mEvaluations(asset.faceSize * int(std::lround(std::sqrt(double(asset.transportSamples))))),
-          mVisibility(asset.occluder, asset.visibilitySize), mLight(mLighting.count(), vec3(0)) {
-        for (size_t i = 0; i < light.indices.size(); i++) {
-            const auto& value = light.values[i];
-            mLight[light.indices[i]] = light.scale * vec3(value[0], value[1], value[2]);
-        }
-    }
+        : mAsset(asset), mAppearance(appearance), mTransport(asset), mLight(coefficientsOf(light)) {}
 
     void add(uint32_t part, uint32_t vertex) { mLadders[{part, vertex}]; }
 
@@ -114,26 +107,17 @@ class VertexLadders {
     using Key = std::pair<uint32_t, uint32_t>; // part, vertex
 
     std::vector<Ladder> laddersOf(uint32_t part, uint32_t vertex) const {
-        const AssetPart& source = mAsset.parts[part];
-        const FactoredBrdf& brdf = source.sets[mAppearance[part].set].brdf;
-        const vec3 normal = source.mesh.normals[vertex];
-        std::vector<uint64_t> bits(mVisibility.texels() / 64);
-        mVisibility.trace(source.mesh.positions[vertex] + mAsset.visibilityOffset * normal, normal, bits);
-        const std::vector<LitCell> lit = litCells(mEvaluations, mLighting, bits, tangentFrame(normal));
-        const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
+        const FactoredBrdf& brdf = mAsset.parts[part].sets[mAppearance[part].set].brdf;
         std::vector<Ladder> ladders;
-        for (int term = 0; term < brdf.terms; term++) {
-            std::vector<vec3> transport = transportOf(lit, places, brdf.lightMap(term), mLighting.count());
-            haarFaces(transport, mAsset.faceSize);
-            ladders.push_back(climb(transport, mLight));
-        }
+        mTransport.forEachTerm(part, vertex, brdf, [&](size_t, const std::vector<vec3>& coefficients) {
+            ladders.push_back(climb(coefficients, mLight));
+        });
         return ladders;
     }
 
     const Asset& mAsset;
     const Appearance& mAppearance;
-    CubeCells mLighting, mEvaluations;
-    CpuVisibility mVisibility;
+    BakedTransport mTransport;
     std::vector<vec3> mLight; // Haar coefficients
     std::map<Key, std::vector<Ladder>> mLadders;
 };

@@ -67,10 +67,8 @@ struct StageTracer::Vertices {
 
 StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const BakeOptions& options)
     : mAsset(asset), mAppearance(appearance), mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs),
-      mLighting(asset.faceSize),
-      mEvaluations(asset.faceSize * int(std::lround(std::sqrt(double(asset.transportSamples))))),
-      mTruth(kTruthFaceSize), mBaked(asset.occluder, asset.visibilitySize),
-      mFull(mergedMesh(asset), asset.visibilitySize), mFullFine(mergedMesh(asset), kTruthVisibility),
+      mBaked(asset), mTruth(kTruthFaceSize), mFull(mergedMesh(asset), asset.visibilitySize),
+      mFullFine(mergedMesh(asset), kTruthVisibility),
       mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {
     for (size_t part = 0; part < asset.parts.size(); part++)
         mTables.emplace_back(asset.parts[part].sets[appearance[part].set],
@@ -85,14 +83,10 @@ StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
     Light prepared;
     prepared.haar = haarOf(light.coarse.radiance, mAsset.faceSize);
-    prepared.drawn.assign(prepared.haar.size(), vec3(0));
-    for (size_t i = 0; i < light.drawn.indices.size(); i++) {
-        const auto& value = light.drawn.values[i];
-        prepared.drawn[light.drawn.indices[i]] = light.drawn.scale * vec3(value[0], value[1], value[2]);
-    }
+    prepared.drawn = coefficientsOf(light.drawn);
     prepared.coarse = light.coarse.radiance;
-    const std::vector<vec3> ordered = mLighting.ordered(light.coarse);
-    const size_t cells = mTruth.count() / mLighting.count();
+    const std::vector<vec3> ordered = mBaked.lighting().ordered(light.coarse);
+    const size_t cells = mTruth.count() / mBaked.lighting().count();
     prepared.coarseOf.reserve(mTruth.count());
     for (size_t i = 0; i < mTruth.count(); i++) prepared.coarseOf.push_back(ordered[i / cells]);
     prepared.fine = mTruth.ordered(light.fine);
@@ -101,20 +95,10 @@ StageTracer::Light StageTracer::prepare(const StageLight& light) const {
 
 StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
                                               std::span<const Light> lights) const {
-    const AssetPart& source = mAsset.parts[part];
-    const MaterialSet& set = source.sets[mAppearance[part].set];
-    const FactoredBrdf& brdf = set.brdf;
-    const vec3 normal = source.mesh.normals[vertex];
-    std::vector<uint64_t> bits(mBaked.texels() / 64);
-    mBaked.trace(source.mesh.positions[vertex] + mAsset.visibilityOffset * normal, normal, bits);
-    const std::vector<LitCell> lit = litCells(mEvaluations, mLighting, bits, tangentFrame(normal));
-    const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
-
-    const auto terms = size_t(brdf.terms);
+    const MaterialSet& set = mAsset.parts[part].sets[mAppearance[part].set];
+    const auto terms = size_t(set.brdf.terms);
     Tuples tuples{std::vector<vec3>(lights.size() * Tuples::kStages * terms)};
-    for (size_t term = 0; term < terms; term++) {
-        const std::vector<vec3> exact =
-            haarOf(transportOf(lit, places, brdf.lightMap(int(term)), mLighting.count()), mAsset.faceSize);
+    mBaked.forEachTerm(part, vertex, set.brdf, [&](size_t term, const std::vector<vec3>& exact) {
         const std::vector<uint16_t> kept = selectLargest(exact, mAsset.coefficients);
         const std::vector<vec3> stored =
             coefficientsOf(set.transport, size_t(vertex) * terms + term, exact.size());
@@ -125,7 +109,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
             of[2 * terms] = productOf(exact, kept, lights[light].haar);
             of[3 * terms] = product(exact, lights[light].haar);
         }
-    }
+    });
     return tuples;
 }
 
@@ -160,7 +144,7 @@ void StageTracer::traceOwnTransport(size_t number, const SurfacePoint& point, st
                                     std::span<const Light> lights, std::span<StageRadiance> result) const {
     const Wear wear = wearAt(number, point);
     const FactoredBrdf& brdf = *wear.brdf;
-    const std::vector<LitCell> lit = litCells(mEvaluations, mLighting, baked, point.frame);
+    const std::vector<LitCell> lit = mBaked.lit(baked, point.frame);
     const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
     const std::vector<vec3> table = mTables[number].lightMap(wear.layers, wear.weights, point.outgoing);
 
@@ -242,8 +226,7 @@ StageTracer::trace(std::span<const RayHit> points, vec3 eye, std::span<const Sta
         const RayHit& hit = points[i];
         const SurfacePoint point = mDressed.pointAt(hit, eye);
         std::vector<StageRadiance> stages(lights.size());
-        std::vector<uint64_t> baked(mBaked.texels() / 64);
-        mBaked.trace(point.position + mAsset.visibilityOffset * point.frame.n, point.frame.n, baked);
+        const std::vector<uint64_t> baked = mBaked.visibility(point.position, point.frame.n);
         traceVertices(hit, point, vertices, lights, stages);
         traceOwnTransport(hit.mesh, point, baked, lights, stages);
         traceTruth(point, baked, lights, stages);

@@ -3,9 +3,8 @@
 
 #include "engine/light/light_vector.h"
 #include "precompute/bake/bake_options.h"
-#include "precompute/cpu/cpu_visibility.h"
+#include "precompute/error/baked_transport.h"
 #include "precompute/error/error_source.h"
-#include "precompute/error/lit_cells.h"
 #include "precompute/error/tabulated_brdf.h"
 #include "precompute/reference/dressed_asset.h"
 
@@ -64,9 +63,9 @@ class StageTracer {
     MaterialBrdfs mBrdfs;
     DressedAsset mDressed;
     std::vector<TabulatedBrdf> mTables; // per part, of the worn set
-    CubeCells mLighting, mEvaluations, mTruth;
-    CpuVisibility mBaked;    // what the bake saw
-    CpuVisibility mFull;     // the mesh itself, with as many rays
+    BakedTransport mBaked;
+    CubeCells mTruth;
+    CpuVisibility mFull;     // the mesh itself, with as many rays as the bake's
     CpuVisibility mFullFine; // and with four for each texel of the truth's light
     float mFullOffset;
 };
