@@ -1,6 +1,7 @@
 #include "apps/evaluation/report_html.h"
 
 #include "apps/evaluation/base64.h"
+#include "apps/plot/markup.h"
 #include "engine/base/check.h"
 #include "engine/base/file.h"
 
@@ -31,33 +32,6 @@ figcaption { font-size: 12.5px; color: #333; padding-top: .2rem; } figcaption b 
   h2 { break-after: avoid; } }
 )";
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char letter : text) {
-        switch (letter) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        case '\'':
-            result += "&#39;";
-            break;
-        default:
-            // Control characters have no meaning in a page.
-            result += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
-        }
-    }
-    return result;
-}
-
 std::string dataOf(const char* type, std::span<const std::byte> bytes) {
     return fmt::format("data:image/{};base64,{}", type, base64(bytes));
 }
@@ -65,14 +39,14 @@ std::string dataOf(const char* type, std::span<const std::byte> bytes) {
 std::string paragraph(std::string_view text, std::string_view style = "") {
     if (text.empty()) return "";
     const std::string name = style.empty() ? "" : fmt::format(" class=\"{}\"", style);
-    return fmt::format("<p{}>{}</p>\n", name, escaped(text));
+    return fmt::format("<p{}>{}</p>\n", name, escapedMarkup(text));
 }
 
 // Nothing where there are no lines.
 std::string list(const char* title, const std::vector<std::string>& lines) {
     if (lines.empty()) return "";
     std::string html = fmt::format("<h2>{}</h2>\n<ul>\n", title);
-    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", escaped(line));
+    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", escapedMarkup(line));
     return html + "</ul>\n";
 }
 
@@ -84,13 +58,14 @@ struct ItemWriter {
     void operator()(const Paragraph& item) const { html += paragraph(item.text); }
 
     void operator()(const ReportTable& table) const {
-        html += fmt::format("<table>\n<caption>{}</caption>\n<thead><tr>", escaped(table.title));
-        for (const std::string& column : table.columns) html += fmt::format("<th>{}</th>", escaped(column));
+        html += fmt::format("<table>\n<caption>{}</caption>\n<thead><tr>", escapedMarkup(table.title));
+        for (const std::string& column : table.columns)
+            html += fmt::format("<th>{}</th>", escapedMarkup(column));
         html += "</tr></thead>\n<tbody>\n";
         for (const auto& row : table.rows) {
             RELUME_CHECK_EQ(row.size(), table.columns.size());
             html += "<tr>";
-            for (const std::string& cell : row) html += fmt::format("<td>{}</td>", escaped(cell));
+            for (const std::string& cell : row) html += fmt::format("<td>{}</td>", escapedMarkup(cell));
             html += "</tr>\n";
         }
         html += "</tbody></table>\n" + paragraph(table.note, "note");
@@ -99,20 +74,20 @@ struct ItemWriter {
     void operator()(const ReportFigure& figure) const {
         html += fmt::format("<div class=\"figure\">\n<p><b>{}</b></p>\n<div class=\"pictures\" "
                             "style=\"grid-template-columns: repeat({}, 1fr)\">\n",
-                            escaped(figure.title), figure.columns);
+                            escapedMarkup(figure.title), figure.columns);
         for (const Picture& picture : figure.pictures)
             html += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption><b>{}</b> {}</figcaption>"
                                 "</figure>\n",
                                 dataOf("png", readFile(folder / picture.file)),
-                                escaped(picture.title + " " + picture.caption), escaped(picture.title),
-                                escaped(picture.caption));
+                                escapedMarkup(picture.title + " " + picture.caption),
+                                escapedMarkup(picture.title), escapedMarkup(picture.caption));
         html += "</div>\n" + paragraph(figure.note, "note") + "</div>\n";
     }
 
     void operator()(const ReportPlot& plot) const {
         html += fmt::format("<div class=\"figure\">\n<p><b>{0}</b></p>\n<figure><img src=\"{1}\" "
                             "alt=\"{0}\"></figure>\n</div>\n",
-                            escaped(plot.title), dataOf("svg+xml", std::as_bytes(std::span(plot.svg))));
+                            escapedMarkup(plot.title), dataOf("svg+xml", std::as_bytes(std::span(plot.svg))));
     }
 };
 
@@ -122,13 +97,13 @@ std::string htmlOf(const Report& report, const std::filesystem::path& folder) {
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n"
         "<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-        escaped(report.title), kStyle, escaped(report.title));
+        escapedMarkup(report.title), kStyle, escapedMarkup(report.title));
     html += list("What was found", report.findings) + "<table class=\"facts\">\n";
     for (const auto& [name, value] : report.facts)
-        html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+        html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escapedMarkup(name), escapedMarkup(value));
     html += "</table>\n" + list("What is missing", report.skipped);
     for (const ReportSection& section : report.sections) {
-        html += fmt::format("<h2>{}</h2>\n", escaped(section.title));
+        html += fmt::format("<h2>{}</h2>\n", escapedMarkup(section.title));
         for (const ReportItem& item : section.items) std::visit(ItemWriter{folder, html}, item);
     }
     html += "</body>\n</html>\n";

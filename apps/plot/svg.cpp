@@ -1,5 +1,6 @@
 #include "apps/plot/svg.h"
 
+#include "apps/plot/markup.h"
 #include "engine/base/check.h"
 
 #include <array>
@@ -15,30 +16,6 @@ std::string number(double value) {
     RELUME_CHECK(std::isfinite(value));
     const double rounded = std::round(value * 100) / 100;
     return fmt::format("{}", rounded == 0 ? 0.0 : rounded);
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char letter : text) {
-        switch (letter) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            // XML has no other control characters.
-            result += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
-        }
-    }
-    return result;
 }
 
 std::string attributes(const Stroke& stroke) {
@@ -84,7 +61,7 @@ void Svg::text(glm::dvec2 place, std::string_view text, const TextStyle& style) 
                          "fill=\"{}\"{}>{}</text>\n",
                          number(place.x), number(place.y), style.upwards ? " rotate(-90)" : "",
                          number(style.size), kAnchors[size_t(style.anchor)], style.colour,
-                         style.bold ? " font-weight=\"bold\"" : "", escaped(text));
+                         style.bold ? " font-weight=\"bold\"" : "", escapedMarkup(text));
 }
 
 void Svg::halfCircle(glm::dvec2 centre, double radius, const Stroke& stroke) {
