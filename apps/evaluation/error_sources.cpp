@@ -178,9 +178,7 @@ ReportFigure heatFigure(const Study& study, size_t light) {
 
 Section errorSources(const SectionInputs& inputs) {
     Section section{"sources", "Where error comes from", {}, {}};
-    std::vector<SceneInput> lights;
-    for (const char* name : kEnvironments)
-        if (const auto found = inputs.scenes.environment(name)) lights.push_back(*found);
+    const std::vector<SceneInput> lights = environmentsOf(inputs, kEnvironments);
     std::vector<Study> studies;
     for (const char* name : kModels) {
         if (inputs.quick && name != kModels.front()) break;

@@ -101,9 +101,7 @@ std::string finding(const std::vector<Ground>& all, const StepResults& results) 
 Section refinedGround(const SectionInputs& inputs) {
     Section section{"refinement", "Vertices where shadows end", {}, {}};
     const auto model = inputs.scenes.model("bunny");
-    std::vector<SceneInput> lights;
-    for (const char* name : kEnvironments)
-        if (const auto found = inputs.scenes.environment(name)) lights.push_back(*found);
+    const std::vector<SceneInput> lights = environmentsOf(inputs, kEnvironments);
     if (!model || lights.empty())
         return skippedSection(std::move(section), "there is no bunny, or none of its environments");
     const std::vector<Ground> all = grounds(inputs, *model);

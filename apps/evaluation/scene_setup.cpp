@@ -33,6 +33,13 @@ BakeRecipe sceneRecipe(const SectionInputs& inputs, const std::string& model, co
     return recipe;
 }
 
+std::vector<SceneInput> environmentsOf(const SectionInputs& inputs, std::span<const char* const> names) {
+    std::vector<SceneInput> found;
+    for (const char* name : names)
+        if (const auto environment = inputs.scenes.environment(name)) found.push_back(*environment);
+    return found;
+}
+
 ImageSize wideImage(bool quick) { return quick ? ImageSize{320, 240} : ImageSize{640, 480}; }
 ImageSize tallImage(bool quick) { return quick ? ImageSize{240, 320} : ImageSize{480, 640}; }
 

@@ -4,12 +4,17 @@
 #include "apps/evaluation/evaluation.h"
 #include "apps/evaluation/relit_scene.h"
 
+#include <span>
+
 namespace relume {
 
 // The model as it is on the ground that the paper tessellates for it; with --quick a small one on a coarse
 // ground, seen at half the resolution.
 BakeRecipe sceneRecipe(const SectionInputs& inputs, const std::string& model, const SceneInput& found,
                        const std::string& material, const BakeOptions& options);
+
+// Those of these names that are there.
+std::vector<SceneInput> environmentsOf(const SectionInputs& inputs, std::span<const char* const> names);
 
 ImageSize wideImage(bool quick), tallImage(bool quick);
 
