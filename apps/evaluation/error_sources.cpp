@@ -205,8 +205,8 @@ Section errorSources(const SectionInputs& inputs) {
             "Each point of an image is computed again, stage after stage made exact: first with all of the "
             "light's coefficients, then transport as it was before it was stored, then all its coefficients, "
             "its own instead of its triangle's corners', all terms of the tabulated BRDF, the BRDF itself, "
-            "taken as finely as rays are cast, the light's own resolution, the full mesh, and four times the "
-            "rays. What a stage changes is the error of what it replaces. Baked with relume's defaults.");
+            "taken as finely as rays are cast, the light's own resolution, the full mesh, and 6 x 512² rays. "
+            "What a stage changes is the error of what it replaces. Baked with relume's defaults.");
         report.say(quickNote(quick));
         addTables(studies, results, report);
         addFindings(studies, results, report);

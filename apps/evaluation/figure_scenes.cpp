@@ -109,9 +109,9 @@ Section sceneFigures(const SectionInputs& inputs) {
         for (Step& step : figureSteps(shot.setup)) section.steps.push_back(std::move(step));
     section.write = [=, quick = inputs.quick](const StepResults& results, ReportSection& report) {
         report.say(
-            "Each in the paper's way (its factorisation, K = 4, rows of 96 coefficients), as relume bakes it "
-            "if "
-            "asked for nothing (K = 4, bases), and the reference: exact BRDF, full mesh, light of 6 x 256² "
+            "Each in the paper's way (its factorisation, K = 4, rows of 96 coefficients, the light above its "
+            "threshold of 1024), as relume bakes and renders it if asked for nothing (K = 4, bases, 512 "
+            "coefficients of the light), and the reference: exact BRDF, full mesh, light of 6 x 256² "
             "texels.");
         report.say(quickNote(quick));
         ReportTable table{"scenes", "Relative RMSE", {"scene", "the paper's way", "defaults", ""}, {}, ""};
