@@ -5,8 +5,8 @@
 #include "apps/evaluation/scene_setup.h"
 #include "apps/evaluation/sections.h"
 #include "engine/base/progress.h"
-#include "engine/render/tone_map.h"
 #include "precompute/error/heat_maps.h"
+#include "precompute/error/study_json.h"
 
 namespace relume {
 
@@ -24,33 +24,15 @@ struct Study {
     bool quick = false;
 };
 
-nlohmann::ordered_json describe(const ErrorStudy& study) {
-    nlohmann::ordered_json sources;
-    for (size_t i = 0; i < kErrorSources; i++)
-        sources.push_back({study.budget.sources[i].rms, study.budget.sources[i].share});
-    return {{"sources", sources},
-            {"total", study.budget.total},
-            {"root_sum_squares", study.budget.rootSumSquares},
-            {"measured", study.measured},
-            {"noise", study.noise},
-            {"drawn_aside", study.drawnAside},
-            {"truth_aside", study.truthAside},
-            {"harmonics", study.lowOrder->error},
-            {"harmonics_of_terms", study.lowOrder->termsError}};
-}
-
 // Of one light: what was drawn, what is true, what harmonics give, and heat.
 void writeImages(StepRun& run, const std::string& prefix, const ErrorStudy& study, const ViewPoints& points) {
     constexpr int kScale = 3;
-    const double full = fullHeat(study);
     const float exposure = float(-std::log2(std::max(2 * study.budget.level, 1e-6)));
     run.write(prefix + "drawn", enlarged(study.drawn, kScale), exposure);
     run.write(prefix + "reference", enlarged(study.reference, kScale), exposure);
     run.write(prefix + "harmonics", enlarged(study.lowOrder->image, kScale), exposure);
-    run.writeDisplay(prefix + "total", totalHeatMap(study, points, full, kScale));
-    for (size_t i = 0; i < kErrorSources; i++)
-        run.writeDisplay(prefix + std::string(errorSourceName(ErrorSource(i))),
-                         sourceHeatMap(study, points, ErrorSource(i), full, kScale));
+    for (const HeatMap& heat : heatMaps(study, points, kScale))
+        run.writeDisplay(prefix + heat.name, heat.map);
 }
 
 nlohmann::ordered_json work(StepRun& run, const Study& study) {
@@ -117,18 +99,19 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
             for (const std::string& cell :
                  {percent(measured), percent(total),
                   measured > 0 ? fmt::format("{:.3f}", total / measured) : "-",
-                  percent(number(numbers, "root_sum_squares")), percent(number(numbers, "noise")),
-                  fmt::format("{}; {}", percent(number(numbers, "drawn_aside")),
-                              percent(number(numbers, "truth_aside")))})
+                  percent(number(numbers, "root_sum_of_squares")),
+                  percent(number(numbers, "reference_noise")),
+                  fmt::format("{}; {}", percent(number(numbers, "unexplained_drawing")),
+                              percent(number(numbers, "unexplained_truth")))})
                 row.push_back(cell);
             sums.rows.push_back(row);
             row = scene;
             for (const auto& source : numbers.at("sources"))
-                row.push_back(fmt::format("{:.2f}\u00a0({:.0f})", 100 * source.at(0).get<double>(),
-                                          100 * source.at(1).get<double>()));
+                row.push_back(fmt::format("{:.2f}\u00a0({:.0f})", 100 * number(source, "rms"),
+                                          100 * number(source, "share")));
             parts.rows.push_back(row);
             row = scene;
-            for (const char* key : {"measured", "harmonics_of_terms", "harmonics"})
+            for (const char* key : {"measured", "spherical_harmonics_of_terms", "spherical_harmonics"})
                 row.push_back(percent(number(numbers, key)));
             harmonics.rows.push_back(row);
         }
@@ -146,7 +129,7 @@ void addFindings(const std::vector<Study>& studies, const StepResults& results, 
             const double measured = number(numbers, "measured");
             if (!(measured > 0)) continue;
             sums.push_back(number(numbers, "total") / measured);
-            harmonics.push_back(number(numbers, "harmonics_of_terms") / measured);
+            harmonics.push_back(number(numbers, "spherical_harmonics_of_terms") / measured);
             mean += sums.back();
             if (std::abs(sums.back() - 1) > std::abs(worst - 1)) worst = sums.back();
         }
@@ -163,7 +146,7 @@ ReportFigure heatFigure(const Study& study, size_t light) {
         return Picture{pictureOf(study.name, fmt::format("{}-{}.png", light, name)), title, ""};
     };
     ReportFigure figure{
-        fmt::format("{}, {}, {}", study.model, study.material, relume::describe(study.lights[light])),
+        fmt::format("{}, {}, {}", study.model, study.material, describe(study.lights[light])),
         5,
         {picture("drawn", "drawn"), picture("reference", "reference"),
          picture("harmonics", "25 spherical harmonics"), picture("total", "all error")},
@@ -185,9 +168,8 @@ Section errorSources(const SectionInputs& inputs) {
         const auto model = inputs.scenes.model(name);
         if (!model || lights.empty()) continue;
         for (const char* material : kMaterials)
-            studies.push_back({fmt::format("sources-{}-{}", name, material), relume::describe(*model),
-                               material, lights, sceneRecipe(inputs, name, *model, material, {}),
-                               inputs.quick});
+            studies.push_back({fmt::format("sources-{}-{}", name, material), describe(*model), material,
+                               lights, sceneRecipe(inputs, name, *model, material, {}), inputs.quick});
     }
     if (studies.empty())
         return skippedSection(std::move(section), "there is none of its models and environments");

@@ -6,6 +6,7 @@
 #include "engine/base/progress.h"
 #include "engine/image/image_file.h"
 #include "precompute/error/heat_maps.h"
+#include "precompute/error/study_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,33 +31,11 @@ void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, c
     constexpr int kScale = 4;
     std::error_code failure;
     std::filesystem::create_directories(folder, failure); // writing says why not
-    const double full = fullHeat(study);
     writeExr(folder / "drawn.exr", study.drawn);
     writeExr(folder / "reference.exr", study.reference);
     writeExr(folder / "harmonics.exr", study.lowOrder->image);
-    writePng(folder / "total.png", totalHeatMap(study, points, full, kScale));
-    for (size_t i = 0; i < kErrorSources; i++)
-        writePng(folder / fmt::format("{}.png", errorSourceName(ErrorSource(i))),
-                 sourceHeatMap(study, points, ErrorSource(i), full, kScale));
-}
-
-nlohmann::ordered_json describe(const ErrorStudy& study) {
-    nlohmann::ordered_json sources;
-    for (size_t i = 0; i < kErrorSources; i++)
-        sources[std::string(errorSourceName(ErrorSource(i)))] = {{"rms", study.budget.sources[i].rms},
-                                                                 {"share", study.budget.sources[i].share}};
-    return {{"points", study.stages.size()},
-            {"sources", sources},
-            {"total", study.budget.total},
-            {"total_standard_error", study.budget.uncertainty},
-            {"root_sum_of_squares", study.budget.rootSumSquares},
-            {"measured", study.measured},
-            {"reference_noise", study.noise},
-            {"reference_passes", study.passes},
-            {"unexplained_drawing", study.drawnAside},
-            {"unexplained_truth", study.truthAside},
-            {"spherical_harmonics", study.lowOrder->error},
-            {"spherical_harmonics_of_terms", study.lowOrder->termsError}};
+    for (const HeatMap& heat : heatMaps(study, points, kScale))
+        writePng(folder / (heat.name + ".png"), heat.map);
 }
 
 void print(const ErrorStudy& study) {

@@ -13,26 +13,7 @@ double changeOf(const StageRadiance& stages, size_t from, size_t to) {
     return glm::length(glm::dvec3(stages[from]) - glm::dvec3(stages[to]));
 }
 
-Image heatMap(const ErrorStudy& study, const ViewPoints& points, size_t from, size_t to, double full,
-              int scale) {
-    const Image map = points.image([&](size_t i) {
-        const double heat = full > 0 ? changeOf(study.stages[i], from, to) / full : 0;
-        return heatColor(float(heat));
-    });
-    return toneMap(enlarged(map, scale), ToneCurve::None, 0);
-}
-
-} // namespace
-
-Image totalHeatMap(const ErrorStudy& study, const ViewPoints& points, double full, int scale) {
-    return heatMap(study, points, 0, kErrorSources, full, scale);
-}
-
-Image sourceHeatMap(const ErrorStudy& study, const ViewPoints& points, ErrorSource source, double full,
-                    int scale) {
-    return heatMap(study, points, size_t(source), size_t(source) + 1, full, scale);
-}
-
+// The difference from the truth that one point in a hundred exceeds.
 double fullHeat(const ErrorStudy& study) {
     std::vector<double> changes;
     for (const StageRadiance& stages : study.stages) changes.push_back(changeOf(stages, 0, kErrorSources));
@@ -40,6 +21,23 @@ double fullHeat(const ErrorStudy& study) {
     const auto place = changes.begin() + std::ptrdiff_t(changes.size() * 99 / 100);
     std::nth_element(changes.begin(), place, changes.end());
     return *place;
+}
+
+} // namespace
+
+std::vector<HeatMap> heatMaps(const ErrorStudy& study, const ViewPoints& points, int scale) {
+    const double full = fullHeat(study);
+    const auto between = [&](size_t from, size_t to) {
+        const Image map = points.image([&](size_t i) {
+            const double heat = full > 0 ? changeOf(study.stages[i], from, to) / full : 0;
+            return heatColor(float(heat));
+        });
+        return toneMap(enlarged(map, scale), ToneCurve::None, 0);
+    };
+    std::vector<HeatMap> maps = {{"total", between(0, kErrorSources)}};
+    for (size_t i = 0; i < kErrorSources; i++)
+        maps.push_back({std::string(errorSourceName(ErrorSource(i))), between(i, i + 1)});
+    return maps;
 }
 
 Image enlarged(const Image& image, int scale) {

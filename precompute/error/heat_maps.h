@@ -5,15 +5,15 @@
 
 namespace relume {
 
-// How far each point's radiance is from the truth, or what a source changes of it: length of the difference
-// over its channels, in heatColor(), of which 1 is `full`; with every pixel `scale` pixels a side. For PNG
-// (display values).
-Image totalHeatMap(const ErrorStudy& study, const ViewPoints& points, double full, int scale);
-Image sourceHeatMap(const ErrorStudy& study, const ViewPoints& points, ErrorSource source, double full,
-                    int scale);
+struct HeatMap {
+    std::string name; // "total", or that of a source
+    Image map;        // display values, for PNG
+};
 
-// What to show in full heat: the difference from the truth that one point in a hundred exceeds.
-double fullHeat(const ErrorStudy& study);
+// How far each point's radiance is from the truth, and what every source changes of it: the length of the
+// difference over its channels, in heatColor(), with every pixel `scale` pixels a side. Full heat is, in all
+// maps alike, the difference from the truth that one point in a hundred exceeds.
+std::vector<HeatMap> heatMaps(const ErrorStudy& study, const ViewPoints& points, int scale);
 
 // Every pixel `scale` pixels a side.
 Image enlarged(const Image& image, int scale);
