@@ -111,7 +111,8 @@ Report shareOf(const Report& report, double first, double last) {
 // In bases, of a plan for the most terms and what a grid says of it.
 std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceRequest& request,
                                        const Scene& scene, const ErrorGrid& grid, const LightVector& light,
-                                       std::span<const SeenPoints> points, BakeObserver& observer) {
+                                       std::span<const SeenPoints> points, BakeObserver& observer,
+                                       const Report& report) {
     BakeOptions options = request.options;
     const auto rung =
         size_t(std::ranges::find(kTriedCoefficients, options.coefficients) - kTriedCoefficients.begin());
@@ -123,7 +124,7 @@ std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceReq
     std::vector<vec3> eyes;
     for (const SeenPoints& seen : points) eyes.push_back(seen.eye);
     const LayoutCosts costs =
-        layoutCosts(device, plan, defaultAppearance(plan.asset), light, eyes, grid, observer);
+        layoutCosts(device, plan, defaultAppearance(plan.asset), light, eyes, grid, observer, report);
     // What is lost by storing is about independent of the rest, so that squares add.
     const double before = grid.errors[size_t(*terms) - 1][rung];
     const double left = std::sqrt(request.error * request.error - before * before);
@@ -153,7 +154,8 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     advice.vertices = plan.vertices();
     for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
-    advice.bases = adviseBases(device, request, scene, grid, vector, points, observer);
+    advice.bases =
+        adviseBases(device, request, scene, grid, vector, points, observer, shareOf(report, 0.8, 1));
     if (advice.bases) *advice.bases->seconds += secondsBefore;
     if (advice.rows && advice.bases) // which take as long for a term
         advice.rows->seconds = *advice.bases->seconds * advice.rows->options.factorization.terms /

@@ -74,11 +74,15 @@ double squaredDifference(const AssetPart& part, const PartAppearance& worn,
 
 LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Appearance& appearance,
                         const LightVector& light, std::span<const vec3> eyes, const ErrorGrid& grid,
-                        BakeObserver& observer) {
+                        BakeObserver& observer, const std::function<void(double)>& progress) {
     RELUME_CHECK(plan.options.layout.layout == TransportLayout::Bases);
     LayoutCosts costs;
     costs.bakeSeconds = plan.factorisationSeconds + plan.occluderSeconds;
     std::array<double, kTriedLayoutErrors.size()> squares{};
+    // A part's bake takes about as long as making bases of it, for all errors.
+    const size_t pieces = plan.asset.parts.size() * 2 * kTriedLayoutErrors.size();
+    size_t done = 0;
+    const auto tell = [&](size_t more) { progress(double(done += more) / double(pieces)); };
     for (uint32_t number = 0; number < plan.asset.parts.size(); number++) {
         const AssetPart& part = plan.asset.parts[number];
         const PartAppearance& worn = appearance[number];
@@ -90,6 +94,7 @@ LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Ap
         const double scale = double(part.mesh.vertexCount()) / double(sink.vertices.size());
         costs.bakeSeconds +=
             scale * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        tell(kTriedLayoutErrors.size());
 
         // An asset of these vertices alone, made into bases of one error after another.
         Asset sample;
@@ -109,6 +114,7 @@ LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Ap
             squares[i] += grid.shares[number] *
                           squaredDifference(part, worn, sink.vertices, exact,
                                             relight(bases.parts[0].sets[worn.set].transport, light), eyes);
+            tell(1);
         }
     }
     for (size_t i = 0; i < squares.size(); i++) costs.errors[i] = std::sqrt(squares[i]) / grid.level;

@@ -5,6 +5,8 @@
 #include "precompute/bake/block_baker.h"
 #include "precompute/error/error_grid.h"
 
+#include <functional>
+
 namespace relume {
 
 // LayoutOptions::error that are tried, falling.
@@ -18,10 +20,11 @@ struct LayoutCosts {
 };
 
 // Bakes a few blocks of every part on the device and encodes them. `plan` is for bases. Vertices count as
-// much as `grid` says of their part's share of images, seen from `eyes` in front of them. Throws BakeStopped,
-// Error.
+// much as `grid` says of their part's share of images, seen from `eyes` in front of them. `progress`, not
+// empty, is told the share that is done, after a part's bake and after each of its layouts. Throws
+// BakeStopped, Error.
 LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Appearance& appearance,
                         const LightVector& light, std::span<const vec3> eyes, const ErrorGrid& grid,
-                        BakeObserver& observer);
+                        BakeObserver& observer, const std::function<void(double)>& progress);
 
 } // namespace relume
