@@ -5,10 +5,12 @@
 #include "engine/base/hash.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
+#include "engine/transport/kept_visibility.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/visibility/occluder.h"
 
 #include <span>
+#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -33,18 +35,24 @@ class BarObserver : public BakeObserver {
     std::optional<Progress> mBar;
 };
 
-void writeRecord(const std::filesystem::path& path, const BakeRecord& record) {
-    const Json json = {
-        {"vertices", record.vertices}, {"bytes", record.bytes}, {"ms_per_vertex", record.msPerVertex}};
-    writeFileAtomically(path, json.dump() + "\n");
+std::filesystem::path recordPath(std::filesystem::path bake) { return bake.replace_extension(".json"); }
+
+void writeRecord(const std::filesystem::path& bake, const BakeRecord& record) {
+    Json json = {{"vertices", record.vertices}, {"bytes", record.bytes}};
+    if (record.msPerVertex) json["ms_per_vertex"] = *record.msPerVertex;
+    writeFileAtomically(recordPath(bake), json.dump() + "\n");
 }
 
-std::optional<BakeRecord> readRecord(const std::filesystem::path& path) {
+std::optional<BakeRecord> readRecord(const std::filesystem::path& bake) {
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(bake, failure)) return std::nullopt;
     try {
-        const std::vector<std::byte> bytes = readFile(path, 1 << 16);
+        const std::vector<std::byte> bytes = readFile(recordPath(bake), 1 << 16);
         const auto* text = reinterpret_cast<const char*>(bytes.data());
         const Json json = Json::parse(text, text + bytes.size());
-        return BakeRecord{json.at("vertices"), json.at("bytes"), json.at("ms_per_vertex")};
+        BakeRecord record{json.at("vertices"), json.at("bytes"), {}};
+        if (json.contains("ms_per_vertex")) record.msPerVertex = json.at("ms_per_vertex").get<double>();
+        return record;
     } catch (const Error&) {
         return std::nullopt;
     } catch (const Json::exception&) {
@@ -52,7 +60,17 @@ std::optional<BakeRecord> readRecord(const std::filesystem::path& path) {
     }
 }
 
-std::filesystem::path recordPath(std::filesystem::path bake) { return bake.replace_extension(".json"); }
+// Whether a file keeps visibility. One that should and does not goes.
+bool keepsVisibility(const std::filesystem::path& path) {
+    std::error_code failure;
+    if (!std::filesystem::exists(path, failure)) return false;
+    try {
+        if (!KeptVisibility(path).key().empty()) return true;
+    } catch (const Error&) {
+    }
+    std::filesystem::remove(path, failure);
+    return false;
+}
 
 } // namespace
 
@@ -63,6 +81,17 @@ Json BakeRecipe::key() const {
                  {"material", material},
                  {"options", describeOptions(options)}};
     if (ground) json["ground"] = {{"tessellation", ground->tessellation}, {"extent", ground->extent}};
+    return json;
+}
+
+Json BakeRecipe::visibilityKey() const {
+    Json json = {{"model", model.hash},
+                 {"up", model.up == UpAxis::Z ? "z" : "y"},
+                 {"triangles", triangles},
+                 {"occluder", options.occluderTriangles},
+                 {"size", options.visibilitySize}};
+    if (ground) json["ground"] = {{"tessellation", ground->tessellation}, {"extent", ground->extent}};
+    if (options.refinement) json["refined"] = key();
     return json;
 }
 
@@ -87,21 +116,47 @@ Scene makeScene(const BakeRecipe& recipe) {
     return scene;
 }
 
-std::filesystem::path BakeStore::pathOf(const BakeRecipe& recipe) const {
-    const Json identity = {{"recipe", recipe.key()},
+std::filesystem::path BakeStore::pathOf(const Json& key) const {
+    const Json identity = {{"recipe", key},
                            {"program", RELUME_VERSION},
                            {"device", mDevice.name()},
                            {"driver", mDevice.info().driver}};
-    const std::string key = identity.dump();
-    return mFolder / (hashText(std::as_bytes(std::span(key))) + ".relume");
+    const std::string text = identity.dump();
+    return mFolder / (hashText(std::as_bytes(std::span(text))) + ".relume");
+}
+
+std::filesystem::path BakeStore::visibilityPath(const BakeRecipe& recipe) const {
+    return pathOf(recipe.visibilityKey());
 }
 
 BakeRecord BakeStore::make(const BakeRecipe& recipe) const {
-    const std::filesystem::path path = pathOf(recipe);
-    std::error_code failure;
-    if (std::filesystem::is_regular_file(path, failure))
-        if (const auto record = readRecord(recordPath(path))) return *record;
+    const std::filesystem::path path = bakePath(recipe), visibility = visibilityPath(recipe);
+    if (const auto record = readRecord(path)) return *record;
     makeFolder(mFolder);
+    // Refined vertices are of one recipe alone.
+    const bool isShared = !recipe.options.refinement, isKept = isShared && keepsVisibility(visibility);
+    BakeOptions options = recipe.options;
+    options.keepVisibility = isShared && !isKept;
+    OutputOptions output; // without a name: what `path` keeps, of a run that was killed before the link
+    if (isKept) output.visibility = visibility;
+    BarObserver observer("baking " + recipe.name);
+    const BakeSummary summary = bakeToFile(mDevice, makeScene(recipe), options, path, {}, observer, output);
+    std::error_code failure;
+    if (options.keepVisibility) std::filesystem::create_hard_link(path, visibility, failure);
+    if (failure)
+        spdlog::warn("{}: cannot be linked to ({}); visibility is found anew", path.string(),
+                     failure.message());
+    const BakeRecord record{summary.vertices, summary.bytes, {}};
+    writeRecord(path, record);
+    return record;
+}
+
+BakeRecord BakeStore::makeTimed(const BakeRecipe& recipe) const {
+    const std::filesystem::path path = bakePath(recipe);
+    if (const auto record = readRecord(path); record && record->msPerVertex) return *record;
+    makeFolder(mFolder);
+    std::error_code failure;
+    std::filesystem::remove(path, failure); // it may keep visibility
     const Scene scene = makeScene(recipe);
     const auto bake = [&] {
         BarObserver observer("baking " + recipe.name);
@@ -112,17 +167,22 @@ BakeRecord BakeStore::make(const BakeRecipe& recipe) const {
     if (10 * (summary.vertices - summary.resumed) < summary.vertices) summary = bake();
     const uint64_t baked = summary.vertices - summary.resumed;
     const BakeRecord record{summary.vertices, summary.bytes, 1e3 * summary.times.total / double(baked)};
-    writeRecord(recordPath(path), record);
+    writeRecord(path, record);
     return record;
 }
 
-Asset BakeStore::read(const BakeRecipe& recipe) const { return readAsset(pathOf(recipe)); }
+Asset BakeStore::read(const BakeRecipe& recipe) const { return readAsset(bakePath(recipe)); }
 
 void BakeStore::remove(const BakeRecipe& recipe) const {
-    const std::filesystem::path path = pathOf(recipe);
+    const std::filesystem::path path = bakePath(recipe);
     std::error_code failure; // what is not there need not go
     for (const auto& file : {path, checkpointPath(path), recordPath(path)})
         std::filesystem::remove(file, failure);
+}
+
+void BakeStore::removeVisibility(const BakeRecipe& recipe) const {
+    std::error_code failure;
+    std::filesystem::remove(visibilityPath(recipe), failure);
 }
 
 } // namespace relume

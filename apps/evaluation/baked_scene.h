@@ -17,8 +17,10 @@ struct BakeRecipe {
     BakeOptions options;
     size_t triangles = 0; // that the model is simplified to; 0: all
 
-    // Everything that decides the bake's bytes on a device.
+    // Everything that decides the asset on a device.
     nlohmann::ordered_json key() const;
+    // What recipes have in common whose vertices are the same and see the same.
+    nlohmann::ordered_json visibilityKey() const;
 };
 
 // The paper's: its factorisation, orthographic maps of 48, rows of `coefficients`.
@@ -29,7 +31,9 @@ Scene makeScene(const BakeRecipe& recipe);
 // What a bake cost.
 struct BakeRecord {
     uint64_t vertices = 0, bytes = 0; // of transport, in memory
-    double msPerVertex = 0; // of wall-clock time, over the vertices of its last run: a tenth or more
+    // Of wall-clock time, over the vertices of its last run: a tenth or more. None: of a bake that was not
+    // timed.
+    std::optional<double> msPerVertex;
 };
 
 class BakeStore {
@@ -37,14 +41,21 @@ class BakeStore {
     BakeStore(const vk::Device& device, std::filesystem::path folder)
         : mDevice(device), mFolder(std::move(folder)) {}
 
-    // Bakes unless it is there, from its checkpoint on where there is one. Shows progress. Throws BakeStopped
-    // when an interrupt was caught, Error. Files are of this program and device alone.
+    // Bakes unless it is there, from its checkpoint on where there is one, and with the visibility that the
+    // first bake of the same visibilityKey() kept. Shows progress. Throws BakeStopped when an interrupt was
+    // caught, Error. Files are of this program and device alone.
     BakeRecord make(const BakeRecipe& recipe) const;
-    Asset read(const BakeRecipe& recipe) const; // after make()
+    // The same, of a bake that finds the visibility of the vertices that it times, and does not keep it.
+    BakeRecord makeTimed(const BakeRecipe& recipe) const;
+    Asset read(const BakeRecipe& recipe) const; // after either
     void remove(const BakeRecipe& recipe) const;
+    void removeVisibility(const BakeRecipe& recipe) const;
+    // A bake that keeps the recipe's visibility; there after the first make() of such that had to bake.
+    std::filesystem::path visibilityPath(const BakeRecipe& recipe) const;
 
   private:
-    std::filesystem::path pathOf(const BakeRecipe& recipe) const;
+    std::filesystem::path pathOf(const nlohmann::ordered_json& key) const;
+    std::filesystem::path bakePath(const BakeRecipe& recipe) const { return pathOf(recipe.key()); }
 
     const vk::Device& mDevice;
     std::filesystem::path mFolder;

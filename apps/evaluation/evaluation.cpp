@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Raised when steps give other results from the same inputs.
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 std::string durationText(double seconds) {
     if (seconds < 90) return fmt::format("{:.0f} s", seconds);
@@ -122,14 +122,17 @@ void Evaluation::runStep(Planned& planned) {
 }
 
 void Evaluation::removeBakes(const std::vector<Planned>& plan, const Step& step) const {
-    for (const BakeRecipe& recipe : step.bakes) {
-        const Json key = recipe.key();
-        const bool isNeeded = std::ranges::any_of(plan, [&](const Planned& other) {
+    const auto isNeeded = [&](const BakeRecipe& recipe, Json (BakeRecipe::*key)() const) {
+        return std::ranges::any_of(plan, [&](const Planned& other) {
             return !other.done && !mFailures.contains(other.step->name) &&
-                   std::ranges::any_of(other.step->bakes,
-                                       [&](const BakeRecipe& own) { return own.key() == key; });
+                   std::ranges::any_of(other.step->bakes, [&](const BakeRecipe& own) {
+                       return (own.*key)() == (recipe.*key)();
+                   });
         });
-        if (!isNeeded) mBakes.remove(recipe);
+    };
+    for (const BakeRecipe& recipe : step.bakes) {
+        if (!isNeeded(recipe, &BakeRecipe::key)) mBakes.remove(recipe);
+        if (!isNeeded(recipe, &BakeRecipe::visibilityKey)) mBakes.removeVisibility(recipe);
     }
 }
 

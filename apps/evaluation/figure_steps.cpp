@@ -1,7 +1,10 @@
 #include "apps/evaluation/figure_steps.h"
 
+#include "apps/evaluation/expect_no_stop.h"
 #include "engine/base/check.h"
 #include "engine/render/heat_color.h"
+#include "engine/render/tone_map.h"
+#include "precompute/reference/reference_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,10 +74,9 @@ Image heatOf(const Image& image, const Image& reference) {
     for (size_t i = 0; i < image.pixels.size(); i++) {
         if (reference.pixels[i].w == 0) continue;
         const vec3 difference = glm::abs(vec3(image.pixels[i]) - vec3(reference.pixels[i]));
-        const vec3 colour = heatColor(float(double(luminance(difference)) / range));
-        heat.pixels[i] = vec4(glm::pow(glm::max(colour, vec3(0)), vec3(1 / 2.2f)), 1);
+        heat.pixels[i] = vec4(heatColor(float(double(luminance(difference)) / range)), 1);
     }
-    return heat;
+    return toneMap(heat, ToneCurve::None, 0);
 }
 
 // Draws all images of the bake of image `first`.
@@ -98,19 +100,16 @@ Step makeRenderStep(const FigureSetup& setup, size_t first) {
                 run.writeLinear(setup.images[i].name,
                                 scene.render(cameraOf(setup, asset), light.light, setup.images[i].relit));
         return Json{{"bytes_per_vertex", double(record.bytes) / double(record.vertices)},
-                    {"vertices", record.vertices},
-                    {"ms_per_vertex", record.msPerVertex}};
+                    {"vertices", record.vertices}};
     };
     return step;
 }
 
-Json compare(const FigureSetup& setup, StepRun& run) {
-    const Asset asset = run.asset(setup.images[setup.truth].recipe);
-    std::vector<Image> images, compared;
-    for (size_t i = 0; i < setup.images.size(); i++) {
-        images.push_back(run.image(renderStep(setup, firstOfBake(setup, i)), setup.images[i].name));
-        if (setup.images[i].isCompared) compared.push_back(images.back());
-    }
+// Holds the images, as many as the setup has, against the reference. The asset's transport is not used.
+Json compare(const FigureSetup& setup, StepRun& run, const Asset& asset, const std::vector<Image>& images) {
+    std::vector<Image> compared;
+    for (size_t i = 0; i < setup.images.size(); i++)
+        if (setup.images[i].isCompared) compared.push_back(images[i]);
     SceneReference reference(asset, cameraOf(setup, asset), setup.light.make().truth, setup.size);
     reference.refine(compared, setup.effort);
     const Image truth = reference.mean();
@@ -129,6 +128,36 @@ Json compare(const FigureSetup& setup, StepRun& run) {
             run.writeDisplay(image.name + "-error", heatOf(images[i], truth));
     }
     return numbers;
+}
+
+// The asset with the first terms of all of its BRDFs, of one layer each.
+Asset withTerms(Asset asset, int terms) {
+    RELUME_CHECK_LT(0, terms);
+    for (AssetPart& part : asset.parts)
+        for (MaterialSet& set : part.sets) {
+            FactoredBrdf& brdf = set.brdf;
+            RELUME_CHECK_EQ(brdf.layers, 1);
+            brdf.terms = std::min(brdf.terms, terms);
+            brdf.lightMaps.resize(size_t(brdf.terms) * brdf.mapTexels());
+            brdf.viewMaps.resize(size_t(brdf.terms) * brdf.mapTexels());
+            brdf.eigenvalues.resize(size_t(brdf.terms));
+        }
+    return asset;
+}
+
+// An image with rays for transport, and terms for the BRDF. Its rays are on a grid, and have no noise.
+Image traceTerms(const FigureSetup& setup, const Asset& whole, int terms, const LightCube& light) {
+    expectNoStop();
+    const Asset asset = withTerms(whole, terms);
+    return renderReference(asset, cameraOf(setup, asset), light,
+                           {.width = setup.size.width,
+                            .height = setup.size.height,
+                            .brdf = ReferenceBrdf::Factored,
+                            .raysPerTexelSide = 4});
+}
+
+Json effortOf(const FigureSetup& setup) {
+    return {setup.effort.noise, setup.effort.fewest, setup.effort.most};
 }
 
 // Makes a light when it is first asked for, and keeps it.
@@ -165,12 +194,39 @@ std::vector<Step> figureSteps(const FigureSetup& setup) {
     step.title = setup.title + ": reference";
     step.seconds = setup.seconds;
     step.inputs = describe(setup);
-    step.inputs["effort"] = {setup.effort.noise, setup.effort.fewest, setup.effort.most};
+    step.inputs["effort"] = effortOf(setup);
     step.bakes = {setup.images[setup.truth].recipe};
     for (const Step& render : steps) step.after.push_back(render.name);
-    step.work = [setup](StepRun& run) { return compare(setup, run); };
+    step.work = [setup](StepRun& run) {
+        std::vector<Image> images;
+        for (size_t i = 0; i < setup.images.size(); i++)
+            images.push_back(run.image(renderStep(setup, firstOfBake(setup, i)), setup.images[i].name));
+        return compare(setup, run, run.asset(setup.images[setup.truth].recipe), images);
+    };
     steps.push_back(std::move(step));
     return steps;
+}
+
+Step tracedFigureStep(const FigureSetup& setup) {
+    Step step;
+    step.name = referenceStep(setup);
+    step.title = setup.title + ": terms alone";
+    step.seconds = setup.seconds;
+    step.inputs = describe(setup);
+    step.inputs["effort"] = effortOf(setup);
+    step.inputs["recipe"] = setup.images.front().recipe.key();
+    for (const FigureImage& image : setup.images) step.inputs["terms"].push_back(image.relit.terms);
+    step.work = [setup](StepRun& run) {
+        const BakeRecipe& recipe = setup.images.front().recipe;
+        BakeObserver silent;
+        const Asset asset = planBake(run.device, makeScene(recipe), recipe.options, silent).asset;
+        const LightCube light = setup.light.make().truth;
+        std::vector<Image> images;
+        for (const FigureImage& image : setup.images)
+            images.push_back(traceTerms(setup, asset, image.relit.terms, light));
+        return compare(setup, run, asset, images);
+    };
+    return step;
 }
 
 MeasuredError errorOf(const FigureSetup& setup, const StepResults& results, const std::string& image) {

@@ -39,6 +39,11 @@ struct FigureSetup {
 // A step for each bake, and one for reference and errors.
 std::vector<Step> figureSteps(const FigureSetup& setup);
 
+// One for images that are traced as the reference is, with the first RelitOptions::terms, 1 or more, of the
+// BRDFs: what these alone lose. Nothing is baked. All of the first image's recipe, whose BRDFs have one layer
+// each. For light of few texels: every one costs 16 rays a pixel.
+Step tracedFigureStep(const FigureSetup& setup);
+
 // Of those steps, done.
 MeasuredError errorOf(const FigureSetup& setup, const StepResults& results, const std::string& image);
 // The images with their errors, the reference last; below them, if they are shown, the differences.

@@ -50,9 +50,6 @@ FigureSetup setupOf(const SectionInputs& inputs, const PaperScene& scene, const 
     budget.layout.bytesPerVertex = scene.model->megabytes[1] * 1e6 / scene.model->allVertices();
     add("bases-budget", fmt::format("K = {}, bases of {:.0f} bytes", many, *budget.layout.bytesPerVertex),
         budget);
-    if (inputs.quick) return setup;
-    const int most = 2 * many;
-    add("bases-most", fmt::format("default, K = {}, bases", most), bases(most));
     return setup;
 }
 
@@ -82,7 +79,7 @@ Step timesStep(const FigureSetup& setup, const SceneInput& light, int rounds, do
 
 struct Variant {
     std::string title;
-    double bytes, bakeMs, lightMs, viewMs;
+    double bytes, lightMs, viewMs;
     MeasuredError error;
 };
 
@@ -91,8 +88,8 @@ std::vector<Variant> variantsOf(const FigureSetup& setup, const StepResults& res
     for (const FigureImage& image : setup.images) {
         const Json& bake = results.at(setup.name + "-" + image.name).numbers;
         const Json& times = results.at(kTimes).numbers.at(image.name);
-        variants.push_back({image.title, bake.at("bytes_per_vertex"), bake.at("ms_per_vertex"),
-                            times.at("light_ms"), times.at("view_ms"), errorOf(setup, results, image.name)});
+        variants.push_back({image.title, bake.at("bytes_per_vertex"), times.at("light_ms"),
+                            times.at("view_ms"), errorOf(setup, results, image.name)});
     }
     return variants;
 }
@@ -140,16 +137,16 @@ Section layoutComparison(const SectionInputs& inputs) {
             scene.input.name, describe(light)));
         report.say(quickNote(quick));
         const std::vector<Variant> variants = variantsOf(setup, results);
-        ReportTable table{"layouts",
-                          "What ways to keep transport cost and give",
-                          {"way", "bytes per vertex", "bake, ms per vertex", "light change, ms",
-                           "view change, ms", "RMSE (interval)"},
-                          {},
-                          "A light change includes drawing; medians, all in alternation."};
+        ReportTable table{
+            "layouts",
+            "What ways to keep transport cost and give",
+            {"way", "bytes per vertex", "light change, ms", "view change, ms", "RMSE (interval)"},
+            {},
+            "A light change includes drawing; medians, all in alternation."};
         for (const Variant& one : variants)
             table.rows.push_back({one.title, fmt::format("{:.0f}", one.bytes),
-                                  fmt::format("{:.2f}", one.bakeMs), fmt::format("{:.1f}", one.lightMs),
-                                  fmt::format("{:.1f}", one.viewMs), textOf(one.error)});
+                                  fmt::format("{:.1f}", one.lightMs), fmt::format("{:.1f}", one.viewMs),
+                                  textOf(one.error)});
         report.add(std::move(table));
         const std::string best = bestWithin(variants, &Variant::bytes, "bytes");
         report.say(best);

@@ -11,9 +11,9 @@ const std::vector<SectionEntry>& sectionList() {
         {"figure-4", "BRDFs factored", brdfFigure},
         {"figure-5", "diffuse, one polar term, four terms", parametersFigure},
         {"scenes", "the scenes of figures 1, 6 and 7", sceneFigures},
-        {"layouts", "the paper's transport against the layouts and factorisations of now", layoutComparison},
         {"sources", "where error comes from, and 25 spherical harmonics", errorSources},
         {"refinement", "refined grounds against uniform ones", refinedGround},
+        {"layouts", "the paper's transport against the layouts and factorisations of now", layoutComparison},
     };
     return kSections;
 }

@@ -14,8 +14,9 @@ class StepRun {
 
     const vk::Device& device;
 
-    // A bake that the step has listed.
+    // A bake that the step has listed; timed: which found its visibility itself (msPerVertex).
     BakeRecord bake(const BakeRecipe& recipe) const { return mBakes.make(recipe); }
+    BakeRecord timedBake(const BakeRecipe& recipe) const { return mBakes.makeTimed(recipe); }
     Asset asset(const BakeRecipe& recipe) const;
     // Of a step that this one comes after: linear, as it was written.
     Image image(const std::string& step, const std::string& name) const;

@@ -20,9 +20,9 @@ double basesBytes(Asset asset) {
 }
 
 Json measure(StepRun& run, const BakeRecipe& recipe, bool converts) {
-    const BakeRecord record = run.bake(recipe);
+    const BakeRecord record = run.timedBake(recipe);
     Json numbers = {{"vertices", record.vertices},
-                    {"ms_per_vertex", record.msPerVertex},
+                    {"ms_per_vertex", *record.msPerVertex},
                     {"bytes_per_vertex", double(record.bytes) / double(record.vertices)}};
     if (converts) numbers["bases_bytes_per_vertex"] = basesBytes(run.asset(recipe));
     return numbers;

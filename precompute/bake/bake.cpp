@@ -227,7 +227,8 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     const Clock::time_point start = Clock::now();
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
-    std::unique_ptr<KeptVisibility> kept = findKept(output);
+    std::unique_ptr<KeptVisibility> kept =
+        findKept(outputOptions.visibility.empty() ? output : outputOptions.visibility);
     if (!options.visibilityMethod) chooseVisibility(device, checkpoint, kept.get(), plan);
     dropUnfit(kept, plan);
     BakeSummary summary =

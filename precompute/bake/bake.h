@@ -14,10 +14,12 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options);
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
            BakeTimes* times = nullptr);
 
-// What bakeToFile() writes, beside or instead of the whole bake. Not both.
+// What bakeToFile() writes, beside or instead of the whole bake: not both. And what it need not find.
 struct OutputOptions {
     std::optional<Shard> shard = std::nullopt; // its blocks alone: a file for mergeShards() (merge.h)
     bool previews = false;                     // until the bake is done (preview.h)
+    // A bake that may keep the visibility of these very vertices; empty: the file that is written over.
+    std::filesystem::path visibility = {};
 };
 
 // What bakeToFile() made.
@@ -39,7 +41,8 @@ std::filesystem::path interpolatedPath(const std::filesystem::path& output);
 // goes on from; the file itself appears whole, after the last block, and the checkpoint goes. With a shard
 // only its blocks are baked, and the file is one for mergeShards() (merge.h). Throws BakeStopped, Error; then
 // the checkpoint stays and `output` is as it was, or with previews the last of these. Visibility that
-// `output` keeps, of the same key, is not found again; the log says so.
+// `output`, or the file that outputOptions.visibility names, keeps of the same key is not found again; the
+// log says so.
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
                        const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
                        const OutputOptions& outputOptions = {});
