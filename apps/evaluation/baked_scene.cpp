@@ -60,6 +60,16 @@ std::optional<BakeRecord> readRecord(const std::filesystem::path& bake) {
     }
 }
 
+// What is baked, before any refinement.
+Json meshKey(const BakeRecipe& recipe) {
+    Json json = {{"model", recipe.model.hash},
+                 {"up", recipe.model.up == UpAxis::Z ? "z" : "y"},
+                 {"triangles", recipe.triangles}};
+    if (recipe.ground)
+        json["ground"] = {{"tessellation", recipe.ground->tessellation}, {"extent", recipe.ground->extent}};
+    return json;
+}
+
 // Whether a file keeps visibility. One that should and does not goes.
 bool keepsVisibility(const std::filesystem::path& path) {
     std::error_code failure;
@@ -75,22 +85,16 @@ bool keepsVisibility(const std::filesystem::path& path) {
 } // namespace
 
 Json BakeRecipe::key() const {
-    Json json = {{"model", model.hash},
-                 {"up", model.up == UpAxis::Z ? "z" : "y"},
-                 {"triangles", triangles},
-                 {"material", material},
-                 {"options", describeOptions(options)}};
-    if (ground) json["ground"] = {{"tessellation", ground->tessellation}, {"extent", ground->extent}};
+    Json json = meshKey(*this);
+    json["material"] = material;
+    json["options"] = describeOptions(options);
     return json;
 }
 
 Json BakeRecipe::visibilityKey() const {
-    Json json = {{"model", model.hash},
-                 {"up", model.up == UpAxis::Z ? "z" : "y"},
-                 {"triangles", triangles},
-                 {"occluder", options.occluderTriangles},
-                 {"size", options.visibilitySize}};
-    if (ground) json["ground"] = {{"tessellation", ground->tessellation}, {"extent", ground->extent}};
+    Json json = meshKey(*this);
+    json["occluder"] = options.occluderTriangles;
+    json["size"] = options.visibilitySize;
     if (options.refinement) json["refined"] = key();
     return json;
 }
