@@ -8,6 +8,8 @@
 #include "precompute/error/heat_maps.h"
 #include "precompute/error/study_json.h"
 
+#include <cmath>
+
 namespace relume {
 
 namespace {
@@ -108,7 +110,7 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
             row = scene;
             for (const auto& source : numbers.at("sources"))
                 row.push_back(fmt::format("{:.2f}\u00a0({:.0f})", 100 * number(source, "rms"),
-                                          100 * number(source, "share")));
+                                          std::round(100 * number(source, "share")) + 0.0));
             parts.rows.push_back(row);
             row = scene;
             for (const char* key : {"measured", "spherical_harmonics_of_terms", "spherical_harmonics"})
