@@ -12,7 +12,7 @@ namespace relume {
 namespace {
 
 constexpr std::array kUniform = {37, 74, 148};                     // quads a side
-constexpr std::array kRefined = {0.014, 0.01, 0.007};              // --refine
+constexpr std::array kRefined = {0.014, 0.01, 0.0085, 0.007};      // --refine
 constexpr std::array kEnvironments = {"rnl", "grace", "stpeters"}; // from broad to small
 
 struct Ground {
