@@ -156,8 +156,15 @@ Image traceTerms(const FigureSetup& setup, const Asset& whole, int terms, const 
                             .raysPerTexelSide = 4});
 }
 
-Json effortOf(const FigureSetup& setup) {
-    return {setup.effort.noise, setup.effort.fewest, setup.effort.most};
+// That of a setup which holds images against a reference: all but its work and what that needs.
+Step comparingStep(const FigureSetup& setup, const char* what) {
+    Step step;
+    step.name = referenceStep(setup);
+    step.title = fmt::format("{}: {}", setup.title, what);
+    step.seconds = setup.seconds;
+    step.inputs = describe(setup);
+    step.inputs["effort"] = {setup.effort.noise, setup.effort.fewest, setup.effort.most};
+    return step;
 }
 
 // Makes a light when it is first asked for, and keeps it.
@@ -189,12 +196,7 @@ std::vector<Step> figureSteps(const FigureSetup& setup) {
     std::vector<Step> steps;
     for (size_t i = 0; i < setup.images.size(); i++)
         if (firstOfBake(setup, i) == i) steps.push_back(makeRenderStep(setup, i));
-    Step step;
-    step.name = referenceStep(setup);
-    step.title = setup.title + ": reference";
-    step.seconds = setup.seconds;
-    step.inputs = describe(setup);
-    step.inputs["effort"] = effortOf(setup);
+    Step step = comparingStep(setup, "reference");
     step.bakes = {setup.images[setup.truth].recipe};
     for (const Step& render : steps) step.after.push_back(render.name);
     step.work = [setup](StepRun& run) {
@@ -208,12 +210,7 @@ std::vector<Step> figureSteps(const FigureSetup& setup) {
 }
 
 Step tracedFigureStep(const FigureSetup& setup) {
-    Step step;
-    step.name = referenceStep(setup);
-    step.title = setup.title + ": terms alone";
-    step.seconds = setup.seconds;
-    step.inputs = describe(setup);
-    step.inputs["effort"] = effortOf(setup);
+    Step step = comparingStep(setup, "terms alone");
     step.inputs["recipe"] = setup.images.front().recipe.key();
     for (const FigureImage& image : setup.images) step.inputs["terms"].push_back(image.relit.terms);
     step.work = [setup](StepRun& run) {
