@@ -42,7 +42,7 @@ nlohmann::ordered_json work(StepRun& run, const Study& study) {
     std::vector<StudiedLight> lights;
     for (const SceneInput& input : study.lights) {
         const SceneLight light = environmentLight(input);
-        lights.push_back({light.light, light.truth, kUsualLight});
+        lights.push_back({light.light, light.truth, {}});
     }
     const ImageSize size = study.quick ? ImageSize{64, 48} : ImageSize{120, 90};
     const auto pixels = uint64_t(size.width) * uint64_t(size.height);

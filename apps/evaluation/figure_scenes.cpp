@@ -64,7 +64,10 @@ std::optional<Shot> shotOf(const SectionInputs& inputs, const PaperPicture& pict
                   .elevation = picture.elevation,
                   .distance = 1.1f,
                   .light = light,
-                  .images = {{"paper", "the paper's way", recipe(paperOptions(4)), {.selection = {}}},
+                  .images = {{"paper",
+                              "the paper's way",
+                              recipe(paperOptions(4)),
+                              {.selection = {.threshold = kPaperLightThreshold}}},
                              {"usual", "relume's defaults", recipe(usualOptions()), {}}},
                   .effort = referenceEffort(inputs.quick),
                   .seconds = inputs.quick ? 5.0 : 120.0};

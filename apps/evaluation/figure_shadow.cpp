@@ -31,7 +31,10 @@ FigureSetup setupOf(const SectionInputs& inputs, const SceneInput& model) {
             sceneRecipe(inputs, "bunny", model, "grey-diffuse", paperOptions(1, coefficients));
         if (!inputs.quick) recipe.ground->tessellation = kFullGround;
         const std::string name = fmt::format("n{}", coefficients);
-        setup.images.push_back({name, titleOf(coefficients), recipe, {}});
+        setup.images.push_back({.name = name,
+                                .title = titleOf(coefficients),
+                                .recipe = recipe,
+                                .relit = {.selection = {.threshold = kPaperLightThreshold}}});
         setup.images.push_back({.name = name + "-all-light",
                                 .title = titleOf(coefficients),
                                 .recipe = recipe,

@@ -24,8 +24,11 @@ Json describe(const FigureSetup& setup) {
 }
 
 Json describe(const RelitOptions& options) {
-    Json json = {{"terms", options.terms}, {"threshold", options.selection.threshold}};
-    if (options.selection.count) json["count"] = *options.selection.count;
+    Json json = {{"terms", options.terms}};
+    if (options.selection.threshold)
+        json["threshold"] = *options.selection.threshold;
+    else
+        json["count"] = options.selection.count;
     return json;
 }
 

@@ -34,7 +34,7 @@ nlohmann::ordered_json study(StepRun& run, const Ground& ground, const std::vect
     std::vector<StudiedLight> lights;
     for (const SceneInput& input : inputs) {
         const SceneLight light = environmentLight(input);
-        lights.push_back({light.light, light.truth, kUsualLight});
+        lights.push_back({light.light, light.truth, {}});
     }
     const ImageSize size = quick ? ImageSize{56, 42} : ImageSize{120, 90};
     const auto pixels = uint64_t(size.width) * uint64_t(size.height);

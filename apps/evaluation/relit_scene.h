@@ -4,7 +4,7 @@
 #include "apps/evaluation/measured_error.h"
 #include "apps/evaluation/scene_inputs.h"
 #include "engine/light/light.h"
-#include "engine/light/usual_light.h"
+#include "engine/light/light_selection.h"
 #include "engine/render/view_pass.h"
 #include "precompute/error/stage_radiance.h"
 
@@ -37,7 +37,7 @@ Camera orbitOf(const Asset& asset, ImageSize size, float azimuth, float elevatio
 
 struct RelitOptions {
     int terms = 0; // of the bake's K; 0: all
-    LightSelection selection = kUsualLight;
+    LightSelection selection;
 };
 
 // Refers to device and asset.

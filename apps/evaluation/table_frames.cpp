@@ -107,7 +107,7 @@ Section frameTable(const SectionInputs& inputs) {
                                                               ReportSection& report) {
         report.say(fmt::format(
             "Wall-clock medians under {}, turned by a degree from image to image, with the light's "
-            "default threshold. A view change draws the object anew; a light change samples, "
+            "default selection. A view change draws the object anew; a light change samples, "
             "transforms and quantises the light, relights every vertex in full, and draws.",
             describe(light)));
         report.say(quickNote(quick));

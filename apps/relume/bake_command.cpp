@@ -28,7 +28,10 @@ void run(Arguments& arguments) {
             "or raster, not auto");
     options.keepVisibility = job.keepVisibility;
     job.prepare();
+    CommandFiles files;
     Scene scene = arguments.scene.load(arguments.bake.options.refinement.has_value());
+    job.addOutputs(files);
+    files.check();
     const std::unique_ptr<vk::Device> device = job.device.open();
     for (const Part& part : scene.parts) logPart(part.name, part.mesh, part.material);
     job.run(*device, [&](BakeObserver& observer) {

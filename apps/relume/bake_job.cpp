@@ -38,6 +38,12 @@ void BakeJob::prepare() {
     if (!mTimings.empty()) expectWritable(mTimings);
 }
 
+void BakeJob::addOutputs(CommandFiles& files, const std::filesystem::path& replaced) const {
+    files.addOutput("--output", output, replaced);
+    files.addOutput("--output", checkpointPath(output));
+    files.addOutput("--timings", mTimings);
+}
+
 BakeSummary BakeJob::bakeStoppably(const vk::Device& opened, const Bake& bake) const {
     BakeReport report(mJson ? ReportStyle::Json : mQuiet ? ReportStyle::Quiet : ReportStyle::Text, true);
     try {

@@ -20,6 +20,8 @@ struct BakeJob {
 
     // Before any work: bounds threads, and tries what is to be written. Throws UsageError, Error.
     void prepare();
+    // Adds what is written. `replaced`: a bake that is read, and that the output may replace.
+    void addOutputs(CommandFiles& files, const std::filesystem::path& replaced = {}) const;
 
     // Calls `bake`, which bakes to `output`, and tells what was made; ends the command where it was stopped.
     using Bake = std::function<BakeSummary(BakeObserver& observer)>;

@@ -165,8 +165,9 @@ void addBenchRelightCommand(CLI::App& bench) {
     command
         ->add_option("--threshold", arguments->selection.threshold,
                      "Drop light coefficients below this, where the largest is 32767")
+        ->type_name("VALUE")
         ->check(CLI::Range(0, kLightMaximum))
-        ->capture_default_str();
+        ->default_str(fmt::format("the {} largest are kept", kDefaultLightCount));
     command
         ->add_option("--light-counts", arguments->counts,
                      "Relight from so many of the light's largest coefficients as well")

@@ -121,8 +121,9 @@ void addBenchViewCommand(CLI::App& bench) {
     command
         ->add_option("--threshold", arguments->selection.threshold,
                      "Drop light coefficients below this, where the largest is 32767")
+        ->type_name("VALUE")
         ->check(CLI::Range(0, kLightMaximum))
-        ->capture_default_str();
+        ->default_str(fmt::format("the {} largest are kept", kDefaultLightCount));
     arguments->device.add(*command);
     command->add_option("--repeats", arguments->repeats, "Rounds to take the medians of; one turn in all")
         ->check(CLI::Range(1, 1000))

@@ -1,5 +1,6 @@
 #include "apps/plot/map_sheet.h"
 #include "apps/relume/brdf_report.h"
+#include "apps/relume/command_files.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/factorization_arguments.h"
 #include "apps/relume/lobe_plot.h"
@@ -47,10 +48,16 @@ void run(Arguments& arguments) {
     checkOutput("--maps", arguments.maps, ".png");
     checkOutput("--plot", arguments.plot, ".svg");
     checkOutput("--slice", arguments.slice, ".svg");
+    CommandFiles files;
     const std::unique_ptr<Brdf> brdf = makeBrdf(arguments.material);
     std::vector<NamedLight> lights;
     for (const std::string& file : arguments.environments)
         lights.push_back({file, sampleEnvironment(prepareForSampling(readEnvironment(file)), kLightSize, 0)});
+
+    files.addOutput("--maps", arguments.maps);
+    files.addOutput("--plot", arguments.plot);
+    files.addOutput("--slice", arguments.slice);
+    files.check();
 
     const FactorizationArguments& how = arguments.factorization;
     const BrdfReport report = reportOn(*brdf, arguments.size, how.mapping, how.options, lights);

@@ -35,9 +35,10 @@ void checkOutput(const Arguments& arguments) {
     if (arguments.output.extension() != ".relume")
         throw UsageError("--output: expected a name ending in .relume, found \"{}\"",
                          arguments.output.string());
-    std::error_code failure;
-    if (std::filesystem::equivalent(arguments.input, arguments.output, failure))
-        throw UsageError("--output: {} is the bake itself; name another file", arguments.output.string());
+    CommandFiles files;
+    files.addInput(arguments.input);
+    files.addOutput("--output", arguments.output);
+    files.check();
     expectWritable(arguments.output);
 }
 

@@ -38,6 +38,14 @@ void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, c
         writePng(folder / (heat.name + ".png"), heat.map);
 }
 
+// Those that writeImages() writes.
+void addImages(const std::filesystem::path& folder, CommandFiles& files) {
+    std::vector<std::string> names = {"drawn.exr", "reference.exr", "harmonics.exr", "total.png"};
+    for (size_t i = 0; i < kErrorSources; i++)
+        names.push_back(std::string(errorSourceName(ErrorSource(i))) + ".png");
+    for (const std::string& name : names) files.addOutput("--images", folder / name);
+}
+
 void print(const ErrorStudy& study) {
     fmt::print("source                         error     share of the total, squared\n");
     for (size_t i = 0; i < kErrorSources; i++)
@@ -60,6 +68,7 @@ void run(const Arguments& arguments) {
         throw UsageError("--size: expected at most {} pixels, each of which is traced many thousand times; "
                          "found {}",
                          kMostPixels, pixels);
+    CommandFiles files;
     const Asset asset = readAsset(arguments.file);
     if (asset.provenance.bakedShare)
         throw Error(
@@ -68,6 +77,8 @@ void run(const Arguments& arguments) {
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const StudiedLight light = arguments.light.studied();
+    if (!arguments.images.empty()) addImages(arguments.images, files);
+    files.check();
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
     Progress progress("tracing", pixels, "pixels");
     const ErrorStudies studies =

@@ -1,3 +1,4 @@
+#include "apps/relume/command_files.h"
 #include "apps/relume/commands.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -26,11 +27,10 @@ void checkOutput(const Arguments& arguments) {
     if (arguments.output.extension() != ".relume")
         throw UsageError("--output: expected a name ending in .relume, found \"{}\"",
                          arguments.output.string());
-    std::error_code failure;
-    for (const std::filesystem::path& part : arguments.parts)
-        if (std::filesystem::equivalent(part, arguments.output, failure))
-            throw UsageError("--output: {} is one of the parts; name another file",
-                             arguments.output.string());
+    CommandFiles files;
+    for (const std::filesystem::path& part : arguments.parts) files.addInput(part);
+    files.addOutput("--output", arguments.output);
+    files.check();
     expectWritable(arguments.output);
 }
 

@@ -167,8 +167,8 @@ MovingLight LightArguments::moving() const {
     return light;
 }
 
-void LightArguments::addFiles(InputFiles& files) const {
-    for (const std::string& file : {mEnvironment, mBlend, mFile}) files.add(file);
+void LightArguments::addInputs(CommandFiles& files) const {
+    for (const std::string& file : {mEnvironment, mBlend, mFile}) files.addInput(file);
 }
 
 MovingLight LightArguments::source() const {

@@ -1,7 +1,7 @@
 // Options that several subcommands share, and what they stand for.
 #pragma once
 
-#include "apps/relume/input_files.h"
+#include "apps/relume/command_files.h"
 #include "engine/light/moving_light.h"
 #include "engine/render/tone_map.h"
 #include "engine/scene/camera.h"
@@ -56,7 +56,7 @@ struct LightArguments {
     MovingLight moving() const;
     Light light() const { return moving().at(seconds); } // at that moment
     // Those that the options name; moving().files() are those that a light file or a sequence names.
-    void addFiles(InputFiles& files) const;
+    void addInputs(CommandFiles& files) const;
 
   private:
     MovingLight source() const;

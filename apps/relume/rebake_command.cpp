@@ -95,6 +95,7 @@ BakeOptions optionsFor(const Asset& asset, Arguments& arguments) {
 void run(Arguments& arguments) {
     BakeJob& job = arguments.job;
     job.prepare();
+    CommandFiles files;
     KeptVisibility kept(arguments.input);
     if (kept.key().empty())
         throw Error("{}: keeps no visibility; bake it again with `relume bake --keep-visibility`",
@@ -109,6 +110,8 @@ void run(Arguments& arguments) {
     } catch (const Error& wrong) {
         throw Error("{}: {}", arguments.input, wrong.what());
     }
+    job.addOutputs(files, arguments.input);
+    files.check();
     const std::unique_ptr<vk::Device> device = job.device.open();
     for (size_t number = 0; number < materials.size(); number++)
         logPart(skeleton.parts[number].name, skeleton.parts[number].mesh,
@@ -154,7 +157,7 @@ void addRebakeCommand(CLI::App& program) {
     command->footer(
         "Meshes, textures and every option that is not given are FILE's own. The new file is, byte for "
         "byte,\n"
-        "what `relume bake` makes of the same scene with the new materials and options. It can be stopped\n"
+        "what `relume bake` makes of the same meshes with the new materials and options. It can be stopped\n"
         "and goes on as `relume bake` does. `--layout rows` leaves N as it is, 384 unless FILE was baked "
         "with\n"
         "another: name it too, -N 96 say.\n"

@@ -23,10 +23,11 @@ struct Arguments {
 
 void run(const Arguments& arguments) {
     arguments.image.check();
-    InputFiles inputs;
-    inputs.add(arguments.file);
-    arguments.light.addFiles(inputs);
-    inputs.expectNone("--output", arguments.image.output);
+    CommandFiles files;
+    files.addInput(arguments.file);
+    arguments.light.addInputs(files);
+    files.addOutput("--output", arguments.image.output);
+    files.check();
     const Asset asset = readAsset(arguments.file);
     ReferenceOptions options;
     options.width = arguments.camera.width;
@@ -49,8 +50,8 @@ void run(const Arguments& arguments) {
                                 arguments.environmentWidth, options, report);
     } else {
         MovingLight moving = arguments.light.moving();
-        inputs.add(moving.files());
-        inputs.expectNone("--output", arguments.image.output);
+        files.addInputs(moving.files());
+        files.check();
         const Light light = turned(moving.at(arguments.light.seconds), rotation);
         image = renderReference(asset, camera, sampleLight(light, asset.faceSize), options, report);
     }

@@ -121,9 +121,7 @@ RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& in
             pass.record(commands, rotation, selection);
             commands.submitAndWait();
         };
-        LightSelection all;
-        all.threshold = 0;
-        setLight(all);
+        setLight({.threshold = 0});
         relight(exact, pass.readVector());
         for (Variant& variant : variants) relight(variant.cpu, pass.readVector());
         for (Variant& variant : variants)

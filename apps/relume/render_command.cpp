@@ -39,15 +39,15 @@ std::filesystem::path framePath(const Arguments& arguments, int frame) {
     return path.replace_filename(name);
 }
 
-// Throws UsageError if what is read would be written over.
-void expectOutputs(const Arguments& arguments, const MovingLight& light) {
-    InputFiles inputs;
-    inputs.add(arguments.file);
-    inputs.add(light.files());
-    arguments.light.addFiles(inputs);
+void checkFiles(const Arguments& arguments, const MovingLight& light) {
+    CommandFiles files;
+    files.addInput(arguments.file);
+    files.addInputs(light.files());
+    arguments.light.addInputs(files);
     for (int frame = 0; frame < arguments.frames; frame++)
-        inputs.expectNone("--output", framePath(arguments, frame));
-    inputs.expectNone("--timings", arguments.timings);
+        files.addOutput("--output", framePath(arguments, frame));
+    files.addOutput("--timings", arguments.timings);
+    files.check();
 }
 
 // Over the frames whose light changed.
@@ -89,7 +89,7 @@ void run(const Arguments& arguments) {
     vk::TimingCapture* const capture = timings ? &*timings : nullptr;
     vk::CpuSpan loading(capture, "load");
     MovingLight moving = arguments.light.moving();
-    expectOutputs(arguments, moving);
+    checkFiles(arguments, moving);
     const Asset asset = readAsset(arguments.file);
     if (const std::optional<float> share = asset.provenance.bakedShare)
         spdlog::warn("{}: is a preview: {:.0f} % of its vertices are baked, the others interpolated",

@@ -14,18 +14,12 @@ void SelectionArguments::add(CLI::App& command) {
     command.add_option("--coefficients", mCount, "Keep so many light coefficients, the largest, instead")
         ->type_name("COUNT")
         ->check(CLI::Range(1, int(kMaximumLightEntries)))
-        ->default_str(std::to_string(*kUsualLight.count))
+        ->capture_default_str()
         ->excludes(threshold);
     command.add_flag("--area-weighted", mAreaWeighted,
                      "Weigh light coefficients by the area of their functions when selecting");
 }
 
-LightSelection SelectionArguments::selection() const {
-    LightSelection selection = kUsualLight;
-    if (mThreshold) selection = {.threshold = *mThreshold};
-    if (mCount) selection.count = mCount;
-    selection.areaWeighted = mAreaWeighted;
-    return selection;
-}
+LightSelection SelectionArguments::selection() const { return {mThreshold, mCount, mAreaWeighted}; }
 
 } // namespace relume

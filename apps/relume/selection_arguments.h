@@ -1,7 +1,7 @@
 // --threshold, --coefficients, --area-weighted: which coefficients of the light are kept.
 #pragma once
 
-#include "engine/light/usual_light.h"
+#include "engine/light/light_selection.h"
 
 #include <CLI/CLI.hpp>
 
@@ -10,10 +10,11 @@ namespace relume {
 class SelectionArguments {
   public:
     void add(CLI::App& command);
-    LightSelection selection() const; // kUsualLight, unless something else is asked for
+    LightSelection selection() const;
 
   private:
-    std::optional<int> mThreshold, mCount;
+    std::optional<int> mThreshold;
+    int mCount = kDefaultLightCount;
     bool mAreaWeighted = false;
 };
 

@@ -29,7 +29,11 @@ void run(const Arguments& arguments) {
                              arguments.visibilityImage.string());
         expectWritable(arguments.visibilityImage);
     }
+    CommandFiles files;
+    arguments.light.addInputs(files);
     const Asset asset = readAsset(arguments.file);
+    files.addOutput("--visibility-image", arguments.visibilityImage);
+    files.check();
     if (!arguments.light.isEnvironment())
         throw UsageError("verify: expected a single environment, found other light");
     const std::unique_ptr<vk::Device> device = arguments.device.open();

@@ -1,8 +1,8 @@
 // What lights the object, as hands choose it, and the light that it stands for.
 #pragma once
 
+#include "engine/light/light_selection.h"
 #include "engine/light/moving_light.h"
-#include "engine/light/usual_light.h"
 
 #include <filesystem>
 #include <memory>
@@ -64,7 +64,7 @@ struct LightState {
     std::filesystem::path fileName;
     double seconds = 0; // of a light file that moves
     bool plays = false;
-    LightSelection selection = kUsualLight;
+    LightSelection selection;
 
     const EnvironmentChoice& chosen() const { return environments[environment]; }
     bool isDay() const { return !file && chosen().kind == EnvironmentChoice::Kind::DaySky; }

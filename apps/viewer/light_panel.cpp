@@ -135,13 +135,11 @@ void drawFile(LightState& light) {
 }
 
 void drawSelection(LightSelection& selection) {
-    if (!selection.count) {
-        slider("Threshold", selection.threshold, 0, kLightMaximum, "%d", ImGuiSliderFlags_Logarithmic);
+    if (selection.threshold) {
+        slider("Threshold", *selection.threshold, 0, kLightMaximum, "%d", ImGuiSliderFlags_Logarithmic);
         return explain("Light coefficients below this are dropped, where the largest is 32767");
     }
-    int count = *selection.count;
-    if (slider("Coefficients", count, 1, int(kMaximumLightEntries), "%d", ImGuiSliderFlags_Logarithmic))
-        selection.count = count;
+    slider("Coefficients", selection.count, 1, int(kMaximumLightEntries), "%d", ImGuiSliderFlags_Logarithmic);
     explain("The so many largest of the light are kept: fewer are faster, and further from the light");
 }
 

@@ -38,10 +38,10 @@ std::string renderCommand(const SceneState& state, const std::filesystem::path& 
         "relume render {} -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
         quoted(bake.string()), width, height, camera.eye.x, camera.eye.y, camera.eye.z, camera.target.x,
         camera.target.y, camera.target.z, state.fovDegrees, light.rotation);
-    if (light.selection.count)
-        command += fmt::format(" --coefficients {}", *light.selection.count);
+    if (!light.selection.threshold)
+        command += fmt::format(" --coefficients {}", light.selection.count);
     else
-        command += fmt::format(" --threshold {}", light.selection.threshold);
+        command += fmt::format(" --threshold {}", *light.selection.threshold);
     if (light.file)
         command += fmt::format(" --light {} --time {}", quoted(light.fileName.string()), light.seconds);
     else if (needsLightFile(light))

@@ -161,10 +161,17 @@ void setThreshold(SceneState& state, const json& value) {
 // 0: by threshold.
 void setCoefficients(SceneState& state, const json& value) {
     const int count = int(numberOf("coefficients", value, 0, float(kMaximumLightEntries)));
-    state.light.selection.count = count > 0 ? std::optional(count) : std::nullopt;
+    LightSelection& selection = state.light.selection;
+    if (count == 0)
+        selection.threshold = selection.threshold.value_or(kPaperLightThreshold);
+    else
+        selection = {.count = count, .areaWeighted = selection.areaWeighted};
 }
 
-json coefficientsOf(const SceneState& state) { return state.light.selection.count.value_or(0); }
+json coefficientsOf(const SceneState& state) {
+    const LightSelection& selection = state.light.selection;
+    return selection.threshold ? 0 : selection.count;
+}
 
 // A name, "" for what was baked, or weights by name.
 void setMaterial(SceneState& state, const json& value) {

@@ -1,6 +1,7 @@
 #include "engine/base/file.h"
 
 #include "engine/base/error.h"
+#include "engine/base/read_files.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 namespace relume {
 
 std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit) {
+    ReadFiles::add(path);
     std::error_code failure;
     const auto status = std::filesystem::status(path, failure);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
@@ -31,6 +33,7 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit)
 }
 
 FileReader::FileReader(std::filesystem::path path) : mPath(std::move(path)) {
+    ReadFiles::add(mPath);
     mDescriptor = open(mPath.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (mDescriptor < 0) throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
     struct stat status {};

@@ -51,13 +51,13 @@ std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
     std::vector<uint32_t> kept;
     for (uint32_t i = 0; i < weights.size(); i++)
         if (weights[i] > 0) kept.push_back(i);
-    if (selection.count) {
-        RELUME_CHECK(*selection.count > 0);
+    if (!selection.threshold) {
+        RELUME_CHECK(selection.count > 0);
         std::ranges::stable_sort(kept, std::ranges::greater(), [&](uint32_t i) { return weights[i]; });
-        kept.resize(std::min(kept.size(), size_t(*selection.count)));
+        kept.resize(std::min(kept.size(), size_t(selection.count)));
         std::ranges::sort(kept);
     } else {
-        const float least = std::ranges::max(weights) * shareOf(selection.threshold);
+        const float least = std::ranges::max(weights) * shareOf(*selection.threshold);
         std::erase_if(kept, [&](uint32_t i) { return weights[i] < least; });
     }
     return kept;

@@ -50,13 +50,13 @@ void LightPass::setCube(const LightCube& cube) {
 
 void LightPass::record(vk::Commands& commands, float rotation, const LightSelection& selection) {
     RELUME_CHECK(mLight || mHasCube);
-    RELUME_CHECK(!selection.count || *selection.count > 0);
+    RELUME_CHECK(selection.threshold || selection.count > 0);
     const shared::LightQuantisePush quantise{coefficients(),
                                              kLightSumLimit,
                                              uint32_t(std::countr_zero(unsigned(mFaceSize))),
                                              selection.areaWeighted,
-                                             uint32_t(selection.count.value_or(0)),
-                                             shareOf(selection.threshold)};
+                                             selection.threshold ? 0 : uint32_t(selection.count),
+                                             shareOf(selection.threshold.value_or(0))};
     static std::atomic<uint64_t> recordings = 0;
     mRecordingBefore = mRecording;
     mRecording = ++recordings;

@@ -79,7 +79,7 @@ TEST_CASE("convert: the same bytes every time, within the budget, and errors tha
     fails("rows.relume --layout rows --budget 60 -o c.relume", "--budget");
     fails("rows.relume --layout bases -N 60 -o c.relume", "--coefficients");
     fails("rows.relume --layout cells -o c.relume", "cells");
-    fails("rows.relume -o rows.relume", "itself");
+    fails("rows.relume -o rows.relume", "would be written over");
     fails("rows.relume --budget 60 --error 0.1 -o c.relume", "--budget");
     CHECK_FALSE(std::filesystem::exists(folder.path() / "c.relume"));
 }

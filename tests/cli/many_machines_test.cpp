@@ -219,6 +219,6 @@ TEST_CASE("many machines: options that cannot be") {
     CHECK(says(usage(shardOf(0, 2) + "--visibility auto"), "--visibility traced"));
     CHECK(says(usage("merge part.relume -o merged.png"), "expected a name ending in .relume"));
     folder.put("part.relume", "x");
-    CHECK(says(usage("merge part.relume -o ./part.relume"), "is one of the parts"));
+    CHECK(says(usage("merge part.relume -o ./part.relume"), "would be written over"));
     CHECK_EQ(runRelume(folder, "merge -o merged.relume").exitCode, 2);
 }

@@ -1,6 +1,5 @@
 // Advice on a bake holds once it is baked.
 #include "engine/base/error.h"
-#include "engine/light/usual_light.h"
 #include "engine/scene/builtin_mesh.h"
 #include "precompute/bake/bake.h"
 #include "precompute/error/advice.h"
@@ -30,7 +29,7 @@ BakeOptions smallOptions() {
 StudiedLight sky() {
     const auto map = std::make_shared<const Environment>(prepareForSampling(makeSky()));
     const Light light{.environments = {{map}}};
-    return {light, sampleLight(light, kTruthFaceSize), kUsualLight};
+    return {light, sampleLight(light, kTruthFaceSize), {}};
 }
 
 // Of the bake's images, from two of the sides that advise() looks from.

@@ -66,7 +66,7 @@ TEST_CASE("image: a diffuse knot under the sky is its reference") {
                           ReferenceBrdf::Exact, 0),
              0.02);
     CHECK_LE(relativeRmse(device, bakeKnot(device, "grey-diffuse", 96, 3000), sky, ReferenceBrdf::Exact,
-                          kDefaultLightThreshold),
+                          kPaperLightThreshold),
              0.05);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("image: a glossy knot under the sky is the reference of its factors") 
     const TestDevice device;
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
     CHECK_LE(relativeRmse(device, bakeKnot(device, "ashikhmin-shirley", 96, 3000), sky,
-                          ReferenceBrdf::Factored, kDefaultLightThreshold),
+                          ReferenceBrdf::Factored, kPaperLightThreshold),
              0.08);
 }
 

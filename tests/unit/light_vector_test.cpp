@@ -71,7 +71,7 @@ TEST_CASE("light vector: rounds halves away from zero and drops below the thresh
     coefficients[1] = vec3(1023.5f, 0, -2.5f); // 1024, 0, -3
     coefficients[2] = vec3(-1023.4f, 1023.4f, 0);
     coefficients[3] = vec3(0, 0, -4096);
-    const LightVector vector = makeLightVector(cubeOfCoefficients(coefficients, 4));
+    const LightVector vector = makeLightVector(cubeOfCoefficients(coefficients, 4), {1024});
     REQUIRE(vector.indices == std::vector<uint16_t>{0, 1, 3});
     CHECK(vector.values[1] == std::array<int16_t, 3>{1024, 0, -3});
     CHECK(vector.values[2] == std::array<int16_t, 3>{0, 0, -4096});

@@ -86,7 +86,10 @@ TEST_CASE("settings: each changes what it is called after") {
     CHECK(state.showsHelp);
     set("threshold", 64);
     CHECK_EQ(state.light.selection.threshold, 64);
-    CHECK_FALSE(state.light.selection.count);
+    set("coefficients", 0); // by threshold still
+    CHECK_EQ(state.light.selection.threshold, 64);
+    set("coefficients", 9);
+    CHECK_EQ(state.light.selection, LightSelection{.count = 9});
     set("material", "clay");
     CHECK_EQ(state.material.at(0).name, "clay");
     set("material", {{"clay", 0.25}, {"gold", 2}});
