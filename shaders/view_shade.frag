@@ -9,12 +9,14 @@
 #include "shaders/lib/barycentric.glsl"
 #include "shaders/lib/disk_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
+#include "shaders/lib/unshadowed.glsl"
 #include "shaders/shared/render.h"
 
 layout(constant_id = 0) const uint kTerms = 4;
 layout(constant_id = 1) const bool kGrey = false; // all view maps are: ViewMapTexture
 layout(constant_id = 2) const uint kLook = 0;
 layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms
+layout(constant_id = 4) const uint kEstimate = 0; // how what the terms leave of the BRDF is added: unshadowed.glsl
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGrey ? kQuads : (3 * kTerms + 3) / 4;
@@ -27,6 +29,11 @@ layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
 layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
 layout(binding = 6) uniform sampler2DArray baseColor;
 layout(binding = 7) uniform sampler2DArray materialMap;
+layout(binding = 8) uniform sampler2DArray litSpheres;
+layout(binding = 9) uniform usamplerBuffer sphereSlots;
+layout(binding = 10) uniform samplerBuffer viewGrid;
+layout(binding = 11) uniform sampler2DArray unshadowedTuples; // three images for each four terms
+layout(binding = 12) uniform samplerBuffer irradianceWeights; // laid out as tuples of whole quads
 
 layout(location = 0) out vec4 radiance;
 
@@ -75,6 +82,16 @@ void addTuple(inout Quad sum, float weight, uint vertex, uint quad) {
     }
 }
 
+// Of a layer, at a place that is painted and textured like this.
+vec3 layerWeight(ViewLayer layer, vec4 paint, vec3 base) {
+    vec3 weight = vec3(layer.weight);
+    if (kLook == kSurfaceLook) {
+        if (layer.channel >= 0) weight *= paint[layer.channel];
+        if (layer.isTextured != 0) weight *= base;
+    }
+    return weight;
+}
+
 // Of the first four materials.
 vec4 paintWeights(vec2 uv, vec4 color) {
     if (push.paint == kUnpainted) return vec4(0);
@@ -84,7 +101,15 @@ vec4 paintWeights(vec2 uv, vec4 color) {
     return sum > 0 ? paint / sum : vec4(1, 0, 0, 0);
 }
 
-// Not clamped.
+// Unshadowed tuples, interpolated over normals.
+Quad unshadowedTuple(vec2 place, uint quad) {
+    const float first = float(push.firstTuples + 3 * quad);
+    return Quad(textureLod(unshadowedTuples, vec3(place, first), 0),
+                textureLod(unshadowedTuples, vec3(place, first + 1), 0),
+                textureLod(unshadowedTuples, vec3(place, first + 2), 0));
+}
+
+// Not negative.
 vec3 shade(uint triangle, vec3 direction) {
     const uvec3 corners = texelFetch(triangles, int(triangle)).xyz;
     vec4 low[3], high[3];
@@ -117,7 +142,20 @@ vec3 shade(uint triangle, vec3 direction) {
         paint = paintWeights(uv, color);
         base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
     }
-    Quad sum = Quad(vec4(0), vec4(0), vec4(0));
+    vec3 exact = vec3(0);
+    vec2 normalPlace = vec2(0);
+    if (kEstimate != kTermsAlone) {
+        const SpherePlaces at = spherePlaces(viewGrid, -direction, vec3(-local.xy, local.z) * frame);
+        if (kLook == kSingleLook)
+            exact = push.weight * unshadowedRadiance(litSpheres, sphereSlots, push.firstSlot, at);
+        else
+            for (uint i = 0; i < push.layers; i++)
+                exact += layerWeight(layers[i], paint, base) *
+                         unshadowedRadiance(litSpheres, sphereSlots, layers[i].firstSlot, at);
+        normalPlace = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, 1) * frame).yx;
+    }
+
+    Quad sum = Quad(vec4(0), vec4(0), vec4(0)), terms = sum, lit = sum, unlit = sum;
     const uint quads = kAllTerms ? kQuads : (push.terms + 3) / 4;
     for (uint quad = 0; quad < quads; quad++) {
         Quad maps = Quad(vec4(0), vec4(0), vec4(0));
@@ -125,11 +163,7 @@ vec3 shade(uint triangle, vec3 direction) {
             maps = mapsOf(place, push.firstMap, quad);
         else
             for (uint i = 0; i < push.layers; i++) {
-                vec3 weight = vec3(layers[i].weight);
-                if (kLook == kSurfaceLook) {
-                    if (layers[i].channel >= 0) weight *= paint[layers[i].channel];
-                    if (layers[i].isTextured != 0) weight *= base;
-                }
+                const vec3 weight = layerWeight(layers[i], paint, base);
                 const Quad layer = mapsOf(place, layers[i].firstMap, quad);
                 maps.a += weight.rgbr * layer.a;
                 maps.b += weight.gbrg * layer.b;
@@ -141,8 +175,28 @@ vec3 shade(uint triangle, vec3 direction) {
         sum.a += maps.a * tuple.a;
         sum.b += maps.b * tuple.b;
         sum.c += maps.c * tuple.c;
+        if (kEstimate != kTermsAlone) {
+            const Quad unshadowed = unshadowedTuple(normalPlace, quad);
+            terms.a += maps.a * unshadowed.a;
+            terms.b += maps.b * unshadowed.b;
+            terms.c += maps.c * unshadowed.c;
+            vec4 a = vec4(1), b = vec4(1), c = vec4(1);
+            if (kEstimate == kResidualDifference) {
+                const int first = int(push.firstWeight + 3 * quad);
+                a = texelFetch(irradianceWeights, first);
+                b = texelFetch(irradianceWeights, first + 1);
+                c = texelFetch(irradianceWeights, first + 2);
+            }
+            lit = Quad(lit.a + a * tuple.a, lit.b + b * tuple.b, lit.c + c * tuple.c);
+            unlit = Quad(unlit.a + a * unshadowed.a, unlit.b + b * unshadowed.b, unlit.c + c * unshadowed.c);
+        }
     }
-    return (kLook == kSingleLook ? push.weight : 1) * sumOf(sum);
+    const float weight = kLook == kSingleLook ? push.weight : 1;
+    // A truncated sum of products can be negative.
+    if (kEstimate == kTermsAlone) return max(weight * sumOf(sum), 0);
+    if (kEstimate == kResidualRatio)
+        return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit));
+    return differenceEstimate(weight * sumOf(sum), litShare(sumOf(lit), sumOf(unlit)), exact, weight * sumOf(terms));
 }
 
 void main() {
@@ -151,6 +205,5 @@ void main() {
     // The stencil tells most pixels of other parts before the shader runs.
     if (surface < push.firstSurface || triangle >= push.surfaces) discard;
     const vec3 direction = push.rays.corner + gl_FragCoord.x * push.rays.right + gl_FragCoord.y * push.rays.down;
-    // A truncated sum of products can be negative.
-    radiance = vec4(max(shade(triangle, direction), 0), 1);
+    radiance = vec4(shade(triangle, direction), 1);
 }

@@ -6,6 +6,7 @@
 #include "engine/render/light_pass.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
+#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 
@@ -16,7 +17,8 @@ namespace {
 // A bake on the device, lit once.
 struct Stage {
     Stage(const vk::Device& device, const Asset& source, const Light& sources, const ViewRounds& rounds)
-        : asset(source), light(device, source.faceSize), relighter(device, source),
+        : asset(source), light(device, source.faceSize),
+          relighter(device, source, {.residuals = rounds.residual ? makeResiduals(source) : Residuals()}),
           view(device, source, {.width = rounds.width, .height = rounds.height}) {
         light.setLight(sources);
         relighter.setMode(RelightMode::Full); // turning changes nothing of some light
@@ -67,8 +69,9 @@ std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<As
                 stage.relighter.record(commands, stage.light);
                 stage.view.record(commands, camera, stage.relighter);
             }));
+            const Camera next = rounds.camera(stage.asset, turn + glm::radians(1.0f));
             own.viewMs.push_back(submission(commands, own.viewPasses,
-                                            [&] { stage.view.record(commands, camera, stage.relighter); }));
+                                            [&] { stage.view.record(commands, next, stage.relighter); }));
             own.coveredPixels.push_back(coveredPixels(stage.view.read()));
             own.lightCoefficients.push_back(double(stage.light.readStats().kept));
         }

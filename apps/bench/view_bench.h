@@ -19,6 +19,7 @@ struct ViewRounds {
     float rotationDegrees = 0; // of the light, at first; each further round turns it by a degree
     LightSelection selection;
     int width = 1280, height = 720;
+    bool residual = true;                                   // what K terms leave of BRDFs is added
     std::function<Camera(const Asset&, float turn)> camera; // turned by radians
 };
 
@@ -32,7 +33,8 @@ struct ViewSeries {
     std::vector<double> lightCoefficients;
 };
 
-// Every round turns the camera by 360 degrees over the number of rounds.
+// Every round turns the camera by 360 degrees over the number of rounds, and by one more between frame and
+// view.
 std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<Asset>& assets,
                                   const Light& light, const ViewRounds& rounds, bool quiet);
 

@@ -20,6 +20,7 @@ struct Arguments {
     LightArguments light;
     DeviceArguments device;
     LightSelection selection;
+    bool residual = true;
     int repeats = 15;
     bool json = false;
 };
@@ -92,15 +93,20 @@ void run(const Arguments& arguments) {
     rounds.selection = arguments.selection;
     rounds.width = arguments.camera.width;
     rounds.height = arguments.camera.height;
+    rounds.residual = arguments.residual;
     rounds.camera = [&](const Asset& asset, float turn) { return arguments.camera.camera(asset, turn); };
     const std::vector<ViewSeries> series =
         benchView(*device, assets, arguments.light.light(), rounds, arguments.json);
     Json files = Json::array();
     for (size_t i = 0; i < assets.size(); i++)
         files.push_back(describe(arguments.files[i], assets[i], series[i]));
-    const Json result = {{"device", device->info().name}, {"driver", device->info().driver},
-                         {"width", rounds.width},         {"height", rounds.height},
-                         {"repeats", rounds.count},       {"files", files}};
+    const Json result = {{"device", device->info().name},
+                         {"driver", device->info().driver},
+                         {"width", rounds.width},
+                         {"height", rounds.height},
+                         {"repeats", rounds.count},
+                         {"residual", rounds.residual},
+                         {"files", files}};
     if (arguments.json)
         fmt::print("{}\n", result.dump(2));
     else
@@ -124,12 +130,15 @@ void addBenchViewCommand(CLI::App& bench) {
         ->type_name("VALUE")
         ->check(CLI::Range(0, kLightMaximum))
         ->default_str(fmt::format("the {} largest are kept", kDefaultLightCount));
+    command->add_option("--residual", arguments->residual, "Add what K terms leave of BRDFs")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->default_str("on");
     arguments->device.add(*command);
     command->add_option("--repeats", arguments->repeats, "Rounds to take the medians of; one turn in all")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
-    command->footer("view: record, submit and wait for the view pass alone, the camera turned further.\n"
+    command->footer("view: record, submit and wait for a view alone, the camera turned by a degree.\n"
                     "frame: the same of a light turned by a degree, relighting in full and view, in one\n"
                     "submission.\n"
                     "on device: the view pass between its two timestamps.");

@@ -32,7 +32,9 @@ void run(const Arguments& arguments) {
     ReferenceOptions options;
     options.width = arguments.camera.width;
     options.height = arguments.camera.height;
-    options.brdf = arguments.brdf == "factored" ? ReferenceBrdf::Factored : ReferenceBrdf::Exact;
+    options.brdf = arguments.brdf == "factored"   ? ReferenceBrdf::Factored
+                   : arguments.brdf == "residual" ? ReferenceBrdf::Residual
+                                                  : ReferenceBrdf::Exact;
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
     options.appearance = arguments.appearance.appearance(asset);
     options.bakedOccluder = arguments.occluder == "baked";
@@ -69,8 +71,11 @@ void addReferenceCommand(CLI::App& program) {
     arguments->appearance.add(*command);
     arguments->light.add(*command);
     arguments->camera.add(*command);
-    command->add_option("--brdf", arguments->brdf, "exact, or factored: the baked K terms")
-        ->check(CLI::IsMember({"exact", "factored"}))
+    command
+        ->add_option(
+            "--brdf", arguments->brdf,
+            "exact; factored: the baked K terms; residual: these, and what they leave without shadows")
+        ->check(CLI::IsMember({"exact", "factored", "residual"}))
         ->capture_default_str();
     command
         ->add_option("--light-as", arguments->lightForm,

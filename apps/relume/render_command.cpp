@@ -7,6 +7,7 @@
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "engine/vk/timing_capture.h"
+#include "precompute/residual/residuals.h"
 
 #include <spdlog/spdlog.h>
 
@@ -23,6 +24,7 @@ struct Arguments {
     DeviceArguments device;
     SelectionArguments selection;
     int terms = 0; // 0: all
+    bool residual = true;
     int frames = 1;
     float rate = 24; // frames a second of light that moves
     std::string turn = "camera";
@@ -99,7 +101,8 @@ void run(const Arguments& arguments) {
     if (capture) capture->attach(*device);
     LightPass light(*device, asset.faceSize);
     light.setLight(moving.at(arguments.light.seconds));
-    Relighter relighter(*device, asset);
+    Relighter relighter(*device, asset,
+                        {.residuals = arguments.residual ? makeResiduals(asset) : Residuals()});
     relighter.setMode(arguments.mode);
     ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
     view.setAppearance(appearance);
@@ -167,6 +170,11 @@ void addRenderCommand(CLI::App& program) {
     command->add_option("--terms", arguments->terms, "Sum the first of the bake's K terms only")
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1024));
+    command
+        ->add_option("--residual", arguments->residual,
+                     "Add what the K terms leave of the BRDF, by the share of the light that reaches a point")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->default_str("on");
     arguments->camera.add(*command);
     command
         ->add_option("--frames", arguments->frames,

@@ -67,6 +67,8 @@ void drawMaterialPanel(SceneState& state, const PanelFacts& facts) {
     if (slider("Terms", terms, 1, most, fmt::format("%d of {}", most).c_str()))
         state.terms = terms < most ? terms : 0;
     explain("- and =: how many of the BRDF's K products are summed; fewer are further from the material");
+    ImGui::Checkbox("Residual", &state.addsResidual);
+    explain("Add what the terms leave of the BRDF, in proportion to the light that reaches a point");
 }
 
 } // namespace relume

@@ -1,6 +1,7 @@
 #include "apps/viewer/model.h"
 
 #include "precompute/reference/dressed_asset.h"
+#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 
@@ -17,8 +18,8 @@ RayTracer occluderOf(const Asset& asset) {
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
     : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), appearance(defaultAppearance(asset)),
-      light(device, asset.faceSize), relighter(device, asset), view(device, asset),
-      surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
+      light(device, asset.faceSize), relighter(device, asset, {.residuals = makeResiduals(asset)}),
+      view(device, asset), surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

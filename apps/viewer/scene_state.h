@@ -26,6 +26,7 @@ struct SceneState {
     Brush brush;
     std::vector<WeightedMaterial> material; // a blend; empty: as it was baked
     int terms = 0;                          // that are summed, of a model's K; 0: all
+    bool addsResidual = true;               // what these leave of the BRDF is added
     ToneCurve tone = ToneCurve::Agx;
     float exposure = 0; // stops
     Inspect inspect = Inspect::Off;

@@ -126,14 +126,15 @@ void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
 }
 
 void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec2 size) {
-    const Seen now{state.orbit->camera(), size, state.terms, state.inspect};
+    const Seen now{state.orbit->camera(), size, state.terms, state.addsResidual, state.inspect};
     if (mSeen && mSeen->camera.eye == now.camera.eye && mSeen->camera.target == now.camera.target &&
         mSeen->camera.verticalFov == now.camera.verticalFov && mSeen->size == size &&
-        mSeen->terms == now.terms && mSeen->inspect == now.inspect)
+        mSeen->terms == now.terms && mSeen->addsResidual == now.addsResidual && mSeen->inspect == now.inspect)
         return;
     const vk::ImageOptions& options = mModel->view.image().options();
     if (ivec2(int(options.width), int(options.height)) != size) mModel->view.resize(size.x, size.y);
     mModel->view.setTerms(now.terms);
+    mModel->view.setResidual(now.addsResidual);
     mModel->view.setInspect(now.inspect);
     mModel->view.record(commands, now.camera, mModel->relighter);
     mSeen = now;

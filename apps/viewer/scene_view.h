@@ -55,6 +55,7 @@ class SceneView {
         Camera camera;
         ivec2 size{0};
         int terms = 0;
+        bool addsResidual = true;
         Inspect inspect = Inspect::Off;
     };
     void begin(const std::shared_ptr<Model>& model, SceneState& state);

@@ -53,6 +53,7 @@ std::string renderCommand(const SceneState& state, const std::filesystem::path& 
                        ? fmt::format(" -m {}", quoted(worn.name))
                        : fmt::format(" -m {}", quoted(fmt::format("{}={}", worn.name, worn.weight)));
     if (state.terms > 0) command += fmt::format(" --terms {}", state.terms);
+    if (!state.addsResidual) command += " --residual off";
     return command;
 }
 

@@ -214,6 +214,7 @@ const std::vector<Setting>& settings() {
         choice("tone", &SceneState::tone, {"none", "aces", "agx"}, kKept),
         choice("compare", &SceneState::compare, {"off", "split", "reference", "difference"}),
         choice("inspect", &SceneState::inspect, {"off", "wireframe", "normals", "density"}),
+        flag("residual", &SceneState::addsResidual),
         flag("play", &LightState::plays),
         flag("turntable", &SceneState::turns),
         flag("light-vector", &SceneState::showsLight),

@@ -38,7 +38,8 @@ class LightPass {
     int faceSize() const { return mFaceSize; }
     // 6 F² × shared::PackedLight, zero where dropped; then, of the same shape, how the light changed.
     const vk::Buffer& table() const { return mTable; }
-    const vk::Buffer& stats() const { return mStats; } // shared::LightStats
+    const vk::Buffer& stats() const { return mStats; }       // shared::LightStats
+    const vk::Buffer& radiance() const { return mRadiance; } // 6 F² × vec3
 
     // Of the last record() and the one before, among those of all light passes: from 1; 0 is none.
     uint64_t recording() const { return mRecording; }

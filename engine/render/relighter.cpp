@@ -19,6 +19,7 @@ Relighter::Relighter(const vk::Device& device, const Asset& asset, const Relight
         for (const MaterialSet& set : part.sets)
             sets.push_back(makeSet(set.transport, part.name, largestShard));
     }
+    mSpheres = std::make_unique<LitSpheres>(device, asset, options.residuals);
 }
 
 std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, const std::string& name,
@@ -49,6 +50,7 @@ void Relighter::record(vk::Commands& commands, const LightPass& light, const App
             mParts[part].at(appearance.empty() ? 0 : appearance[part].set)->record(commands, light, mMode);
         commands.barrier(Stage::Compute, Stage::Draw);
     });
+    mSpheres->recordLight(commands, light);
 }
 
 std::vector<vec3> Relighter::readTuples(size_t part, size_t set) const {

@@ -3,6 +3,7 @@
 
 #include "engine/render/appearance.h"
 #include "engine/render/bases_relighter.h"
+#include "engine/render/lit_spheres.h"
 #include "engine/transport/asset.h"
 
 #include <limits>
@@ -13,6 +14,8 @@ namespace relume {
 struct RelighterOptions {
     // Bytes of the largest buffer of transport; the device's own limit holds as well.
     uint64_t largestShard = std::numeric_limits<uint64_t>::max();
+    // What K terms leave of BRDFs, by part and set; empty: terms alone.
+    Residuals residuals = {};
 };
 
 // Holds the transport of every part and set of materials on the device, each in its layout.
@@ -35,6 +38,9 @@ class Relighter {
     // vec3 per row, row = vertex · terms + term: what the light gives of a term, the γ of the method.
     const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set]->tuples(); }
 
+    // What materials reflect of the light without shadows. A view makes what it needs.
+    LitSpheres& spheres() const { return *mSpheres; }
+
     // Those of the last submission. Waits for the device.
     std::vector<vec3> readTuples(size_t part, size_t set = 0) const;
 
@@ -49,6 +55,7 @@ class Relighter {
     std::unique_ptr<vk::ComputeProgram> mRows, mClusters;
     std::unique_ptr<BasesRelighter::Programs> mBases;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
+    std::unique_ptr<LitSpheres> mSpheres;
 };
 
 } // namespace relume

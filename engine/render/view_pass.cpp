@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/render/map_texture.h"
 #include "engine/render/numbered_triangles.h"
+#include "engine/render/view_grid.h"
 #include "engine/scene/closed_mesh.h"
 #include "engine/vk/upload.h"
 #include "shaders/view_inspect_frag.h"
@@ -214,16 +215,18 @@ void ViewPass::setAppearance(const Appearance& appearance) {
         part.wornLayers.clear();
         for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
             part.wornLayers.push_back({uint32_t(layer.layer) * wornSet(part).viewMaps.imagesPerLayer,
-                                       layer.channel, layer.textured, layer.weight});
+                                       layer.channel, layer.textured, layer.weight, 0});
         part.look = lookOf(part.wornLayers);
     }
 }
 
-const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms) {
-    vk::GraphicsProgram& program = mShadePrograms[{terms, uint32_t(grey), look, uint32_t(allTerms)}];
+const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms,
+                                                  uint32_t estimate) {
+    vk::GraphicsProgram& program =
+        mShadePrograms[{terms, uint32_t(grey), look, uint32_t(allTerms), estimate}];
     if (!program.pipeline())
         program = vk::GraphicsProgram(mDevice, view_shade_vert_spirv, view_shade_frag_spirv,
-                                      {terms, uint32_t(grey), look, uint32_t(allTerms)},
+                                      {terms, uint32_t(grey), look, uint32_t(allTerms), estimate},
                                       shadeOptions(mDepthFormat), fmt::format("view of {} terms", terms));
     return program;
 }
@@ -303,8 +306,40 @@ void ViewPass::inspect(vk::Commands& commands, const Frame& frame, const Part& p
     commands.draw(6);
 }
 
-void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& part, const vk::Buffer& tuples) {
+const ResidualSet* ViewPass::residualOf(const Part& part, const Relighter& relighter) const {
+    return mAddsResidual ? relighter.spheres().set(size_t(&part - mParts.data()), part.worn.set) : nullptr;
+}
+
+void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const Relighter& relighter) {
+    std::set<uint32_t> kernels, nodes;
+    for (Part& part : mParts) {
+        const ResidualSet* residual = residualOf(part, relighter);
+        const std::optional<shared::ViewRays> rays = raysOf(frame, part);
+        if (!residual || !rays || part.wornLayers.empty()) continue;
+        const vec2 size(float(mColor.options().width), float(mColor.options().height));
+        const vec4 rectangle = 0.5f * (rays->rectangle + 1.0f) * vec4(size, size);
+        addGridNodes(nodes, rays->corner, rays->right, rays->down, vec2(rectangle),
+                     {rectangle.z, rectangle.w});
+        for (shared::ViewLayer& layer : part.wornLayers) {
+            const size_t number = layer.firstMap / wornSet(part).viewMaps.imagesPerLayer;
+            const uint32_t kernel = relighter.spheres().kernel(residual->layers[number].get());
+            layer.firstSlot = kernel * shared::kGridNodes;
+            kernels.insert(kernel);
+        }
+    }
+    if (!kernels.empty())
+        relighter.spheres().record(commands, std::vector(kernels.begin(), kernels.end()), nodes);
+}
+
+void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& part,
+                     const Relighter& relighter) {
     const Set& set = wornSet(part);
+    const LitSpheres& spheres = relighter.spheres();
+    const ResidualSet* residual = residualOf(part, relighter);
+    const uint32_t estimate = !residual              ? shared::kTermsAlone
+                              : residual->isPositive ? shared::kResidualRatio
+                                                     : shared::kResidualDifference;
+    const vk::Buffer& tuples = relighter.tuples(size_t(&part - mParts.data()), part.worn.set);
     const std::optional<shared::ViewRays> rays = raysOf(frame, part);
     if (!rays) return;
     const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
@@ -318,9 +353,13 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
                                      uint32_t(part.wornLayers.size()),
                                      part.worn.painted ? part.paint : shared::kUnpainted,
                                      set.materials,
-                                     usesAll ? set.terms : uint32_t(mTerms)};
-    commands.bind(usesAll ? *set.programs[part.look]
-                          : shadeProgram(set.terms, set.viewMaps.isGrey, part.look, false),
+                                     usesAll ? set.terms : uint32_t(mTerms),
+                                     isSingle ? part.wornLayers[0].firstSlot : 0,
+                                     residual ? spheres.firstTuples(residual) : 0,
+                                     residual ? spheres.firstWeight(residual) : 0};
+    commands.bind(usesAll && estimate == shared::kTermsAlone
+                      ? *set.programs[part.look]
+                      : shadeProgram(set.terms, set.viewMaps.isGrey, part.look, usesAll, estimate),
                   {{mSurfaces, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
@@ -329,7 +368,12 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
                    {set.viewMaps.image, set.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler},
                    part.layers,
                    {part.baseColor, mSurfaceSampler},
-                   {part.materialMap, mSurfaceSampler}},
+                   {part.materialMap, mSurfaceSampler},
+                   {spheres.image(), mPolarSampler},
+                   vk::Binding::texelsOf(spheres.slots(), VK_FORMAT_R32_UINT),
+                   vk::Binding::texelsOf(spheres.grid(), VK_FORMAT_R32G32B32A32_SFLOAT),
+                   {spheres.tuples(), mPolarSampler},
+                   vk::Binding::texelsOf(spheres.weights(), VK_FORMAT_R32G32B32A32_SFLOAT)},
                   push);
     commands.setStencil(stencilOf(part));
     commands.draw(6);
@@ -338,6 +382,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const Frame frame = frameOf(camera);
+    if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)
         if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
@@ -358,7 +403,7 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
         commands.render({.color = &mColor, .depth = &mDepth, .keepsDepth = true}, [&] {
             for (size_t i = 0; i < mParts.size(); i++)
                 if (mInspect == Inspect::Off)
-                    shade(commands, frame, mParts[i], relighter.tuples(i, mParts[i].worn.set));
+                    shade(commands, frame, mParts[i], relighter);
                 else
                     inspect(commands, frame, mParts[i]);
         });

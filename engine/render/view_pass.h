@@ -36,6 +36,9 @@ class ViewPass {
 
     // From the next record() on every part shows the first `terms` of its K only; 0 or K and more: all.
     void setTerms(int terms) { mTerms = terms; }
+    // From the next record() on what K terms leave of BRDFs is added, where the relighter has residuals; as
+    // it is at first. Or it is not.
+    void setResidual(bool isAdded) { mAddsResidual = isAdded; }
     // From the next record() on.
     void setInspect(Inspect inspect) { mInspect = inspect; }
 
@@ -91,24 +94,30 @@ class ViewPass {
     uint32_t stencilOf(const Part& part) const { return uint32_t(&part - mParts.data()) % 255 + 1; }
     Frame frameOf(const Camera& camera) const;
     void drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const;
-    void shade(vk::Commands& commands, const Frame& frame, const Part& part, const vk::Buffer& tuples);
+    void shade(vk::Commands& commands, const Frame& frame, const Part& part, const Relighter& relighter);
+    // Null: the part shows its terms alone.
+    const ResidualSet* residualOf(const Part& part, const Relighter& relighter) const;
+    // Makes the lit spheres that the worn layers of all parts need.
+    void recordSpheres(vk::Commands& commands, const Frame& frame, const Relighter& relighter);
     void inspect(vk::Commands& commands, const Frame& frame, const Part& part);
     // None: it is not seen.
     static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Part& part);
     // `look`: shared::kSingleLook and so on.
-    const vk::GraphicsProgram& shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms = true);
+    const vk::GraphicsProgram& shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms = true,
+                                            uint32_t estimate = shared::kTermsAlone);
 
     const vk::Device& mDevice;
     const Asset& mAsset;
     Bounds mBounds;
     VkFormat mDepthFormat;
     vk::GraphicsProgram mSurfaceProgram, mClosedSurfaceProgram;
-    std::map<std::array<uint32_t, 4>, vk::GraphicsProgram> mShadePrograms; // by shadeProgram()'s arguments
+    std::map<std::array<uint32_t, 5>, vk::GraphicsProgram> mShadePrograms; // by shadeProgram()'s arguments
     vk::GraphicsProgram mInspectProgram;                                   // made when it is first asked for
     vk::Sampler mPixelSampler;
     vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
     std::vector<Part> mParts;
     int mTerms = 0;
+    bool mAddsResidual = true;
     Inspect mInspect = Inspect::Off;
     float mMedianArea = 0;
     vk::Image mColor, mSurfaces, mDepth;

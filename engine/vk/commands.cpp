@@ -184,7 +184,9 @@ VkBufferView Commands::texelView(const Binding& binding) {
     create.buffer = binding.buffer->handle();
     create.format = binding.texelFormat;
     create.offset = binding.offset;
-    const uint64_t texel = binding.texelFormat == VK_FORMAT_R32_SFLOAT ? sizeof(float) : sizeof(vec4);
+    const bool isScalar =
+        binding.texelFormat == VK_FORMAT_R32_SFLOAT || binding.texelFormat == VK_FORMAT_R32_UINT;
+    const uint64_t texel = isScalar ? sizeof(float) : sizeof(vec4);
     RELUME_CHECK_LE(binding.bytes / texel, uint64_t(mDevice.limits().maxTexelBufferElements));
     create.range = binding.bytes / texel * texel;
     VkBufferView view;
@@ -323,7 +325,10 @@ void Commands::fill(const Buffer& buffer, uint32_t value) {
 
 void Commands::update(const Buffer& buffer, std::span<const std::byte> bytes) {
     RELUME_CHECK_LE(bytes.size(), buffer.bytes());
-    vkCmdUpdateBuffer(mCommands, buffer.handle(), 0, bytes.size(), bytes.data());
+    constexpr size_t kMost = 65536; // that Vulkan takes at once
+    for (size_t start = 0; start < bytes.size(); start += kMost)
+        vkCmdUpdateBuffer(mCommands, buffer.handle(), start, std::min(kMost, bytes.size() - start),
+                          bytes.data() + start);
 }
 
 void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
@@ -341,6 +346,14 @@ static VkBufferImageCopy wholeLayers(const Image& image, uint32_t layers) {
 
 void Commands::copy(const Buffer& from, const Image& to) {
     const VkBufferImageCopy region = wholeLayers(to, to.options().layers);
+    vkCmdCopyBufferToImage(mCommands, from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                           &region);
+}
+
+void Commands::copy(const Buffer& from, uint64_t fromOffset, const Image& to, uint32_t layer) {
+    VkBufferImageCopy region = wholeLayers(to, 1);
+    region.bufferOffset = fromOffset;
+    region.imageSubresource.baseArrayLayer = layer;
     vkCmdCopyBufferToImage(mCommands, from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
                            &region);
 }

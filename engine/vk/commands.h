@@ -104,11 +104,12 @@ class Commands {
     void transition(const Image& image, VkImageLayout from, VkImageLayout to, Stage before, Stage after);
 
     void fill(const Buffer& buffer, uint32_t value);
-    // Writes a few bytes, whole words of at most 64 KiB, into a device buffer: they travel with the commands.
+    // Writes whole words, not many, into a device buffer: they travel with the commands.
     void update(const Buffer& buffer, std::span<const std::byte> bytes);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
               uint64_t toOffset = 0);
-    void copy(const Buffer& from, const Image& to);                  // all layers; image in TRANSFER_DST
+    void copy(const Buffer& from, const Image& to); // all layers; image in TRANSFER_DST
+    void copy(const Buffer& from, uint64_t fromOffset, const Image& to, uint32_t layer); // that layer alone
     void copy(const Image& from, const Buffer& to, uint32_t layers); // first layers; image in TRANSFER_SRC
 
     // Submits and waits; adds this submission's pass times to `times()`.

@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/math/cubemap.h"
 #include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/residual_twin.h"
 
 #include <algorithm>
 #include <array>
@@ -26,19 +27,22 @@ struct Renderer {
     const ReferenceOptions& options;
     std::vector<LightSample> lights;
     DressedAsset asset;
-    RayTracer surfaces; // one mesh per part
+    std::optional<DressedAsset> terms; // with ReferenceBrdf::Residual: the asset in its K terms
+    RayTracer surfaces;                // one mesh per part
     RayTracer occluder;
     float shadowOffset;
 
-    std::optional<SurfacePoint> surfaceAt(int x, int y) const;
+    std::optional<vec3> radianceAt(int x, int y) const;
     vec3 reflectedRadiance(const SurfacePoint& point) const;
+    vec3 estimatedRadiance(const SurfacePoint& point, const SurfacePoint& ofTerms) const;
 };
 
-std::optional<SurfacePoint> Renderer::surfaceAt(int x, int y) const {
+std::optional<vec3> Renderer::radianceAt(int x, int y) const {
     const auto hit =
         surfaces.intersect(camera.eye, camera.pixelDirection(x, y, options.width, options.height));
     if (!hit) return std::nullopt;
-    return asset.pointAt(*hit, camera.eye);
+    const SurfacePoint point = asset.pointAt(*hit, camera.eye);
+    return terms ? estimatedRadiance(point, terms->pointAt(*hit, camera.eye)) : reflectedRadiance(point);
 }
 
 // Sums over the lights above the horizon that nothing blocks, a batch of shadow rays at a time.
@@ -66,6 +70,28 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
     return vec3(sum);
 }
 
+// The sums that a residual's estimate is made of, each exact.
+vec3 Renderer::estimatedRadiance(const SurfacePoint& point, const SurfacePoint& ofTerms) const {
+    glm::dvec3 exact(0), unshadowed(0), shadowed(0), irradiance(0), lit(0);
+    bool isPositive = true;
+    const vec3 origin = point.position + shadowOffset * point.frame.n;
+    for (const LightSample& light : lights) {
+        const vec3 incoming = point.frame.toLocal(light.direction);
+        if (!(incoming.z > 0)) continue;
+        const vec3 energy = light.energy * incoming.z, f = ofTerms.reflected(incoming);
+        isPositive &= f.x >= 0 && f.y >= 0 && f.z >= 0;
+        exact += energy * point.reflected(incoming);
+        unshadowed += energy * f;
+        irradiance += energy;
+        if (occluder.occluded(origin, light.direction)) continue;
+        shadowed += energy * f;
+        lit += energy;
+    }
+    const ResidualSums sums{vec3(shadowed), vec3(exact), vec3(unshadowed)};
+    return isPositive ? ratioEstimate(sums, vec3(lit), vec3(irradiance))
+                      : differenceEstimate(sums, litShare(vec3(lit), vec3(irradiance)));
+}
+
 Image render(const Renderer& renderer, const std::function<void(int)>& progress) {
     const ReferenceOptions& options = renderer.options;
     Image image(options.width, options.height);
@@ -74,8 +100,8 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
     tbb::parallel_for(0, options.height, [&](int y) {
         for (int x = 0; x < options.width; x++)
             // A factored BRDF can go negative.
-            if (const auto point = renderer.surfaceAt(x, y))
-                image.at(x, y) = vec4(glm::max(renderer.reflectedRadiance(*point), vec3(0)), 1);
+            if (const auto radiance = renderer.radianceAt(x, y))
+                image.at(x, y) = vec4(glm::max(*radiance, vec3(0)), 1);
         if (!progress) return;
         const std::lock_guard lock(mutex);
         progress(++finished);
@@ -98,13 +124,18 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
         options.bakedOccluder ? asset.visibilityOffset : kFullMeshShadowOffset * boundsOf(asset).radius();
     const Appearance appearance = options.appearance.empty() ? defaultAppearance(asset) : options.appearance;
     MaterialBrdfs brdfs;
-    const Renderer renderer{camera,
-                            options,
-                            std::move(lights),
-                            DressedAsset(asset, appearance, options.brdf, brdfs),
-                            RayTracer(meshes),
-                            RayTracer(occluders),
-                            offset};
+    const bool isEstimate = options.brdf == ReferenceBrdf::Residual;
+    std::optional<DressedAsset> terms;
+    if (isEstimate) terms.emplace(asset, appearance, ReferenceBrdf::Factored, brdfs);
+    const Renderer renderer{
+        camera,
+        options,
+        std::move(lights),
+        DressedAsset(asset, appearance, isEstimate ? ReferenceBrdf::Exact : options.brdf, brdfs),
+        std::move(terms),
+        RayTracer(meshes),
+        RayTracer(occluders),
+        offset};
     return render(renderer, progress);
 }
 

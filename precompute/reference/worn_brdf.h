@@ -6,7 +6,11 @@
 
 namespace relume {
 
-enum class ReferenceBrdf { Exact, Factored };
+enum class ReferenceBrdf {
+    Exact,
+    Factored, // K terms
+    Residual  // K terms, and what they leave without shadows: residual_twin.h. Of images alone
+};
 
 class SeenBrdf;
 

@@ -14,6 +14,20 @@ const mat3 kFaceAxes[6] = mat3[6](
 // Unnormalised direction of face coordinates u (right) and v (down), both in [-1, 1].
 vec3 cubeDirection(uint face, vec2 uv) { return kFaceAxes[face] * vec3(uv, 1); }
 
+// The face that a direction, of any length but zero, passes through.
+uint cubeFace(vec3 direction) {
+    const vec3 size = abs(direction);
+    if (size.x >= size.y && size.x >= size.z) return direction.x >= 0 ? 0 : 1;
+    if (size.y >= size.z) return direction.y >= 0 ? 2 : 3;
+    return direction.z >= 0 ? 4 : 5;
+}
+
+// Its u and v there.
+vec2 cubeCoordinates(uint face, vec3 direction) {
+    const vec3 local = direction * kFaceAxes[face];
+    return local.xy / local.z;
+}
+
 // Solid angle, in steradian, of a square of side `width` (in units of u and v) at uv: midpoint rule.
 float cubeSolidAngle(vec2 uv, float width) {
     const float squared = 1 + dot(uv, uv);

@@ -127,13 +127,17 @@ struct ViewLayer {
     int channel;     // of the paint that multiplies it; -1: none
     uint isTextured; // 1: the base colour texture multiplies it
     float weight;
+    uint firstSlot; // of its lit spheres, by node
 };
-RELUME_SHARED_SIZE(ViewLayer, 16)
+RELUME_SHARED_SIZE(ViewLayer, 20)
 
 // What a draw's fragments look at, the least that serves what a part wears.
 const uint kSingleLook = 0;  // one layer and a constant
 const uint kLayersLook = 1;  // several layers and constants
 const uint kSurfaceLook = 2; // paint or a texture as well
+
+// How a draw's fragments estimate radiance: shaders/lib/unshadowed.glsl.
+const uint kTermsAlone = 0, kResidualDifference = 1, kResidualRatio = 2;
 
 // Where a part's paint comes from.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
@@ -162,8 +166,12 @@ struct ViewShadePush {
     uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
     uint materials; // of the worn set: no more than these share the paint
     uint terms;     // that are summed, the first ones: 1 to K
+    // With the residual:
+    uint firstSlot;   // kSingleLook: of the layer
+    uint firstTuples; // of the set: images of its unshadowed tuples
+    uint firstWeight; // of the set: texels of what weighs tuples to irradiance
 };
-RELUME_SHARED_SIZE(ViewShadePush, 100)
+RELUME_SHARED_SIZE(ViewShadePush, 112)
 
 // What view_inspect.frag shows, in the order of Inspect.
 const uint kInspectWireframe = 1, kInspectNormals = 2, kInspectDensity = 3;

@@ -1,0 +1,333 @@
+#include "engine/render/lit_spheres.h"
+
+#include "engine/base/check.h"
+#include "engine/base/error.h"
+#include "engine/math/tangent_frame.h"
+#include "engine/render/view_grid.h"
+#include "engine/vk/upload.h"
+#include "shaders/sphere_cube_comp.h"
+#include "shaders/sphere_frame_comp.h"
+#include "shaders/sphere_light_comp.h"
+#include "shaders/sphere_reflect_comp.h"
+#include "shaders/sphere_spectrum_comp.h"
+#include "shaders/sphere_synthesize_comp.h"
+#include "shaders/unshadowed_tuples_comp.h"
+
+#include <algorithm>
+
+namespace relume {
+
+using namespace shared;
+using vk::BufferUse;
+using vk::Stage;
+
+namespace {
+
+constexpr uint32_t kNone = 0xffffffff;
+constexpr uint32_t kBatch = 32; // nodes that are made together: what buffers between passes hold
+constexpr VkFormat kTexelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr uint32_t kSphereTexels = kSphereRings * kSphereAzimuths,
+                   kTupleTexels = kTupleRings * kTupleAzimuths;
+
+uint32_t roundUp(uint32_t value, uint32_t step) { return (value + step - 1) / step; }
+
+// As the device reads it: [component][four rings of the mirror direction][ring of the light][channel].
+std::vector<vec4> packed(const SphereKernel& kernel) {
+    std::vector<vec4> texels(size_t(kernel.components()) * (kSphereRings / 4) * kSphereRings * 3);
+    RELUME_CHECK_EQ(kernel.values.size() * 3, texels.size() * 4);
+    for (size_t component = 0; component < size_t(kernel.components()); component++)
+        for (size_t row = 0; row < kSphereRings; row++)
+            for (size_t ring = 0; ring < kSphereRings; ring++)
+                for (size_t channel = 0; channel < 3; channel++)
+                    texels[((component * (kSphereRings / 4) + row / 4) * kSphereRings + ring) * 3 +
+                           channel][int(row % 4)] =
+                        kernel.values[(component * kSphereRings + row) * kSphereRings + ring][int(channel)];
+    return texels;
+}
+
+// Two vec4 a node: its direction, and the side that azimuth 0 is at.
+template <typename Nodes>
+std::vector<vec4> gridFrames(const Nodes& nodes) {
+    std::vector<vec4> frames;
+    for (const uint32_t node : nodes) {
+        const TangentFrame frame = tangentFrame(gridDirection(node));
+        frames.emplace_back(frame.n, 0);
+        frames.emplace_back(frame.s, 0);
+    }
+    return frames;
+}
+
+std::vector<uint32_t> allNodes() {
+    std::vector<uint32_t> nodes;
+    for (uint32_t node = 0; node < kGridNodes; node++) nodes.push_back(node);
+    return nodes;
+}
+
+vk::ImageOptions imageOptions(uint32_t width, uint32_t height, uint32_t layers) {
+    return {.format = kTexelFormat,
+            .width = width,
+            .height = height,
+            .layers = layers,
+            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+}
+
+// Black, and ready to be read.
+vk::Image emptyImage(const vk::Device& device, uint32_t width, uint32_t height, uint32_t layers,
+                     const char* name) {
+    return vk::uploadImage(device, imageOptions(width, height, layers),
+                           std::vector<std::byte>(size_t(width) * height * layers * sizeof(vec4)), name);
+}
+
+vk::Buffer makeTexels(const vk::Device& device, uint64_t count, const char* name) {
+    return {device, std::max<uint64_t>(count, 1) * sizeof(vec4), BufferUse::Device, name};
+}
+
+vk::Binding texels(const vk::Buffer& buffer) { return vk::Binding::texelsOf(buffer, kTexelFormat); }
+
+// All layers of an image that is ready to be read, and is so again.
+std::vector<vec4> readImage(const vk::Device& device, const vk::Image& image) {
+    const vk::ImageOptions& options = image.options();
+    const uint64_t count = uint64_t(options.width) * options.height * options.layers;
+    const vk::Buffer readback(device, count * sizeof(vec4), BufferUse::Readback, "sphere readback");
+    vk::Commands commands(device, "sphere readback");
+    commands.begin();
+    commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                        Stage::Transfer, Stage::Transfer);
+    commands.copy(image, readback, options.layers);
+    commands.transition(image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                        Stage::Transfer, Stage::Draw);
+    commands.barrier(Stage::Transfer, Stage::Host);
+    commands.submitAndWait();
+    const auto values = readback.map<vec4>();
+    return {values.begin(), values.end()};
+}
+
+} // namespace
+
+LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, Residuals residuals)
+    : mDevice(device), mResiduals(std::move(residuals)),
+      mSampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+               "sphere cube"),
+      mPolarSampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                    "polar light maps") {
+    mResiduals.resize(asset.parts.size());
+    std::vector<float> weights;
+    for (size_t part = 0; part < asset.parts.size(); part++) {
+        mResiduals[part].resize(asset.parts[part].sets.size());
+        for (size_t set = 0; set < mResiduals[part].size(); set++)
+            if (const ResidualSet* residual = mResiduals[part][set].get();
+                residual && !mSets.contains(residual))
+                addSet(*residual, asset.parts[part].sets[set].brdf, weights);
+    }
+    if (!mSets.empty()) makePrograms();
+    uint32_t components = 1, parts = 1, frequencies = 0;
+    for (const Kernel& kernel : mKernels) {
+        components = std::max(components, kernel.components);
+        parts = std::max(parts, 2 * kernel.push.harmonics + 1);
+        frequencies = std::max(frequencies, kernel.push.frequencies);
+    }
+    const uint32_t batch = mKernels.empty() ? 0 : kBatch;
+    const auto tupleImages = uint32_t(std::max<size_t>(weights.size() / 4, 1));
+    weights.resize(std::max<size_t>(weights.size(), 4), 0);
+    mWeights = vk::upload<float>(device, weights, "irradiance weights");
+    mGrid = vk::upload<vec4>(device, gridFrames(allNodes()), "view grid");
+    mTexels = makeTexels(device, 6 * kSphereCubeBordered * kSphereCubeBordered, "sphere cube");
+    mLights = makeTexels(device, 2 * kTupleLights, "lights of cells");
+    mTupleTexels = makeTexels(device, uint64_t(tupleImages) * kTupleTexels, "unshadowed tuples");
+    mTuples = emptyImage(device, kTupleAzimuths, kTupleRings, tupleImages, "unshadowed tuples");
+    mCubeImage = vk::Image(device, imageOptions(kSphereCubeBordered, kSphereCubeBordered, 6), "sphere cube");
+    mBatchNodes = makeTexels(device, 2 * batch, "sphere nodes");
+    mPolar = makeTexels(device, uint64_t(batch) * kSphereTexels, "polar light");
+    mSpectrum = makeTexels(device, 2 * uint64_t(batch) * (frequencies + 1) * kSphereRings, "light spectrum");
+    mReflected =
+        makeTexels(device, uint64_t(batch) * components * (kSphereRings / 4) * 6, "reflected spectrum");
+    mParts = makeTexels(device, uint64_t(batch) * parts * kSphereTexels, "sphere parts");
+    mFramed = makeTexels(device, uint64_t(parts > 1 ? batch : 0) * kSphereTexels, "spheres in frames");
+    mImage = emptyImage(device, kSphereAzimuths, kSphereRings, 1, "lit spheres");
+    mSlotTable.assign(std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
+    mSlots = vk::upload<uint32_t>(device, mSlotTable, "sphere slots");
+}
+
+void LitSpheres::makePrograms() {
+    mCube = {mDevice, sphere_cube_comp_spirv, {}, "sphere cube"};
+    mUnshadowed = {mDevice, unshadowed_tuples_comp_spirv, {}, "unshadowed tuples"};
+    mLight = {mDevice, sphere_light_comp_spirv, {}, "sphere light"};
+    mSpectrumProgram = {mDevice, sphere_spectrum_comp_spirv, {}, "sphere spectrum"};
+    mReflect = {mDevice, sphere_reflect_comp_spirv, {}, "sphere reflect"};
+    mSynthesize = {mDevice, sphere_synthesize_comp_spirv, {}, "sphere synthesize"};
+    mFrame = {mDevice, sphere_frame_comp_spirv, {}, "sphere frame"};
+}
+
+void LitSpheres::addSet(const ResidualSet& set, const FactoredBrdf& factors, std::vector<float>& weights) {
+    FactoredBrdf lights = factors;
+    lights.layers = 1;
+    lights.viewMaps = factors.lightMaps;
+    mSets.emplace(&set, Set{uint32_t(weights.size() / 4), uint32_t(factors.terms), uint32_t(factors.mapping),
+                            makeViewMapTexture(mDevice, lights, "light maps")});
+    for (const vec3& weight : set.irradianceWeights)
+        weights.insert(weights.end(), {weight.x, weight.y, weight.z});
+    weights.resize(roundUp(uint32_t(weights.size()), 12) * 12, 0); // whole quads of terms
+    for (const auto& layer : set.layers) {
+        if (!mKernelNumbers.emplace(layer.get(), uint32_t(mKernels.size())).second) continue;
+        mKernels.push_back({{0, uint32_t(layer->frequencies), uint32_t(layer->harmonics)},
+                            uint32_t(layer->components()),
+                            vk::upload<vec4>(mDevice, packed(*layer), "sphere kernel")});
+    }
+}
+
+void LitSpheres::freeSlots() {
+    std::ranges::fill(mSlotTable, kNone);
+    mFreeSlots.clear();
+    for (uint32_t slot = mSlotCount; slot > 0; slot--) mFreeSlots.push_back(slot - 1);
+}
+
+void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
+    if (mSets.empty()) return;
+    freeSlots();
+    // Draws and passes of an earlier frame may still be reading.
+    commands.barrier(Stage::Compute, Stage::Compute);
+    commands.barrier(Stage::Draw, Stage::Compute);
+    commands.barrier(Stage::Draw, Stage::Transfer);
+    commands.barrier(Stage::Transfer, Stage::Compute);
+    commands.pass("unshadowed", [&] {
+        commands.dispatch(mCube, {light.radiance(), mTexels, mLights},
+                          SphereCubePush{uint32_t(light.faceSize())},
+                          {6 * kSphereCubeBordered * kSphereCubeBordered, 1, 1});
+        commands.barrier(Stage::Compute, Stage::Compute);
+        for (const auto& [residual, set] : mSets) {
+            const bool isPolar = set.mapping == uint32_t(DiskMapping::Polar);
+            commands.dispatch(
+                mUnshadowed,
+                {texels(mLights), {set.lightMaps.image, isPolar ? mPolarSampler : mSampler}, mTupleTexels},
+                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGrey, set.firstImage},
+                {kTupleAzimuths, kTupleRings, roundUp(set.terms, 4)});
+        }
+        commands.barrier(Stage::Compute, Stage::Transfer);
+        const auto fill = [&](const vk::Buffer& from, const vk::Image& to, Stage readBy) {
+            commands.transition(to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                Stage::Draw, Stage::Transfer);
+            commands.copy(from, to);
+            commands.transition(to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Transfer, readBy);
+        };
+        fill(mTexels, mCubeImage, Stage::Compute);
+        fill(mTupleTexels, mTuples, Stage::Draw);
+    });
+}
+
+// Slots for as many spheres as a view needs, and some to spare.
+void LitSpheres::makeRoom(size_t spheres) {
+    if (spheres <= mSlotCount) return;
+    const uint32_t most = mDevice.limits().maxImageArrayLayers;
+    if (spheres > most)
+        throw Error(
+            "{} lit spheres are needed, {} holds at most {} layers in an image; draw fewer materials at "
+            "once, or without the residual",
+            spheres, mDevice.name(), most);
+    mSlotCount = std::min(most, roundUp(uint32_t(spheres + spheres / 4), 16) * 16);
+    mRetired.push_back(std::move(mImage));
+    mImage = vk::Image(mDevice, imageOptions(kSphereAzimuths, kSphereRings, mSlotCount), "lit spheres");
+    freeSlots();
+}
+
+void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernels,
+                        const std::set<uint32_t>& nodes) {
+    const bool isNew = kernels.size() * nodes.size() > mSlotCount;
+    makeRoom(kernels.size() * nodes.size());
+    std::vector<std::vector<uint32_t>> missing;
+    std::set<uint32_t> used;
+    size_t wanted = 0;
+    for (const uint32_t kernel : kernels) {
+        missing.emplace_back();
+        for (const uint32_t node : nodes) {
+            const uint32_t slot = mSlotTable[kernel * kGridNodes + node];
+            if (slot == kNone)
+                missing.back().push_back(node);
+            else
+                used.insert(slot);
+        }
+        wanted += missing.back().size();
+    }
+    if (wanted == 0) return;
+    // Those of other views make room, where there is none.
+    if (mFreeSlots.size() < wanted)
+        for (uint32_t& slot : mSlotTable)
+            if (slot != kNone && !used.contains(slot)) {
+                mFreeSlots.push_back(slot);
+                slot = kNone;
+            }
+    commands.barrier(Stage::Draw, Stage::Transfer);
+    commands.barrier(Stage::Compute, Stage::Compute);
+    commands.pass("spheres", [&] {
+        commands.transition(mImage,
+                            isNew ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, Stage::Draw, Stage::Transfer);
+        for (size_t i = 0; i < kernels.size(); i++)
+            for (size_t first = 0; first < missing[i].size(); first += kBatch)
+                makeSpheres(commands, kernels[i],
+                            std::span(missing[i])
+                                .subspan(first, std::min<size_t>(kBatch, missing[i].size() - first)));
+        commands.transition(mImage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Transfer, Stage::Draw);
+        commands.update(mSlots, std::as_bytes(std::span(mSlotTable)));
+        commands.barrier(Stage::Transfer, Stage::Draw);
+    });
+}
+
+void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<const uint32_t> nodes) {
+    const Kernel& kernel = mKernels[number];
+    SpherePush push = kernel.push;
+    push.nodes = uint32_t(nodes.size());
+    const std::vector<vec4> frames = gridFrames(nodes);
+    // The batch before may still be reading its nodes, and copying its spheres.
+    commands.barrier(Stage::Compute, Stage::Transfer);
+    commands.barrier(Stage::Transfer, Stage::Compute);
+    commands.update(mBatchNodes, std::as_bytes(std::span(frames)));
+    commands.barrier(Stage::Transfer, Stage::Compute);
+    commands.dispatch(mLight, {{mCubeImage, mSampler}, texels(mBatchNodes), mPolar}, push,
+                      {kSphereAzimuths, kSphereRings, push.nodes});
+    commands.barrier(Stage::Compute, Stage::Compute);
+    commands.dispatch(mSpectrumProgram, {texels(mPolar), mSpectrum}, push,
+                      {kSphereRings, roundUp(push.frequencies + 1, 8), push.nodes});
+    commands.barrier(Stage::Compute, Stage::Compute);
+    commands.dispatch(mReflect, {texels(kernel.values), texels(mSpectrum), mReflected}, push,
+                      {kSphereRings / 4, kernel.components, roundUp(push.nodes, 2)});
+    commands.barrier(Stage::Compute, Stage::Compute);
+    commands.dispatch(mSynthesize, {texels(mReflected), mParts}, push,
+                      {kSphereAzimuths / 4, kSphereRings / 4, push.nodes * (push.harmonics + 1)});
+    const bool isFramed = push.harmonics > 0;
+    if (isFramed) {
+        commands.barrier(Stage::Compute, Stage::Compute);
+        commands.dispatch(mFrame, {texels(mParts), texels(mBatchNodes), mFramed}, push,
+                          {kSphereAzimuths, kSphereRings, push.nodes});
+    }
+    commands.barrier(Stage::Compute, Stage::Transfer);
+    for (size_t i = 0; i < nodes.size(); i++) {
+        uint32_t& slot = mSlotTable[number * kGridNodes + nodes[i]];
+        slot = mFreeSlots.back();
+        mFreeSlots.pop_back();
+        commands.copy(isFramed ? mFramed : mParts, i * kSphereTexels * sizeof(vec4), mImage, slot);
+    }
+}
+
+std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node) const {
+    const uint32_t slot = mSlotTable[kernel * kGridNodes + node];
+    RELUME_CHECK(slot != kNone);
+    const std::vector<vec4> texels = readImage(mDevice, mImage);
+    const auto first = texels.begin() + std::ptrdiff_t(size_t(slot) * kSphereTexels);
+    return {first, first + kSphereTexels};
+}
+
+std::vector<vec3> LitSpheres::readTuples(const ResidualSet* residual) const {
+    const Set& set = mSets.at(residual);
+    const std::vector<vec4> texels = readImage(mDevice, mTuples);
+    std::vector<vec3> tuples(size_t(kTupleTexels) * set.terms);
+    for (size_t texel = 0; texel < kTupleTexels; texel++)
+        for (size_t value = 0; value < 3 * size_t(set.terms); value++)
+            tuples[texel * set.terms + value / 3][int(value % 3)] =
+                texels[(set.firstImage + value / 4) * kTupleTexels + texel][int(value % 4)];
+    return tuples;
+}
+
+} // namespace relume

@@ -1,0 +1,86 @@
+// Lit spheres: what a material reflects of light that nothing shadows, for every mirror direction, from a
+// grid of view directions (Sloan, Martin, Gooch, Gooch: The Lit Sphere, 2001). Made when first needed, and
+// anew when the light has changed. engine/render/residual.h has the mathematics.
+#pragma once
+
+#include "engine/render/light_pass.h"
+#include "engine/render/map_texture.h"
+#include "engine/render/residual.h"
+#include "engine/transport/asset.h"
+
+#include <map>
+#include <set>
+#include <span>
+
+namespace relume {
+
+class LitSpheres {
+  public:
+    // Of `asset`'s parts and sets; keeps `residuals`, which may be empty. Throws OutOfMemory.
+    LitSpheres(const vk::Device& device, const Asset& asset, Residuals residuals);
+
+    // Pass "unshadowed": the light of the spheres that are made from now on, and the tuples of points that
+    // nothing shadows.
+    void recordLight(vk::Commands& commands, const LightPass& light);
+
+    // Pass "spheres": makes those of these kernels for these nodes of the grid that are not there. Draws may
+    // use them at once.
+    void record(vk::Commands& commands, std::span<const uint32_t> kernels, const std::set<uint32_t>& nodes);
+
+    // Null: terms alone.
+    const ResidualSet* set(size_t part, size_t set) const { return mResiduals[part][set].get(); }
+    // The number of a layer's kernel.
+    uint32_t kernel(const SphereKernel* layer) const { return mKernelNumbers.at(layer); }
+
+    // A sphere a node and kernel, kSphereAzimuths × kSphereRings. RGBA32F; layers by slots().
+    const vk::Image& image() const { return mImage; }
+    // uint: the layer of kernel · kGridNodes + node.
+    const vk::Buffer& slots() const { return mSlots; }
+    // Two vec4 a node: its direction, and the side that azimuth 0 is at.
+    const vk::Buffer& grid() const { return mGrid; }
+    // Tuples of points that nothing shadows: polar maps about +Y of kTupleAzimuths × kTupleRings normals,
+    // three for each four terms of a set, laid out as tuples are. RGBA32F.
+    const vk::Image& tuples() const { return mTuples; }
+    uint32_t firstTuples(const ResidualSet* set) const { return mSets.at(set).firstImage; }
+    // Laid out as tuples, in whole quads of terms: ResidualSet::irradianceWeights.
+    const vk::Buffer& weights() const { return mWeights; }
+    uint32_t firstWeight(const ResidualSet* set) const { return mSets.at(set).firstImage; } // in texels
+
+    // As they were last made, for tests and `relume verify`. They wait for the device.
+    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node) const; // rings × azimuths
+    std::vector<vec3> readTuples(const ResidualSet* set) const;         // rings × azimuths × terms
+
+  private:
+    struct Kernel {
+        shared::SpherePush push;
+        uint32_t components;
+        vk::Buffer values;
+    };
+    struct Set {
+        uint32_t firstImage, terms, mapping;
+        ViewMapTexture lightMaps;
+    };
+
+    void makePrograms();
+    void addSet(const ResidualSet& set, const FactoredBrdf& factors, std::vector<float>& weights);
+    void makeRoom(size_t spheres);
+    void makeSpheres(vk::Commands& commands, uint32_t kernel, std::span<const uint32_t> nodes);
+    void freeSlots();
+
+    const vk::Device& mDevice;
+    Residuals mResiduals;
+    std::map<const SphereKernel*, uint32_t> mKernelNumbers;
+    std::map<const ResidualSet*, Set> mSets;
+    std::vector<Kernel> mKernels;
+    vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize, mFrame;
+    vk::Sampler mSampler, mPolarSampler; // the latter wraps in x
+    vk::Buffer mTexels, mLights, mTupleTexels, mGrid, mSlots, mWeights;
+    vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts, mFramed;
+    vk::Image mCubeImage, mImage, mTuples;
+    std::vector<vk::Image> mRetired;  // smaller ones of before, which commands that wait may still name
+    std::vector<uint32_t> mSlotTable; // by kernel · kGridNodes + node; kNone
+    std::vector<uint32_t> mFreeSlots;
+    uint32_t mSlotCount = 0;
+};
+
+} // namespace relume

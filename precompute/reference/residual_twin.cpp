@@ -1,0 +1,31 @@
+#include "precompute/reference/residual_twin.h"
+
+#include <algorithm>
+
+namespace relume {
+
+namespace {
+
+constexpr float kLeastShare = 0.25f; // of r E, that an estimate has at least
+constexpr float kLeastView = 1e-4f;  // of every view map, in ratios
+
+} // namespace
+
+float litShare(vec3 irradiance, vec3 unshadowed) {
+    const vec3 luminance(0.2126f, 0.7152f, 0.0722f);
+    const float all = glm::dot(unshadowed, luminance);
+    return all > 0 ? std::clamp(glm::dot(irradiance, luminance) / all, 0.0f, 1.0f) : 1;
+}
+
+vec3 differenceEstimate(const ResidualSums& sums, float share) {
+    return glm::clamp(sums.shadowed + share * (sums.exact - sums.terms), kLeastShare * share * sums.exact,
+                      sums.exact);
+}
+
+vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples) {
+    const vec3 all = sums.terms + kLeastView * unshadowedTuples;
+    return sums.exact *
+           glm::clamp((sums.shadowed + kLeastView * tuples) / glm::max(all, vec3(1e-30f)), vec3(0), vec3(1));
+}
+
+} // namespace relume

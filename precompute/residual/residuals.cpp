@@ -1,0 +1,111 @@
+#include "precompute/residual/residuals.h"
+
+#include "engine/base/error.h"
+#include "precompute/residual/irradiance_fit.h"
+#include "precompute/residual/sphere_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/spdlog.h>
+
+namespace relume {
+
+namespace {
+
+constexpr double kExactTerms = 1e-5; // of the squared sum, that terms may miss and be exact
+
+// A layer of the set's view maps: f, or without and then with what a base color texture multiplies.
+std::vector<Reflectance> layersOf(const MaterialSet& set, MaterialBrdfs& brdfs) {
+    std::vector<Reflectance> layers(static_cast<size_t>(set.brdf.layers));
+    for (const AssetMaterial& material : set.materials) {
+        const std::shared_ptr<const Brdf> brdf = brdfs.of(material);
+        auto* const layer = &layers[size_t(material.layer)];
+        if (!material.hasBase) {
+            *layer = [brdf](vec3 incoming, vec3 outgoing) { return brdf->evaluate(incoming, outgoing); };
+            continue;
+        }
+        layer[0] = [brdf](vec3 incoming, vec3 outgoing) {
+            return glm::max(brdf->evaluate(incoming, outgoing) - brdf->evaluateBase(incoming, outgoing),
+                            vec3(0));
+        };
+        layer[1] = [brdf](vec3 incoming, vec3 outgoing) { return brdf->evaluateBase(incoming, outgoing); };
+    }
+    return layers;
+}
+
+// Whether the terms of a layer are its BRDF: where a few hundred pairs of directions are tried.
+bool isExact(const Reflectance& exact, const FactoredBrdf& factors, int layer) {
+    constexpr int kDirections = 24;
+    const auto direction = [](int i, float turn) {
+        const float squared = (float(i) + 0.5f) / kDirections;
+        const float azimuth = (turn + float(i) * 0.618034f) * 2 * kPi;
+        return vec3(std::sqrt(squared) * std::cos(azimuth), std::sqrt(squared) * std::sin(azimuth),
+                    std::sqrt(1 - squared));
+    };
+    double difference = 0, all = 0;
+    for (int i = 0; i < kDirections; i++)
+        for (int o = 0; o < kDirections; o++) {
+            const vec3 incoming = direction(i, 0), outgoing = direction(o, 0.37f);
+            const vec3 f = exact(incoming, outgoing),
+                       missed = evaluate(factors, incoming, outgoing, layer) - f;
+            difference += double(glm::dot(missed, missed));
+            all += double(glm::dot(f, f));
+        }
+    return difference <= kExactTerms * all;
+}
+
+std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, MaterialBrdfs& brdfs) {
+    const std::vector<Reflectance> layers = layersOf(set, brdfs);
+    bool allExact = true;
+    for (size_t layer = 0; layer < layers.size(); layer++)
+        allExact &= isExact(layers[layer], set.brdf, int(layer));
+    if (allExact) return nullptr;
+    auto residual = std::make_shared<ResidualSet>();
+    for (const Reflectance& layer : layers) residual->layers.push_back(makeSphereKernel(layer));
+    const auto isPositive = [](const std::vector<vec3>& maps) {
+        return std::ranges::all_of(maps, [](const vec3& v) { return v.x >= 0 && v.y >= 0 && v.z >= 0; });
+    };
+    residual->isPositive = isPositive(set.brdf.lightMaps) && isPositive(set.brdf.viewMaps);
+    residual->irradianceWeights = irradianceWeights(set.brdf);
+    return residual;
+}
+
+// Whether two sets are of the same materials and factors.
+bool isSame(const MaterialSet& a, const MaterialSet& b) {
+    return std::ranges::equal(a.materials, b.materials, {}, &AssetMaterial::description,
+                              &AssetMaterial::description) &&
+           std::ranges::equal(a.materials, b.materials, {}, &AssetMaterial::hasBase,
+                              &AssetMaterial::hasBase) &&
+           a.brdf.lightMaps == b.brdf.lightMaps && a.brdf.viewMaps == b.brdf.viewMaps;
+}
+
+} // namespace
+
+Residuals makeResiduals(const Asset& asset) {
+    MaterialBrdfs brdfs;
+    Residuals residuals;
+    std::vector<std::pair<const MaterialSet*, std::shared_ptr<const ResidualSet>>> known;
+    for (const AssetPart& part : asset.parts) {
+        auto& sets = residuals.emplace_back();
+        for (const MaterialSet& set : part.sets) {
+            const auto same =
+                std::ranges::find_if(known, [&](const auto& other) { return isSame(*other.first, set); });
+            if (same != known.end()) {
+                sets.push_back(same->second);
+                continue;
+            }
+            std::shared_ptr<const ResidualSet> made;
+            try {
+                made = makeSet(set, brdfs);
+            } catch (const Error& error) {
+                spdlog::warn("{}: drawn without the residual, by its K terms alone: {}", part.name,
+                             error.what());
+            }
+            sets.push_back(made);
+            known.emplace_back(&set, made);
+        }
+    }
+    return residuals;
+}
+
+} // namespace relume

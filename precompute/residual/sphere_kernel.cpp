@@ -1,0 +1,198 @@
+#include "precompute/residual/sphere_kernel.h"
+
+#include "engine/math/disk_map.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+using namespace shared;
+
+namespace {
+
+constexpr int kRings = kSphereRings, kAzimuths = kSphereAzimuths;
+constexpr int kHarmonics = kMostHarmonics, kFrequencies = kMostFrequencies;
+constexpr int kViewAzimuths = 2 * (kHarmonics + 1); // over half a turn, where BRDFs repeat
+constexpr int kSamplesPerSide = 2;                  // of a cell of the light
+
+// Reflected directions in the plane of incidence of a mirror direction at angle ρ from the view direction,
+// turned by the view's azimuth a: where the light at (ρ', φ' - φ) is in the tangent frame.
+struct Geometry {
+    float sine, cosine; // of half of ρ, which is the view's angle from the normal
+
+    explicit Geometry(float mirrorAngle)
+        : sine(std::sin(mirrorAngle / 2)), cosine(std::cos(mirrorAngle / 2)) {}
+    vec3 outgoing(float azimuth) const {
+        return liftAboveHorizon({sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
+    }
+    // Above the horizon where z > 0.
+    vec3 incoming(float angle, float azimuth, float viewAzimuth) const {
+        const float s = std::sin(angle), c = std::cos(angle);
+        const float x = -cosine * s * std::cos(azimuth) + sine * c, y = -s * std::sin(azimuth);
+        const float cosA = std::cos(viewAzimuth), sinA = std::sin(viewAzimuth);
+        return {x * cosA - y * sinA, x * sinA + y * cosA, sine * s * std::cos(azimuth) + cosine * c};
+    }
+};
+
+float ringAngle(float ring) { return ring * kPi / float(kRings); }
+float azimuthAngle(float azimuth) { return azimuth * 2 * kPi / float(kAzimuths); }
+
+// The mean of f cos over a cell of the light, by side² samples.
+template <typename Function>
+vec3 cellMean(const Geometry& geometry, int ring, int azimuth, float viewAzimuth, int side,
+              Function&& reflected) {
+    vec3 sum(0);
+    float weights = 0;
+    for (int j = 0; j < side; j++) {
+        const float angle = ringAngle(float(ring) + (float(j) + 0.5f) / float(side)),
+                    weight = std::sin(angle);
+        for (int i = 0; i < side; i++) {
+            weights += weight;
+            const vec3 incoming = geometry.incoming(
+                angle, azimuthAngle(float(azimuth) - 0.5f + (float(i) + 0.5f) / float(side)), viewAzimuth);
+            if (incoming.z > kGrazingCosine) sum += weight * incoming.z * reflected(glm::normalize(incoming));
+        }
+    }
+    return sum / weights;
+}
+
+// Whether a turn of both directions about the normal changes nothing, where a few pairs are tried.
+bool isIsotropic(const Reflectance& exact) {
+    for (const auto& [incoming, outgoing] : {std::pair(vec3(0.5f, 0.1f, 0.8f), vec3(-0.4f, 0.2f, 0.9f)),
+                                             {vec3(0.2f, -0.6f, 0.6f), vec3(0.1f, 0.7f, 0.5f)},
+                                             {vec3(-0.1f, 0.3f, 0.9f), vec3(0.3f, 0.1f, 0.8f)}}) {
+        const vec3 first = exact(glm::normalize(incoming), glm::normalize(outgoing));
+        for (const float angle : {0.4f, 1.1f, 1.6f}) {
+            const auto turned = [&](vec3 v) {
+                return glm::normalize(vec3(v.x * std::cos(angle) - v.y * std::sin(angle),
+                                           v.x * std::sin(angle) + v.y * std::cos(angle), v.z));
+            };
+            const vec3 other = exact(turned(incoming), turned(outgoing));
+            if (glm::length(other - first) > 1e-3f * (glm::length(first) + 1e-6f)) return false;
+        }
+    }
+    return true;
+}
+
+// All components that the azimuths can tell apart, before the small ones are dropped.
+class WholeKernel {
+  public:
+    explicit WholeKernel(const Reflectance& exact)
+        : mValues(kHarmonics + 1, std::vector<std::vector<vec3>>(2 * kFrequencies + 1)) {
+        for (auto& harmonic : mValues)
+            for (auto& component : harmonic) component.resize(size_t(kRings) * kRings);
+        const int views = isIsotropic(exact) ? 1 : kViewAzimuths;
+        tbb::parallel_for(0, kRings, [&](int row) { fill(exact, views, row); });
+    }
+
+    const std::vector<vec3>& component(int harmonic, int frequency) const {
+        return mValues[size_t(harmonic)][size_t(frequency + kFrequencies)];
+    }
+
+  private:
+    // Samples of a row: [view azimuth · rings · channels][azimuth of the light].
+    using Samples = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+    // `views`: azimuths of the view over half a turn; one of an isotropic BRDF.
+    void fill(const Reflectance& exact, int views, int row) {
+        const Geometry geometry(ringAngle(float(row) + 0.5f));
+        Samples samples(views * kRings * 3, kAzimuths);
+        for (int view = 0; view < views; view++) {
+            const float viewAzimuth = float(view) * kPi / float(views);
+            const vec3 outgoing = geometry.outgoing(viewAzimuth);
+            for (int ring = 0; ring < kRings; ring++)
+                for (int azimuth = 0; azimuth < kAzimuths; azimuth++) {
+                    const vec3 mean = cellMean(geometry, ring, azimuth, viewAzimuth, kSamplesPerSide,
+                                               [&](vec3 incoming) { return exact(incoming, outgoing); });
+                    for (int channel = 0; channel < 3; channel++)
+                        samples((view * kRings + ring) * 3 + channel, azimuth) = mean[channel];
+                }
+        }
+        transform(samples, views, row);
+    }
+
+    // Fourier coefficients Σ_δ f e^(imδ) over the light's azimuth, then e^(-2ica) over the view's: their real
+    // part, which is all of them where the BRDF has mirror symmetry.
+    void transform(const Samples& samples, int views, int row) {
+        Eigen::MatrixXf cosines(kAzimuths, kFrequencies + 1), sines(kAzimuths, kFrequencies + 1);
+        for (int m = 0; m <= kFrequencies; m++)
+            for (int azimuth = 0; azimuth < kAzimuths; azimuth++) {
+                const float phase = azimuthAngle(float(m * azimuth % kAzimuths));
+                cosines(azimuth, m) = std::cos(phase);
+                sines(azimuth, m) = std::sin(phase);
+            }
+        const Samples real = samples * cosines, imaginary = samples * sines;
+        for (int harmonic = 0; harmonic <= (views == 1 ? 0 : kHarmonics); harmonic++)
+            for (int m = -kFrequencies; m <= kFrequencies; m++) {
+                std::vector<vec3>& values = mValues[size_t(harmonic)][size_t(m + kFrequencies)];
+                for (int view = 0; view < views; view++) {
+                    const float phase = 2 * kPi * float(harmonic * view) / float(views);
+                    const float c = std::cos(phase) / float(views),
+                                s = (m < 0 ? -1 : 1) * std::sin(phase) / float(views);
+                    for (int ring = 0; ring < kRings; ring++)
+                        for (int channel = 0; channel < 3; channel++) {
+                            const int sample = (view * kRings + ring) * 3 + channel;
+                            values[size_t(row * kRings + ring)][channel] +=
+                                c * real(sample, std::abs(m)) + s * imaginary(sample, std::abs(m));
+                        }
+                }
+            }
+    }
+
+    // [harmonic][frequency + kFrequencies][ring of the mirror direction · rings + ring of the light]
+    std::vector<std::vector<std::vector<vec3>>> mValues;
+};
+
+// The squared sum over rings of either side, weighted by their solid angles.
+double energyOf(const std::vector<vec3>& component) {
+    double energy = 0;
+    for (int row = 0; row < kRings; row++)
+        for (int ring = 0; ring < kRings; ring++) {
+            const vec3 value = component[size_t(row * kRings + ring)];
+            energy +=
+                double(std::sin(ringAngle(float(row) + 0.5f)) * std::sin(ringAngle(float(ring) + 0.5f))) *
+                double(glm::dot(value, value));
+        }
+    return energy;
+}
+
+} // namespace
+
+std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact) {
+    const WholeKernel whole(exact);
+    double all = 0;
+    std::vector<double> byHarmonic(kHarmonics + 1, 0), byFrequency(kFrequencies + 1, 0);
+    for (int harmonic = 0; harmonic <= kHarmonics; harmonic++)
+        for (int m = -kFrequencies; m <= kFrequencies; m++) {
+            // Harmonic -c is the conjugate of c.
+            const double energy = (harmonic == 0 ? 1 : 2) * energyOf(whole.component(harmonic, m));
+            all += energy;
+            byHarmonic[size_t(harmonic)] += energy;
+            byFrequency[size_t(std::abs(m))] += energy;
+        }
+    // The least that loses no more than half of what may be lost each.
+    const auto needed = [&](const std::vector<double>& energies) {
+        double lost = 0;
+        int last = int(energies.size()) - 1;
+        for (; last > 0 && lost + energies[size_t(last)] <= 0.5 * kLostEnergy * all; last--)
+            lost += energies[size_t(last)];
+        return last;
+    };
+    auto kernel = std::make_shared<SphereKernel>();
+    kernel->harmonics = needed(byHarmonic);
+    kernel->frequencies = needed(byFrequency);
+    const auto add = [&](int harmonic, int m, float weight) {
+        for (const vec3& value : whole.component(harmonic, m)) kernel->values.push_back(weight * value);
+    };
+    // Twice for what stands for its conjugate as well.
+    for (int m = 0; m <= kernel->frequencies; m++) add(0, m, (m == 0 ? 1.0f : 2.0f) / float(kAzimuths));
+    for (int harmonic = 1; harmonic <= kernel->harmonics; harmonic++)
+        for (int m = -kernel->frequencies; m <= kernel->frequencies; m++)
+            add(harmonic, m, 2.0f / float(kAzimuths));
+    return kernel;
+}
+
+} // namespace relume

@@ -1,0 +1,18 @@
+// BRDFs as convolutions about the view direction: engine/render/residual.h.
+#pragma once
+
+#include "engine/render/residual.h"
+
+#include <functional>
+
+namespace relume {
+
+// f(ωi, ωo) without the cosine, of directions above the horizon in the local frame.
+using Reflectance = std::function<vec3(vec3 incoming, vec3 outgoing)>;
+
+// Frequencies and harmonics are as many as hold all but kLostEnergy of the squared sum. On all cores,
+// deterministic.
+std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact);
+constexpr double kLostEnergy = 3e-4;
+
+} // namespace relume

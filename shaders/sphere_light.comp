@@ -1,0 +1,38 @@
+#version 460
+// The light about every view direction that spheres are made for: a polar map of radiance times solid angle.
+// C++ twin: polarLight() in precompute/reference/lit_sphere_twin.h.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lib/cubemap.glsl"
+#include "shaders/lib/polar_map.glsl"
+#include "shaders/shared/sphere.h"
+
+layout(local_size_x = 32) in;
+layout(binding = 0) uniform sampler2DArray cube; // kSphereCube² and a border
+layout(binding = 1) uniform samplerBuffer nodes; // axis and side, two texels a node
+layout(binding = 2, std430) writeonly buffer Polar { vec4 polar[]; };
+
+// Samples of a cell on either side: half a texel apart, where bilinear lookups sum to the same wherever a light is.
+const uint kSide = 3;
+
+void main() {
+    const uint azimuth = gl_GlobalInvocationID.x, ring = gl_GlobalInvocationID.y, node = gl_GlobalInvocationID.z;
+    if (azimuth >= kSphereAzimuths) return;
+    const vec3 axis = texelFetch(nodes, int(2 * node)).xyz, side = texelFetch(nodes, int(2 * node + 1)).xyz;
+    const float ringWidth = 0.5 * kTurn / kSphereRings, width = kTurn / kSphereAzimuths;
+    vec3 sum = vec3(0);
+    float weights = 0;
+    for (uint j = 0; j < kSide; j++) {
+        const float angle = (float(ring) + (float(j) + 0.5) / kSide) * ringWidth, weight = sin(angle);
+        for (uint i = 0; i < kSide; i++) {
+            const vec3 direction =
+                polarDirection(axis, side, angle, (float(azimuth) - 0.5 + (float(i) + 0.5) / kSide) * width);
+            const uint face = cubeFace(direction);
+            const vec2 place = (cubeCoordinates(face, direction) * (0.5 * kSphereCube) + 0.5 * kSphereCubeBordered) /
+                               kSphereCubeBordered;
+            sum += weight * textureLod(cube, vec3(place, face), 0).rgb;
+            weights += weight;
+        }
+    }
+    const float solidAngle = width * (cos(float(ring) * ringWidth) - cos(float(ring + 1) * ringWidth));
+    polar[(node * kSphereRings + ring) * kSphereAzimuths + azimuth] = vec4(sum * (solidAngle / weights), 0);
+}
