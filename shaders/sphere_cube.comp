@@ -1,6 +1,6 @@
 #version 460
-// The light cube as spheres and irradiance are lit by it: faces of kSphereCube² texels, each with a border that
-// continues it on its neighbors so that a bilinear lookup has no seam; and a light in the middle of what every coarse cell emits.
+// Downsamples the light cube to faces of kSphereCube² texels, each with a border from its neighbors so that bilinear
+// lookups have no seam, and makes one light of every coarse cell, in the middle of what it emits.
 // C++ twin: sphereCube() and cellLights() in precompute/reference/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

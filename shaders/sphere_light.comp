@@ -11,21 +11,26 @@ layout(binding = 0) uniform sampler2DArray cube; // kSphereCube² and a border
 layout(binding = 1) uniform samplerBuffer nodes; // axis and side, two texels a node
 layout(binding = 2, std430) writeonly buffer Polar { vec4 polar[]; };
 
-// Samples of a cell on either side: half a texel apart, where bilinear lookups sum to the same wherever a light is.
-const uint kSide = 3;
+// Samples of a cell on either side: closer than texels, so that bilinear lookups sum to about the same wherever a light
+// is.
+const uint kSide = 2;
 
 void main() {
     const uint azimuth = gl_GlobalInvocationID.x, ring = gl_GlobalInvocationID.y, node = gl_GlobalInvocationID.z;
     if (azimuth >= kSphereAzimuths) return;
     const vec3 axis = texelFetch(nodes, int(2 * node)).xyz, side = texelFetch(nodes, int(2 * node + 1)).xyz;
     const float ringWidth = 0.5 * kTurn / kSphereRings, width = kTurn / kSphereAzimuths;
+    vec3 sides[kSide];
+    for (uint i = 0; i < kSide; i++) {
+        const float turn = (float(azimuth) - 0.5 + (float(i) + 0.5) / kSide) * width;
+        sides[i] = cos(turn) * side + sin(turn) * cross(axis, side);
+    }
     vec3 sum = vec3(0);
     float weights = 0;
     for (uint j = 0; j < kSide; j++) {
-        const float angle = (float(ring) + (float(j) + 0.5) / kSide) * ringWidth, weight = sin(angle);
+        const float angle = (float(ring) + (float(j) + 0.5) / kSide) * ringWidth, weight = sin(angle), along = cos(angle);
         for (uint i = 0; i < kSide; i++) {
-            const vec3 direction =
-                polarDirection(axis, side, angle, (float(azimuth) - 0.5 + (float(i) + 0.5) / kSide) * width);
+            const vec3 direction = weight * sides[i] + along * axis;
             const uint face = cubeFace(direction);
             const vec2 place = (cubeCoordinates(face, direction) * (0.5 * kSphereCube) + 0.5 * kSphereCubeBordered) /
                                kSphereCubeBordered;

@@ -1,7 +1,7 @@
 #version 460
-// What a material reflects of light, frequency by frequency: a convolution in the azimuth about the view direction is
-// a product of Fourier coefficients, a matrix over rings. Four rows of a component for two nodes an invocation.
-// C++ twin: reflectedSpectrum() in precompute/reference/lit_sphere_twin.h.
+// Multiplies the light's spectrum with the kernel, frequency by frequency: a convolution in the azimuth about the view
+// direction is a product of Fourier coefficients, a matrix over rings. Four rows of a component for two nodes an invocation.
+// C++ twin: litSpheres() in precompute/reference/lit_sphere_twin.h, which has these passes as one sum.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/sphere.h"
@@ -16,7 +16,7 @@ void main() {
     const uint rows = gl_GlobalInvocationID.x, component = gl_GlobalInvocationID.y, node = 2 * gl_GlobalInvocationID.z;
     if (rows >= kSphereRings / 4) return;
     const uint positive = push.frequencies + 1, all = 2 * push.frequencies + 1;
-    // Of harmonics above 0 from the most negative frequency up.
+    // Components of harmonics above 0 begin with the most negative frequency.
     const int m = component < positive ? int(component) : int((component - positive) % all) - int(push.frequencies);
     const float side = m < 0 ? -1 : 1; // coefficients of real light at -m are the conjugates of those at m
     const bool hasSecond = node + 1 < push.nodes;

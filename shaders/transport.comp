@@ -117,7 +117,7 @@ void main() {
     vec2 summary;
     listBlocks(firstWord);
 
-    const mat3 frame = tangentFrame(points[point].normal) * kFaceAxes[face];
+    const mat3 frame = tangentFrame(points[point].normal, points[point].tangent) * kFaceAxes[face];
     for (uint entry = lane; entry < reachedBlocks; entry += kLanes) {
         const uint number = blockList[entry];
         const uvec2 block = uvec2(number % kBlocks, number / kBlocks);

@@ -1,5 +1,5 @@
 #version 460
-// The tuples of points that nothing shadows, for every normal: a polar map about +Y, four terms an invocation.
+// Sums the unshadowed tuples of all normals: polar maps about +Y, four terms an invocation.
 // C++ twin: unshadowedTuples() in precompute/reference/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,14 +12,19 @@ layout(local_size_x = 16) in;
 layout(push_constant, scalar) uniform Push { UnshadowedTuplesPush push; };
 layout(binding = 0) uniform samplerBuffer lights;         // direction, and radiance · solid angle
 layout(binding = 1) uniform sampler2DArray lightMaps;     // packed as ViewMapTexture is
-layout(binding = 2, std430) writeonly buffer Tuples { vec4 tuples[]; }; // [image][ring][azimuth]
+layout(binding = 2, std430) writeonly buffer Tuples { vec4 tuples[]; }; // [image][row][azimuth]
 
 void main() {
-    const uint azimuth = gl_GlobalInvocationID.x, ring = gl_GlobalInvocationID.y, quad = gl_GlobalInvocationID.z;
+    const uint azimuth = gl_GlobalInvocationID.x, row = gl_GlobalInvocationID.y, quad = gl_GlobalInvocationID.z;
     if (azimuth >= kTupleAzimuths) return;
+    const uint side = push.isTurned != 0 ? row / (kTupleTurns * kTupleSideRings) : 0;
+    const uint ring = push.isTurned != 0 ? row % kTupleSideRings + side * (kTupleRings - kTupleSideRings) : row;
+    const uint turn = push.isTurned != 0 ? row / kTupleSideRings % kTupleTurns : 0;
     const vec3 normal = polarDirection(vec3(0, 1, 0), vec3(1, 0, 0), (float(ring) + 0.5) * (0.5 * kTurn / kTupleRings),
                                        (float(azimuth) + 0.5) * (kTurn / kTupleAzimuths));
-    const mat3 frame = tangentFrame(normal);
+    const float angle = float(turn) * (kTurn / kTupleTurns);
+    const mat2 turned = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
+    const mat3 frame = mat3(turned) * (side == 0 ? tangentFrame(normal) : lowerTangentFrame(normal));
     const uint images = push.isGrey != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
     vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples lie in memory
     for (int light = 0; light < int(kTupleLights); light++) {
@@ -38,9 +43,9 @@ void main() {
             if (3 * quad + 2 < images) c += textureLod(lightMaps, vec3(place, 3 * quad + 2), 0) * energy.brgb;
         }
     }
-    const uint map = kTupleRings * kTupleAzimuths;
-    const uint first = (push.firstImage + 3 * quad) * map + ring * kTupleAzimuths + azimuth;
+    const uint image = push.rows * kTupleAzimuths;
+    const uint first = (push.firstImage + 3 * quad) * image + row * kTupleAzimuths + azimuth;
     tuples[first] = a;
-    tuples[first + map] = b;
-    tuples[first + 2 * map] = c;
+    tuples[first + image] = b;
+    tuples[first + 2 * image] = c;
 }

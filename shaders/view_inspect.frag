@@ -6,7 +6,11 @@
 #include "shaders/shared/render.h"
 
 layout(push_constant, scalar) uniform Push { ViewInspectPush push; };
+#ifdef MULTISAMPLED
+#include "shaders/lib/pixel_samples.glsl"
+#else
 layout(binding = 0) uniform usampler2DArray surfaces; // as view_shade.frag
+#endif
 layout(binding = 1) uniform usamplerBuffer triangles;
 layout(binding = 2) uniform samplerBuffer vertices;
 
@@ -31,17 +35,15 @@ vec3 densityColor(float area) {
     return mix(vec3(0.85), density < 0 ? vec3(0.02, 0.1, 0.8) : vec3(0.8, 0.03, 0.02), abs(density));
 }
 
-void main() {
-    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
-    const uint triangle = surface - push.firstSurface;
-    if (surface < push.firstSurface || triangle >= push.surfaces) discard;
-    const vec3 direction = push.rays.corner + gl_FragCoord.x * push.rays.right + gl_FragCoord.y * push.rays.down;
+// Returns the color of a triangle where the ray through a place in the image meets it.
+vec3 colorAt(uint triangle, vec2 place) {
+    const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
     const uvec3 numbers = texelFetch(triangles, int(triangle)).xyz;
     vec3 corners[3], normals[3];
     for (int c = 0; c < 3; c++) {
-        const vec4 low = texelFetch(vertices, int(numbers[c] * 3));
+        const vec4 low = texelFetch(vertices, int(numbers[c] * kVertexTexels));
         corners[c] = low.xyz;
-        normals[c] = vec3(low.w, texelFetch(vertices, int(numbers[c] * 3 + 1)).xy);
+        normals[c] = vec3(low.w, texelFetch(vertices, int(numbers[c] * kVertexTexels + 1)).xy);
     }
     const vec3 weights = barycentricWeights(push.rays.eye, direction, corners);
     const vec3 normal = normalize(weights.x * normals[0] + weights.y * normals[1] + weights.z * normals[2]);
@@ -52,5 +54,25 @@ void main() {
     if (push.mode == kInspectDensity)
         color = (0.3 + 0.7 * facing) *
                 densityColor(0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0])));
-    radiance = vec4(color, 1);
+    return color;
+}
+
+bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
+
+void main() {
+#ifdef MULTISAMPLED
+    uint seen[kSamples];
+    readSamples(seen);
+    radiance = vec4(0);
+    for (uint i = 0; i < kSamples; i++) {
+        if (!isOfPart(seen[i])) continue;
+        const vec2 place = floor(gl_FragCoord.xy) + samplePosition(i);
+        radiance += vec4(colorAt(seen[i] - push.firstSurface, place), 1) / kSamples;
+    }
+    if (radiance.a == 0) discard;
+#else
+    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
+    if (!isOfPart(surface)) discard;
+    radiance = vec4(colorAt(surface - push.firstSurface, gl_FragCoord.xy), 1);
+#endif
 }

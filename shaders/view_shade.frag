@@ -17,13 +17,20 @@ layout(constant_id = 1) const bool kGrey = false; // all view maps are: ViewMapT
 layout(constant_id = 2) const uint kLook = 0;
 layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms
 layout(constant_id = 4) const uint kEstimate = 0; // how what the terms leave of the BRDF is added: unshadowed.glsl
+layout(constant_id = 7) const uint kHarmonics = 0;     // most that a worn layer's lit spheres have
+layout(constant_id = 8) const bool kTangents = false;  // frames follow the vertices' tangents, else the normal
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGrey ? kQuads : (3 * kTerms + 3) / 4;
 layout(push_constant, scalar) uniform Push { ViewShadePush push; };
+#ifdef MULTISAMPLED
+#include "shaders/lib/pixel_samples.glsl"
+layout(constant_id = 6) const bool kEdges = false; // pixels that are shaded more than once; else the others
+#else
 layout(binding = 0) uniform usampler2DArray surfaces; // 0: none
+#endif
 layout(binding = 1) uniform usamplerBuffer triangles;  // three corners and nothing
-layout(binding = 2) uniform samplerBuffer vertices;    // ViewVertex: three texels
+layout(binding = 2) uniform samplerBuffer vertices;    // ViewVertex: kVertexTexels
 layout(binding = 3) uniform samplerBuffer tuples; // texels of four floats if kWholeQuads, else of one
 layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
 layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
@@ -82,7 +89,7 @@ void addTuple(inout Quad sum, float weight, uint vertex, uint quad) {
     }
 }
 
-// Of a layer, at a place that is painted and textured like this.
+// Returns the weight of a layer where the surface has this paint and base color.
 vec3 layerWeight(ViewLayer layer, vec4 paint, vec3 base) {
     vec3 weight = vec3(layer.weight);
     if (kLook == kSurfaceLook) {
@@ -101,21 +108,42 @@ vec4 paintWeights(vec2 uv, vec4 color) {
     return sum > 0 ? paint / sum : vec4(1, 0, 0, 0);
 }
 
-// Unshadowed tuples, interpolated over normals.
-Quad unshadowedTuple(vec2 place, uint quad) {
-    const float first = float(push.firstTuples + 3 * quad);
-    return Quad(textureLod(unshadowedTuples, vec3(place, first), 0),
-                textureLod(unshadowedTuples, vec3(place, first + 1), 0),
-                textureLod(unshadowedTuples, vec3(place, first + 2), 0));
+// The place of a normal's unshadowed tuple.
+struct TuplePlace {
+    vec2 polar;  // about +Y, in [0, 1]
+    uint isBelow; // 1: the turn is from lowerTangentFrame()
+    float turn;  // of the frame from that of the normal, in whole turns; 0 where frames follow from normals
+};
+
+Quad unshadowedTuple(vec2 place, uint image) {
+    return Quad(textureLod(unshadowedTuples, vec3(place, image), 0),
+                textureLod(unshadowedTuples, vec3(place, image + 1), 0),
+                textureLod(unshadowedTuples, vec3(place, image + 2), 0));
 }
 
-// Not negative.
+// Returns four terms of the unshadowed tuple, interpolated between normals and turns.
+Quad unshadowedTuple(TuplePlace at, uint quad) {
+    const uint image = push.firstTuples + 3 * quad;
+    const float ring = at.polar.y * kTupleRings;
+    if (!kTangents)
+        return unshadowedTuple(placeInBand(unshadowedTuples, at.polar.x, ring, kTupleRings, 0), image);
+    const float turn = fract(at.turn) * kTupleTurns, row = ring - at.isBelow * (kTupleRings - kTupleSideRings);
+    const uint low = uint(turn) % kTupleTurns, high = (low + 1) % kTupleTurns, first = at.isBelow * kTupleTurns;
+    const Quad a = unshadowedTuple(
+        placeInBand(unshadowedTuples, at.polar.x, row, kTupleSideRings, first + low), image);
+    const Quad b = unshadowedTuple(
+        placeInBand(unshadowedTuples, at.polar.x, row, kTupleSideRings, first + high), image);
+    const float share = fract(turn);
+    return Quad(mix(a.a, b.a, share), mix(a.b, b.b, share), mix(a.c, b.c, share));
+}
+
+// Returns the reflected radiance, which is never negative.
 vec3 shade(uint triangle, vec3 direction) {
     const uvec3 corners = texelFetch(triangles, int(triangle)).xyz;
     vec4 low[3], high[3];
     for (int c = 0; c < 3; c++) {
-        low[c] = texelFetch(vertices, int(corners[c] * 3));
-        high[c] = texelFetch(vertices, int(corners[c] * 3 + 1));
+        low[c] = texelFetch(vertices, int(corners[c] * kVertexTexels));
+        high[c] = texelFetch(vertices, int(corners[c] * kVertexTexels + 1));
     }
     // Moved to the nearest edge if rounding puts them outside.
     vec3 weights = barycentricWeights(push.rays.eye, direction, vec3[3](low[0].xyz, low[1].xyz, low[2].xyz));
@@ -126,7 +154,18 @@ vec3 shade(uint triangle, vec3 direction) {
     vec3 normal = vec3(0);
     for (int c = 0; c < 3; c++) normal += weights[c] * vec3(low[c].w, high[c].xy);
     // Opposite normals can cancel out on a fold; any direction does there.
-    const mat3 frame = tangentFrame(dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal));
+    normal = dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal);
+    mat3 frame = tangentFrame(normal);
+    TuplePlace tuplePlace = TuplePlace(vec2(0), uint(normal.y < 0), 0);
+    if (kTangents) {
+        vec3 tangent = vec3(0);
+        for (int c = 0; c < 3; c++)
+            tangent += weights[c] * texelFetch(vertices, int(corners[c] * kVertexTexels + 3)).xyz;
+        const mat3 own = tangentFrame(normal, tangent);
+        const vec3 turned = (normal.y < 0 ? lowerTangentFrame(normal) : frame) * (vec3(1, 0, 0) * own);
+        tuplePlace.turn = atan(turned.y, turned.x) / kTurn;
+        frame = own;
+    }
     const vec3 local = liftAboveHorizon(frame * normalize(-direction));
     const vec2 place = diskMapCoordinates(push.mapping, local);
 
@@ -137,22 +176,26 @@ vec3 shade(uint triangle, vec3 direction) {
         vec4 color = vec4(0);
         for (int c = 0; c < 3; c++) {
             uv += weights[c] * high[c].zw;
-            color += weights[c] * texelFetch(vertices, int(corners[c] * 3 + 2));
+            color += weights[c] * texelFetch(vertices, int(corners[c] * kVertexTexels + 2));
         }
         paint = paintWeights(uv, color);
         base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
     }
     vec3 exact = vec3(0);
-    vec2 normalPlace = vec2(0);
     if (kEstimate != kTermsAlone) {
-        const SpherePlaces at = spherePlaces(viewGrid, -direction, vec3(-local.xy, local.z) * frame);
+        const SpherePlaces at =
+            spherePlaces(viewGrid, -direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
         if (kLook == kSingleLook)
-            exact = push.weight * unshadowedRadiance(litSpheres, sphereSlots, push.firstSlot, at);
+            exact = push.weight *
+                    unshadowedRadiance(litSpheres, sphereSlots, push.firstSlot, kHarmonics, at);
         else
             for (uint i = 0; i < push.layers; i++)
                 exact += layerWeight(layers[i], paint, base) *
-                         unshadowedRadiance(litSpheres, sphereSlots, layers[i].firstSlot, at);
-        normalPlace = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, 1) * frame).yx;
+                         unshadowedRadiance(litSpheres, sphereSlots, layers[i].firstSlot,
+                                            min(layers[i].harmonics, kHarmonics), at);
+        tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
+        // At -Y tangentFrame() has no direction of its own, and takes that of the frames at this azimuth.
+        if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
     }
 
     Quad sum = Quad(vec4(0), vec4(0), vec4(0)), terms = sum, lit = sum, unlit = sum;
@@ -176,7 +219,7 @@ vec3 shade(uint triangle, vec3 direction) {
         sum.b += maps.b * tuple.b;
         sum.c += maps.c * tuple.c;
         if (kEstimate != kTermsAlone) {
-            const Quad unshadowed = unshadowedTuple(normalPlace, quad);
+            const Quad unshadowed = unshadowedTuple(tuplePlace, quad);
             terms.a += maps.a * unshadowed.a;
             terms.b += maps.b * unshadowed.b;
             terms.c += maps.c * unshadowed.c;
@@ -199,11 +242,75 @@ vec3 shade(uint triangle, vec3 direction) {
     return differenceEstimate(weight * sumOf(sum), litShare(sumOf(lit), sumOf(unlit)), exact, weight * sumOf(terms));
 }
 
+// Returns the ground's coverage where the pixel's ray meets a triangle's plane. C++ twin: groundCoverage() in
+// engine/render/ground_fade.h.
+float groundCoverage(uint triangle, vec3 direction) {
+    if (push.groundFade.w == 0) return 1;
+    const uvec3 corners = texelFetch(triangles, int(triangle)).xyz;
+    vec3 place[3];
+    for (int c = 0; c < 3; c++) place[c] = texelFetch(vertices, int(corners[c] * kVertexTexels)).xyz;
+    const vec3 normal = cross(place[1] - place[0], place[2] - place[0]);
+    const float depth = dot(place[0] - push.rays.eye, normal) / dot(direction, normal);
+    const float away = distance((push.rays.eye + depth * direction).xz, push.groundFade.xy);
+    const float share = 1 - smoothstep(push.groundFade.z, push.groundFade.w, away);
+    return share * share;
+}
+
+// Returns the radiance where the ray through a place in the image meets the triangle, premultiplied by coverage.
+vec4 shadeAt(uint triangle, vec2 place) {
+    const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
+    const float coverage = groundCoverage(triangle, direction);
+    return coverage > 0 ? coverage * vec4(shade(triangle, direction), 1) : vec4(0);
+}
+
+bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
+
+#ifdef MULTISAMPLED
+
+// Sums the part's groups of samples, each premultiplied by its share: the first sample left, with all whose triangles
+// share a vertex with its own.
+vec4 shadeEdge(uint seen[kSamples]) {
+    uvec3 corners[kSamples];
+    uint left = 0;
+    for (uint i = 0; i < kSamples; i++) {
+        const bool isOwn = isOfPart(seen[i]);
+        corners[i] = texelFetch(triangles, isOwn ? int(seen[i] - push.firstSurface) : 0).xyz;
+        left |= uint(isOwn) << i;
+    }
+    if (left == 0) discard;
+    vec4 sum = vec4(0);
+    while (left != 0) {
+        const uint first = findLSB(left);
+        uint members = 0;
+        for (uint i = 0; i < kSamples; i++) members |= uint(shareVertex(corners[first], corners[i])) << i;
+        members &= left;
+        const SampleGroup group = groupOf(members);
+        sum += group.share * shadeAt(seen[first] - push.firstSurface, floor(gl_FragCoord.xy) + group.position);
+        left &= ~members;
+    }
+    return sum;
+}
+
+void main() {
+    if (kEdges) {
+        uint seen[kSamples];
+        readSamples(seen);
+        radiance = shadeEdge(seen);
+        return;
+    }
+    // All samples are one group, and its mean position the center.
+    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
+    if (!isOfPart(surface)) discard;
+    radiance = shadeAt(surface - push.firstSurface, gl_FragCoord.xy);
+}
+
+#else
+
 void main() {
     const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
-    const uint triangle = surface - push.firstSurface;
     // The stencil tells most pixels of other parts before the shader runs.
-    if (surface < push.firstSurface || triangle >= push.surfaces) discard;
-    const vec3 direction = push.rays.corner + gl_FragCoord.x * push.rays.right + gl_FragCoord.y * push.rays.down;
-    radiance = vec4(shade(triangle, direction), 1);
+    if (!isOfPart(surface)) discard;
+    radiance = shadeAt(surface - push.firstSurface, gl_FragCoord.xy);
 }
+
+#endif

@@ -16,12 +16,18 @@ namespace {
 
 // A bake on the device, lit once.
 struct Stage {
-    Stage(const vk::Device& device, const Asset& source, const Light& sources, const ViewRounds& rounds)
+    Stage(const vk::Device& device, const Asset& source, const Light& sources, const ViewRounds& rounds,
+          int samples)
         : asset(source), light(device, source.faceSize),
           relighter(device, source, {.residuals = rounds.residual ? makeResiduals(source) : Residuals()}),
-          view(device, source, {.width = rounds.width, .height = rounds.height}) {
+          view(device, source, {.width = rounds.width, .height = rounds.height, .samples = samples}) {
         light.setLight(sources);
         relighter.setMode(RelightMode::Full); // turning changes nothing of some light
+        vk::Commands commands(device, "first light");
+        commands.begin();
+        light.record(commands, glm::radians(rounds.rotationDegrees), rounds.selection);
+        relighter.record(commands, light);
+        commands.submitAndWait();
     }
     const Asset& asset;
     LightPass light;
@@ -52,9 +58,11 @@ double coveredPixels(const Image& image) {
 std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<Asset>& assets,
                                   const Light& light, const ViewRounds& rounds, bool quiet) {
     std::vector<std::unique_ptr<Stage>> stages;
-    for (const Asset& asset : assets) stages.push_back(std::make_unique<Stage>(device, asset, light, rounds));
+    for (const Asset& asset : assets)
+        for (int samples : rounds.samples)
+            stages.push_back(std::make_unique<Stage>(device, asset, light, rounds, samples));
     vk::Commands commands(device, "bench view");
-    std::vector<ViewSeries> series(assets.size());
+    std::vector<ViewSeries> series(stages.size());
     Progress progress("drawing", uint64_t(rounds.count) + 1, "rounds", quiet);
     for (int round = 0; round <= rounds.count; round++) {
         const float turn = 2 * kPi * float(round) / float(rounds.count);
@@ -64,14 +72,13 @@ std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<As
             ViewSeries& own = series[i];
             if (round <= 1) own = {}; // the first round warmed up
             const Camera camera = rounds.camera(stage.asset, turn);
-            own.frameMs.push_back(submission(commands, own.framePasses, [&] {
+            own.viewMs.push_back(submission(commands, own.viewPasses,
+                                            [&] { stage.view.record(commands, camera, stage.relighter); }));
+            own.lightMs.push_back(submission(commands, own.lightPasses, [&] {
                 stage.light.record(commands, rotation, rounds.selection);
                 stage.relighter.record(commands, stage.light);
                 stage.view.record(commands, camera, stage.relighter);
             }));
-            const Camera next = rounds.camera(stage.asset, turn + glm::radians(1.0f));
-            own.viewMs.push_back(submission(commands, own.viewPasses,
-                                            [&] { stage.view.record(commands, next, stage.relighter); }));
             own.coveredPixels.push_back(coveredPixels(stage.view.read()));
             own.lightCoefficients.push_back(double(stage.light.readStats().kept));
         }

@@ -1,8 +1,9 @@
-// View changes and whole frames, of several bakes in alternation.
+// Changes of view and of light, of several bakes in alternation.
 #pragma once
 
 #include "engine/light/light.h"
 #include "engine/light/light_selection.h"
+#include "engine/render/pixel_samples.h"
 #include "engine/scene/camera.h"
 #include "engine/transport/asset.h"
 #include "engine/vk/commands.h"
@@ -20,21 +21,22 @@ struct ViewRounds {
     LightSelection selection;
     int width = 1280, height = 720;
     bool residual = true;                                   // what K terms leave of BRDFs is added
+    std::vector<int> samples = {1};                         // a pixel: each bake is drawn with each of them
     std::function<Camera(const Asset&, float turn)> camera; // turned by radians
 };
 
-// Of one bake; milliseconds, one value a round.
+// The times of one bake at one sample count, in milliseconds: one value a round.
 struct ViewSeries {
-    std::vector<double> viewMs;  // to record, submit and wait for a view change
-    std::vector<double> frameMs; // the same of light, relighting in full and view in one submission
+    std::vector<double> viewMs;  // to record, submit and wait for a view under another camera
+    std::vector<double> lightMs; // the same of light, relighting in full and view under the same camera
     // Device time of the passes of either, by name; empty where the device has no timestamps.
-    std::map<std::string, std::vector<double>> viewPasses, framePasses;
+    std::map<std::string, std::vector<double>> viewPasses, lightPasses;
     std::vector<double> coveredPixels;
     std::vector<double> lightCoefficients;
 };
 
-// Every round turns the camera by 360 degrees over the number of rounds, and by one more between frame and
-// view.
+// Returns a series for each bake and, within it, each sample count. Every round turns the camera by 360
+// degrees over the number of rounds, then the light by one under it.
 std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<Asset>& assets,
                                   const Light& light, const ViewRounds& rounds, bool quiet);
 

@@ -76,7 +76,7 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
         {},
         "Measured: the device's image against the sampled reference. Summed: the changes of all "
         "sources, point by point; independent: the root of the sum of their squares. Not accounted "
-        "for: of drawing, and of the reference."};
+        "for: of the reference."};
     ReportTable parts{
         "error-sources",
         "Where error comes from",
@@ -102,9 +102,7 @@ void addTables(const std::vector<Study>& studies, const StepResults& results, Re
                  {percent(measured), percent(total),
                   measured > 0 ? fmt::format("{:.3f}", total / measured) : "-",
                   percent(number(numbers, "root_sum_of_squares")),
-                  percent(number(numbers, "reference_noise")),
-                  fmt::format("{}; {}", percent(number(numbers, "unexplained_drawing")),
-                              percent(number(numbers, "unexplained_truth")))})
+                  percent(number(numbers, "reference_noise")), percent(number(numbers, "unexplained_truth"))})
                 row.push_back(cell);
             sums.rows.push_back(row);
             row = scene;
@@ -186,8 +184,9 @@ Section errorSources(const SectionInputs& inputs) {
     }
     section.write = [=, quick = inputs.quick](const StepResults& results, ReportSection& report) {
         report.say(
-            "Each point of an image is computed again, stage after stage made exact: first with all of the "
-            "light's coefficients, then transport as it was before it was stored, then all its coefficients, "
+            "Each point of an image is computed again, stage after stage made exact: first with light that "
+            "nothing shadows summed instead of looked up in lit spheres, then with all of the light's "
+            "coefficients, then transport as it was before it was stored, then all its coefficients, "
             "its own instead of its triangle's corners', all terms of the tabulated BRDF, the BRDF itself, "
             "taken as finely as rays are cast, the light's own resolution, the full mesh, and 6 x 512² rays. "
             "What a stage changes is the error of what it replaces. Baked with relume's defaults.");

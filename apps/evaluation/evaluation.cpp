@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Raised when steps give other results from the same inputs.
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 std::string durationText(double seconds) {
     if (seconds < 90) return fmt::format("{:.0f} s", seconds);

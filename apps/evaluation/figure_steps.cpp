@@ -98,10 +98,13 @@ Step makeRenderStep(const FigureSetup& setup, size_t first) {
         const Asset asset = run.asset(setup.images[first].recipe);
         const SceneLight light = setup.light.make();
         RelitScene scene(run.device, asset, setup.size);
-        for (size_t i = first; i < setup.images.size(); i++)
-            if (firstOfBake(setup, i) == first)
-                run.writeLinear(setup.images[i].name,
-                                scene.render(cameraOf(setup, asset), light.light, setup.images[i].relit));
+        for (size_t i = first; i < setup.images.size(); i++) {
+            if (firstOfBake(setup, i) != first) continue;
+            RelitOptions relit = setup.images[i].relit;
+            // The paper's way knows of no residual.
+            relit.residual = setup.images[i].recipe.options.factorization.method != Factorization::Paper;
+            run.writeLinear(setup.images[i].name, scene.render(cameraOf(setup, asset), light.light, relit));
+        }
         return Json{{"bytes_per_vertex", double(record.bytes) / double(record.vertices)},
                     {"vertices", record.vertices}};
     };

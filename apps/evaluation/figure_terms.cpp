@@ -34,10 +34,10 @@ FigureSetup tracedOf(FigureSetup setup, const char* name, const BakeOptions& opt
     return setup;
 }
 
-// What relume takes if not asked for another, of as many terms.
-BakeOptions defaultOptions(const FigureSetup& setup) {
+// Options for the same number of terms, nested: the first k of them are the factorization into k.
+BakeOptions environmentOptions(const FigureSetup& setup) {
     BakeOptions options;
-    options.factorization.terms = setup.images.back().relit.terms;
+    options.factorization = {.terms = setup.images.back().relit.terms, .method = Factorization::Environment};
     return options;
 }
 
@@ -49,9 +49,9 @@ Section termsFigure(const SectionInputs& inputs) {
     if (!model) return skippedSection(std::move(section), "there is no Buddha");
     const FigureSetup setup = setupOf(inputs, *model);
     const FigureSetup traced = tracedOf(setup, "-terms", setup.images.front().recipe.options),
-                      byDefault = tracedOf(setup, "-defaults", defaultOptions(setup));
+                      weighed = tracedOf(setup, "-environment", environmentOptions(setup));
     section.steps = figureSteps(setup);
-    for (const FigureSetup& rays : {traced, byDefault}) section.steps.push_back(tracedFigureStep(rays));
+    for (const FigureSetup& rays : {traced, weighed}) section.steps.push_back(tracedFigureStep(rays));
     section.write = [=, quick = inputs.quick](const StepResults& results, ReportSection& report) {
         report.say(
             "The paper shows the Buddha in Ashikhmin and Shirley's BRDF (kd 0.5, ks 0.75, nu 10, nv 100) "
@@ -63,21 +63,21 @@ Section termsFigure(const SectionInputs& inputs) {
         report.say("The terms alone: rays find what the light reaches, and nothing is lost but by the BRDF's "
                    "approximation.");
         report.add(figureOf(traced, results, describe(*model) + ", terms alone"));
-        report.say("The same of the factorisation that relume takes if not asked for another, which weighs "
-                   "what light and pixels ask for, in equal-area maps.");
-        report.add(figureOf(byDefault, results, describe(*model) + ", terms alone, default factorisation"));
+        report.say("The same of the factorisation that weighs what light and pixels ask for "
+                   "(--factorization environment), in equal-area maps.");
+        report.add(figureOf(weighed, results, describe(*model) + ", terms alone, weighed"));
         report.say("As it is relit in the paper's way, from one bake of rows of 96 coefficients. What this "
                    "adds is lost to these: a single direction needs all of them.");
         report.add(figureOf(setup, results, describe(*model) + ", relit"));
         ReportTable table{"figure_2",
                           "Relative RMSE over K",
                           {"terms K", "the paper's terms alone (interval)",
-                           "the default's terms alone (interval)", "relit (interval)"},
+                           "terms weighed by environments alone (interval)", "relit (interval)"},
                           {},
                           ""};
         for (const FigureImage& image : setup.images)
             table.rows.push_back({image.title, textOf(errorOf(traced, results, image.name)),
-                                  textOf(errorOf(byDefault, results, image.name)),
+                                  textOf(errorOf(weighed, results, image.name)),
                                   textOf(errorOf(setup, results, image.name))});
         report.add(std::move(table));
         const auto percentOf = [&](const FigureSetup& rays, const FigureImage& image) {
@@ -86,9 +86,9 @@ Section termsFigure(const SectionInputs& inputs) {
         const FigureImage &four = setup.images[2], &most = setup.images.back();
         report.findings.push_back(fmt::format(
             "Figure 2: under a single direction four terms of the paper's factorisation alone leave an error "
-            "of {}, of the default factorisation {}; {} terms {} and {}.",
-            percentOf(traced, four), percentOf(byDefault, four), most.relit.terms, percentOf(traced, most),
-            percentOf(byDefault, most)));
+            "of {}, of terms weighed by environments {}; {} terms {} and {}.",
+            percentOf(traced, four), percentOf(weighed, four), most.relit.terms, percentOf(traced, most),
+            percentOf(weighed, most)));
     };
     return section;
 }

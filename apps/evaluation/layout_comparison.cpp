@@ -71,7 +71,7 @@ Step timesStep(const FigureSetup& setup, const SceneInput& light, int rounds, do
         Json numbers;
         for (size_t i = 0; i < series.size(); i++)
             numbers[setup.images[i].name] = {{"view_ms", median(series[i].viewMs)},
-                                             {"light_ms", median(series[i].frameMs)}};
+                                             {"light_ms", median(series[i].lightMs)}};
         return numbers;
     };
     return step;

@@ -3,6 +3,7 @@
 #include "apps/evaluation/expect_no_stop.h"
 #include "engine/base/check.h"
 #include "engine/base/progress.h"
+#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,12 +43,14 @@ Camera orbitOf(const Asset& asset, ImageSize size, float azimuth, float elevatio
 }
 
 RelitScene::RelitScene(const vk::Device& device, const Asset& asset, ImageSize size)
-    : mDevice(device), mLight(device, asset.faceSize), mRelighter(device, asset),
-      mView(device, asset, {.width = size.width, .height = size.height}) {}
+    : mDevice(device), mLight(device, asset.faceSize),
+      mRelighter(device, asset, {.residuals = makeResiduals(asset)}),
+      mView(device, asset, {.width = size.width, .height = size.height, .samples = 1}) {}
 
 Image RelitScene::render(const Camera& camera, const Light& light, const RelitOptions& options) {
     mLight.setLight(light);
     mView.setTerms(options.terms);
+    mView.setResidual(options.residual);
     vk::Commands commands(mDevice, "evaluate");
     commands.begin();
     mLight.record(commands, 0, options.selection);
@@ -60,7 +63,7 @@ Image RelitScene::render(const Camera& camera, const Light& light, const RelitOp
 SceneReference::SceneReference(const Asset& asset, const Camera& camera, const LightCube& truth,
                                ImageSize size, ReferenceBrdf brdf)
     : mReference(asset, brdf) {
-    mReference.restart(camera, truth, defaultAppearance(asset), size.width, size.height);
+    mReference.restart(camera, truth, defaultAppearance(asset), size.width, size.height, 1);
 }
 
 void SceneReference::refine(const std::vector<Image>& images, const ReferenceEffort& effort) {

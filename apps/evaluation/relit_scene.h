@@ -38,6 +38,7 @@ Camera orbitOf(const Asset& asset, ImageSize size, float azimuth, float elevatio
 struct RelitOptions {
     int terms = 0; // of the bake's K; 0: all
     LightSelection selection;
+    bool residual = true; // what these terms leave of the BRDF is added
 };
 
 // Refers to device and asset.

@@ -38,7 +38,7 @@ Json measure(StepRun& run, const std::vector<BakeRecipe>& recipes, const SceneIn
         Json& own = numbers[fmt::format("{}x{}", size.width, size.height)];
         for (size_t i = 0; i < series.size(); i++)
             own[kVariants[i]] = {{"view_ms", median(series[i].viewMs)},
-                                 {"light_ms", median(series[i].frameMs)}};
+                                 {"light_ms", median(series[i].lightMs)}};
         numbers["light_coefficients"] = median(series.front().lightCoefficients);
     }
     return numbers;

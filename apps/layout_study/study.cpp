@@ -99,7 +99,7 @@ double relitError(const Asset& asset, const Asset& exact, const LightVector& lig
 std::vector<Image> render(const vk::Device& device, const Asset& asset, const StudyOptions& options) {
     LightPass light(device, asset.faceSize);
     Relighter relighter(device, asset);
-    ViewPass view(device, asset, {.width = options.width, .height = options.height});
+    ViewPass view(device, asset, {.width = options.width, .height = options.height, .samples = 1});
     vk::Commands commands(device, "layout study");
     std::vector<Image> images;
     for (const LightCube& cube : options.lights) {
@@ -147,6 +147,7 @@ std::string surfaceOf(const Asset& asset) {
         add(part.mesh.triangles);
         add(part.mesh.uvs);
         add(part.mesh.colors);
+        add(part.mesh.tangents);
         addTexture(part.baseColor);
         addTexture(part.materialMap);
         surface += fmt::format(" painted {}", part.paintedByColors);
@@ -167,6 +168,7 @@ const std::vector<Image>& References::of(const Asset& asset) {
     ReferenceOptions options;
     options.width = mOptions.width;
     options.height = mOptions.height;
+    options.samples = 1;
     options.raysPerTexelSide = 1;
     for (const LightCube& light : mOptions.lights) {
         const uint64_t before = mImages.size() * uint64_t(mOptions.height);

@@ -25,12 +25,14 @@ struct Arguments {
 };
 
 std::string commandLineOf(const BakeOptions& options) {
-    std::string text = fmt::format("--terms {}", options.factorization.terms);
+    std::string text = fmt::format("--terms {} --factorization {}", options.factorization.terms,
+                                   factorizationName(options.factorization.method));
     if (options.layout.layout == TransportLayout::Rows)
         text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
     else
         text += fmt::format(" --error {:.3g}", options.layout.error);
-    if (options.refinement) text += fmt::format(" --refine {:.3g}", options.refinement->wanted);
+    text +=
+        options.refinement ? fmt::format(" --refine {:.3g}", options.refinement->wanted) : " --refine off";
     return text;
 }
 

@@ -60,9 +60,10 @@ void BakeReport::refined(const RefinementRecord& record) {
                       {"vertices", record.vertices}});
     close();
     if (mStyle == ReportStyle::Text)
-        spdlog::info("refined: {} vertices with an error of {:.2f} % become {} with {:.2f} %",
-                     record.startVertices, 100 * record.startError, record.vertices, 100 * record.error);
-    if (record.error > record.wanted)
+        spdlog::info("refined: {} vertices with an error of {:.2f} % become {} with {:.2f} %{}",
+                     record.startVertices, 100 * record.startError, record.vertices, 100 * record.error,
+                     record.isAuto ? " (errors are of coarse parts; --refine off leaves them)" : "");
+    if (record.error > record.wanted && !record.isAuto)
         spdlog::warn(
             "--refine {}: not reached, the error is {:.4f}; there are at most {} vertices, and edges "
             "of a few visibility offsets stay whole",

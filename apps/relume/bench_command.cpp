@@ -86,7 +86,6 @@ void run(Arguments& arguments) {
     CameraArguments view16by9;
     view16by9.width = kWidth;
     view16by9.height = kHeight;
-    const Camera camera = view16by9.camera(asset);
     vk::Commands commands(*device, "bench");
     // Every light change turns the light a little, and is relit in full even where that changes nothing of
     // it.
@@ -96,8 +95,9 @@ void run(Arguments& arguments) {
         relighter.record(commands, light);
     });
     const nlohmann::ordered_json lightPasses = perRepeat(commands.times(), arguments.repeats);
-    const double viewChange = medianMilliseconds(commands, arguments.repeats,
-                                                 [&](int) { view.record(commands, camera, relighter); });
+    const double viewChange = medianMilliseconds(commands, arguments.repeats, [&](int repeat) {
+        view.record(commands, view16by9.camera(asset, glm::radians(float(repeat))), relighter);
+    });
 
     const nlohmann::ordered_json result = {{"device", device->info().name},
                                            {"driver", device->info().driver},

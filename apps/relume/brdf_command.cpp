@@ -84,7 +84,7 @@ void addBrdfCommand(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("MATERIAL", arguments->material, "Preset, model, JSON object, or file of either")
         ->required();
-    arguments->factorization.add(*command, 16);
+    arguments->factorization.add(*command, FactorizationOptions{.terms = 16});
     command
         ->add_option("--size", arguments->size,
                      fmt::format("Side of a light or view map, {} to {}", kMinMapSize, kMaxMapSize))

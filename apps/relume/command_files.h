@@ -1,4 +1,4 @@
-// What a command reads and what it writes.
+// The inputs and outputs of one command, and the check that none is overwritten.
 #pragma once
 
 #include "engine/base/read_files.h"

@@ -22,6 +22,7 @@ struct Arguments {
     AppearanceArguments appearance;
     DeviceArguments device;
     std::filesystem::path images; // a folder; empty: none
+    bool residual = true;
     bool json = false;
 };
 
@@ -38,7 +39,7 @@ void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, c
         writePng(folder / (heat.name + ".png"), heat.map);
 }
 
-// Those that writeImages() writes.
+// Adds the files that writeImages() writes.
 void addImages(const std::filesystem::path& folder, CommandFiles& files) {
     std::vector<std::string> names = {"drawn.exr", "reference.exr", "harmonics.exr", "total.png"};
     for (size_t i = 0; i < kErrorSources; i++)
@@ -55,8 +56,7 @@ void print(const ErrorStudy& study) {
                study.budget.total, study.budget.uncertainty, study.budget.rootSumSquares);
     fmt::print("measured                     {:>8.4f}   against a reference with noise {:.4f} ({} passes)\n",
                study.measured, study.noise, study.passes);
-    fmt::print("not accounted for            {:>8.4f}   of drawing, {:.4f} of the reference\n",
-               study.drawnAside, study.truthAside);
+    fmt::print("not accounted for            {:>8.4f}   of the reference\n", study.truthAside);
     fmt::print("{} spherical harmonics       {:>8.4f}   instead, all else exact; {:.4f} with these K terms\n",
                kLowOrder * kLowOrder, study.lowOrder->error, study.lowOrder->termsError);
 }
@@ -82,7 +82,8 @@ void run(const Arguments& arguments) {
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
     Progress progress("tracing", pixels, "pixels");
     const ErrorStudies studies =
-        studyErrors(*device, asset, appearance, std::span(&light, 1), {.view = view, .lowOrder = kLowOrder},
+        studyErrors(*device, asset, appearance, std::span(&light, 1),
+                    {.view = view, .lowOrder = kLowOrder, .residual = arguments.residual},
                     [&](double share) { progress.update(uint64_t(double(pixels) * share)); });
     const ErrorStudy& study = studies.lights.front();
     if (!arguments.images.empty()) writeImages(arguments.images, study, studies.points);
@@ -105,6 +106,11 @@ void addErrorsCommand(CLI::App& program) {
     arguments->light.add(*command);
     arguments->camera.add(*command);
     arguments->device.add(*command);
+    command
+        ->add_option("--residual", arguments->residual,
+                     "Draw with what the K terms leave of the BRDF; off: with the terms alone")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->default_str("on");
     command
         ->add_option("--images", arguments->images,
                      "Also write the images and a heat map of every source into this folder")

@@ -28,10 +28,10 @@ DiskMapping mappingFor(Factorization method) {
 
 } // namespace
 
-void FactorizationArguments::add(CLI::App& command, std::optional<int> defaultTerms) {
-    if (defaultTerms) {
-        mTerms = std::to_string(*defaultTerms);
-        mMethod = factorizationName(options.method);
+void FactorizationArguments::add(CLI::App& command, const std::optional<FactorizationOptions>& defaults) {
+    if (defaults) {
+        mTerms = std::to_string(defaults->terms);
+        mMethod = factorizationName(defaults->method);
     }
     command
         .add_option("-K,--terms", mTerms,
@@ -39,13 +39,16 @@ void FactorizationArguments::add(CLI::App& command, std::optional<int> defaultTe
                     "radiance is at most E")
         ->type_name("K")
         ->capture_default_str();
-    command
-        .add_option("--factorization", mMethod,
-                    "What the terms make least: environment (errors of radiance as it is seen), cosine (of f "
-                    "cos cos), paper (of f), or nonnegative (as cosine, without negative maps)")
-        ->type_name("METHOD")
-        ->check(CLI::IsMember({"environment", "cosine", "paper", "nonnegative"}))
-        ->capture_default_str();
+    mMethodOption =
+        command
+            .add_option(
+                "--factorization", mMethod,
+                "What the terms make least: errors of f cos cos without a negative map (nonnegative: the "
+                "best pictures with the residual), of radiance as it is seen (environment: the best "
+                "without), of f cos cos (cosine), of f (paper)")
+            ->type_name("METHOD")
+            ->check(CLI::IsMember({"nonnegative", "environment", "cosine", "paper"}))
+            ->capture_default_str();
     command
         .add_option("--map", mMapping,
                     "Layout of the maps: orthographic, polar or equal-area (default: orthographic for paper, "
@@ -66,7 +69,11 @@ void FactorizationArguments::resolve(const FactorizationOptions& otherwise, Disk
     const bool isAutomatic = mTerms.starts_with(kAuto);
     options.terms = isAutomatic ? kMaxTerms : termsFrom(mTerms);
     options.wantedError.reset();
-    if (isAutomatic) options.wantedError = wantedErrorFrom(mTerms);
+    if (!isAutomatic) return;
+    options.wantedError = wantedErrorFrom(mTerms);
+    // Nonnegative terms are not nested, so their number cannot be chosen by error.
+    if (options.method == Factorization::NonNegative && mMethodOption->count() == 0)
+        options.method = Factorization::Environment;
 }
 
 } // namespace relume

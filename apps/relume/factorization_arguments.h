@@ -14,14 +14,15 @@ struct FactorizationArguments {
     FactorizationOptions options; // `terms` is the most that are allowed where an error is wanted
     DiskMapping mapping = DiskMapping::EqualArea;
 
-    // Without `defaultTerms` nothing has a default but what resolve() is told.
-    void add(CLI::App& command, std::optional<int> defaultTerms);
-    // Fills the above from what was given, else from these; a method without --map brings its own map. Throws
-    // UsageError.
+    // Without `defaults` nothing has a default but what resolve() is told.
+    void add(CLI::App& command, const std::optional<FactorizationOptions>& defaults);
+    // Fills the above from what was given, else from these; a method without --map brings its own map, and
+    // terms that are to reach an error a method that can say how many do. Throws UsageError.
     void resolve(const FactorizationOptions& otherwise = {}, DiskMapping map = DiskMapping::EqualArea);
 
   private:
     std::string mTerms, mMethod, mMapping;
+    CLI::Option* mMethodOption = nullptr;
 };
 
 } // namespace relume

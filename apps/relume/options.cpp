@@ -4,9 +4,11 @@
 #include "engine/base/file.h"
 #include "engine/image/image_file.h"
 #include "engine/light/light_file.h"
+#include "engine/render/auto_exposure.h"
 
 #include <cmath>
 #include <cstdio>
+#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -161,8 +163,9 @@ Environment LightArguments::environment() const {
     return environment;
 }
 
-MovingLight LightArguments::moving() const {
-    MovingLight light = source();
+MovingLight LightArguments::moving(bool withPictures) const {
+    MovingLight light = source(withPictures);
+    if (withPictures) light.keepPictures();
     light.setGain(mIntensity);
     return light;
 }
@@ -171,7 +174,7 @@ void LightArguments::addInputs(CommandFiles& files) const {
     for (const std::string& file : {mEnvironment, mBlend, mFile}) files.addInput(file);
 }
 
-MovingLight LightArguments::source() const {
+MovingLight LightArguments::source(bool withPictures) const {
     if (!mFile.empty()) return readLight(mFile);
     if (!mDistant.empty())
         return MovingLight({.distant = {{directionAt(mDistant[0], mDistant[1]), vec3(kPi)}}});
@@ -185,15 +188,15 @@ MovingLight LightArguments::source() const {
             {.lamps = {{directionAt(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))}}});
     }
     if (isSequence(mEnvironment) || isSequence(mBlend)) return sequence();
-    const auto prepared = [](const Environment& map) {
-        return std::make_shared<const Environment>(prepareForSampling(map));
+    const auto lightOf = [&](const std::string& file, float gain) {
+        Environment map = file.empty() ? makeSky() : readEnvironment(file);
+        EnvironmentLight light{std::make_shared<const Environment>(prepareForSampling(map)), 0, gain};
+        if (withPictures)
+            light.picture = makePicture(file.empty() ? makeSky(kSkyPictureColumns) : std::move(map));
+        return light;
     };
-    Light light{
-        .environments = {{prepared(mEnvironment.empty() ? makeSky() : readEnvironment(mEnvironment))}}};
-    if (!mBlend.empty()) {
-        light.environments.front().gain = 1 - mBlendWeight;
-        light.environments.push_back({prepared(readEnvironment(mBlend)), 0, mBlendWeight});
-    }
+    Light light{.environments = {lightOf(mEnvironment, mBlend.empty() ? 1 : 1 - mBlendWeight)}};
+    if (!mBlend.empty()) light.environments.push_back(lightOf(mBlend, mBlendWeight));
     return MovingLight(std::move(light));
 }
 
@@ -215,28 +218,110 @@ void ImageArguments::add(CLI::App& command) {
     command.add_option("-o,--output", output, "Image to write: .exr (linear) or .png (tone-mapped)")
         ->type_name("IMAGE")
         ->required();
-    command.add_option("--exposure", exposure, "Exposure of a .png in stops")
-        ->check(between(-100, 100))
-        ->type_name("STOPS")
+    const auto isExposure = [](std::string& text) -> std::string {
+        return text == "auto" ? "" : between(-100, 100)(text);
+    };
+    command
+        .add_option("--exposure", mExposure,
+                    "Exposure of a .png in stops; auto: what the object asks for in the first frame")
+        ->check(CLI::Validator(isExposure, ""))
+        ->type_name("STOPS|auto")
         ->capture_default_str();
     command.add_option("--tone", mTone, "Tone curve of a .png: none, aces or agx")
         ->type_name("CURVE")
         ->capture_default_str()
         ->check(CLI::IsMember({"none", "aces", "agx"}));
+    command
+        .add_option("--background", mBackground,
+                    "Behind the object: the environment as it lights it (without lamps and distant lights; "
+                    "default of "
+                    ".png), none (alpha tells what is covered; default of .exr), or an even #rrggbb or r,g,b "
+                    "of 0 to 1")
+        ->type_name("environment|none|COLOR");
+    command.add_option("--background-blur", mBlurDegrees, "The environment behind the object out of focus")
+        ->check(between(0, 90))
+        ->type_name("DEGREES")
+        ->capture_default_str();
+    command.add_flag_function(
+        "--ground-fade,!--no-ground-fade", [this](int64_t count) { mFades = count > 0; },
+        "Let the ground end before its edge, around the object (default: where there is a background)");
 }
 
 void ImageArguments::check() const {
     const std::string extension = output.extension();
     if (extension != ".exr" && extension != ".png")
         throw UsageError("--output: expected a name ending in .exr or .png, found \"{}\"", output.string());
+    if (color() && !isPng())
+        throw UsageError("--background {}: a color is of display values, and .exr is radiance; use "
+                         "environment or none, or "
+                         "write .png",
+                         mBackground);
+    if (mBlurDegrees > 0 && !showsLight())
+        throw UsageError(
+            "--background-blur: there is no environment behind the object; add --background environment");
     expectWritable(output);
 }
 
-void ImageArguments::write(const std::filesystem::path& path, const Image& image) const {
-    if (path.extension() == ".exr")
-        writeExr(path, image);
-    else
-        writePng(path, toneMap(image, *toneCurveFromName(mTone), exposure));
+void addSamples(CLI::App& command, int& samples) {
+    command
+        .add_option("--samples", samples, "Samples a pixel, against jagged edges: 1 (its center), 2, 4 or 8")
+        ->check(CLI::IsMember({1, 2, 4, 8}))
+        ->capture_default_str();
+}
+
+void tellSamples(int drawn, int wanted, const vk::Device& device) {
+    if (drawn != wanted)
+        spdlog::warn("{} draws {} samples a pixel, not {}: edges are those of --samples {}", device.name(),
+                     drawn, wanted, drawn);
+}
+
+bool ImageArguments::showsLight() const {
+    return mBackground == "environment" || (mBackground.empty() && isPng());
+}
+
+std::optional<vec3> ImageArguments::color() const {
+    if (mBackground.empty() || mBackground == "environment" || mBackground == "none") return std::nullopt;
+    vec3 color(-1);
+    unsigned int rgb;
+    char rest;
+    const bool isHex = mBackground.size() == 7 && mBackground[0] == '#' &&
+                       mBackground.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    if (isHex && std::sscanf(mBackground.c_str(), "#%x", &rgb) == 1)
+        color = vec3(float(rgb >> 16), float(rgb >> 8 & 255), float(rgb & 255)) / 255.0f;
+    else if (std::sscanf(mBackground.c_str(), "%f,%f,%f%c", &color.x, &color.y, &color.z, &rest) != 3)
+        color = vec3(-1);
+    if (!(glm::all(glm::greaterThanEqual(color, vec3(0))) && glm::all(glm::lessThanEqual(color, vec3(1)))))
+        throw UsageError(
+            "--background: expected environment, none, #rrggbb, or r,g,b of 0 to 1, found \"{}\"",
+            mBackground);
+    return color;
+}
+
+std::optional<GroundFade> ImageArguments::groundFade(const Asset& asset) const {
+    if (!mFades.value_or(showsLight() || color())) return std::nullopt;
+    const std::optional<GroundFade> fade = makeGroundFade(asset);
+    if (!fade && mFades)
+        throw UsageError("--ground-fade: expected a part called \"ground\", found none; bake with --ground");
+    return fade;
+}
+
+float ImageArguments::exposureFor(const Image& view) const {
+    if (!isPng()) return 0;
+    if (mExposure != "auto") return std::stof(mExposure);
+    const float stops = autoExposure(view);
+    spdlog::info("exposure: {} stops, as the object asks for; --exposure={} says the same", stops, stops);
+    return stops;
+}
+
+void ImageArguments::write(const std::filesystem::path& path, const Image& image, float exposure) const {
+    if (!isPng()) return writeExr(path, image);
+    Image straight = image; // alpha of .png is not premultiplied
+    for (vec4& pixel : straight.pixels)
+        if (pixel.w > 0 && pixel.w < 1) pixel = vec4(vec3(pixel) / pixel.w, pixel.w);
+    Image display = toneMap(straight, *toneCurveFromName(mTone), exposure);
+    if (const std::optional<vec3> behind = color())
+        for (vec4& pixel : display.pixels) pixel = vec4(glm::mix(*behind, vec3(pixel), pixel.w), 1);
+    writePng(path, display);
 }
 
 } // namespace relume

@@ -3,6 +3,7 @@
 
 #include "apps/relume/command_files.h"
 #include "engine/light/moving_light.h"
+#include "engine/render/ground_fade.h"
 #include "engine/render/tone_map.h"
 #include "engine/scene/camera.h"
 #include "engine/transport/asset.h"
@@ -13,6 +14,8 @@
 #include <optional>
 
 namespace relume {
+
+float radians(float degrees);
 
 // --device, --validation
 struct DeviceArguments {
@@ -52,14 +55,14 @@ struct LightArguments {
     }
     // The environment file, or the built-in sky; at full resolution. Only if isEnvironment().
     Environment environment() const;
-    // All of it, not rotated.
-    MovingLight moving() const;
+    // All of it, not rotated; with what backgrounds are drawn from, if wanted.
+    MovingLight moving(bool withPictures = false) const;
     Light light() const { return moving().at(seconds); } // at that moment
     // Those that the options name; moving().files() are those that a light file or a sequence names.
     void addInputs(CommandFiles& files) const;
 
   private:
-    MovingLight source() const;
+    MovingLight source(bool withPictures) const;
     MovingLight sequence() const;
 
     std::string mEnvironment, mBlend, mFile;
@@ -68,20 +71,44 @@ struct LightArguments {
     float mIntensity = 1;
 };
 
-// -o, --exposure, --tone
+// -o, --exposure, --tone, --background, --background-blur, --ground-fade
 struct ImageArguments {
     std::filesystem::path output;
-    float exposure = 0;
 
     void add(CLI::App& command);
-    // Writes linear .exr or tone-mapped .png, by the extension of `path`.
-    void write(const std::filesystem::path& path, const Image& image) const;
-    // Throws UsageError for an extension that is neither; before any work is done.
+    // Throws UsageError for a name that is neither .exr nor .png, and for what the other options do not go
+    // with; before any work is done.
     void check() const;
 
+    // The light is drawn behind the object, by the caller, who has it out of focus by so many radians.
+    bool showsLight() const;
+    float backgroundBlur() const { return radians(mBlurDegrees); }
+
+    // The fade of the ground, or none to draw all of it. Throws UsageError if a fade is asked for and the
+    // bake has no ground.
+    std::optional<GroundFade> groundFade(const Asset& asset) const;
+
+    // The stops that --exposure says or, if it says none, those that an image without background asks for,
+    // which are logged.
+    float exposureFor(const Image& view) const;
+
+    // Writes linear .exr or tone-mapped .png, by the extension of `path`. Radiance is premultiplied by alpha,
+    // and alpha 1 where a background was drawn.
+    void write(const std::filesystem::path& path, const Image& image, float exposure) const;
+
   private:
-    std::string mTone = "agx";
+    bool isPng() const { return output.extension() == ".png"; }
+    std::optional<vec3> color() const; // display values
+
+    std::string mExposure = "auto", mTone = "agx", mBackground;
+    float mBlurDegrees = 0;
+    std::optional<bool> mFades;
 };
+
+// --samples
+void addSamples(CLI::App& command, int& samples);
+// Warns where the device draws fewer than were asked for.
+void tellSamples(int drawn, int wanted, const vk::Device& device);
 
 float radians(float degrees);
 

@@ -3,6 +3,7 @@
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
+#include "engine/light/background.h"
 #include "precompute/reference/reference_image.h"
 
 #include <cmath>
@@ -18,7 +19,7 @@ struct Arguments {
     ImageArguments image;
     AppearanceArguments appearance;
     std::string brdf = "exact", lightForm = "cube", occluder = "full";
-    int rays = 4, environmentWidth = 1024;
+    int rays = 4, environmentWidth = 1024, samples = kDefaultSamples;
 };
 
 void run(const Arguments& arguments) {
@@ -32,32 +33,37 @@ void run(const Arguments& arguments) {
     ReferenceOptions options;
     options.width = arguments.camera.width;
     options.height = arguments.camera.height;
+    options.samples = arguments.samples;
     options.brdf = arguments.brdf == "factored"   ? ReferenceBrdf::Factored
                    : arguments.brdf == "residual" ? ReferenceBrdf::Residual
                                                   : ReferenceBrdf::Exact;
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
     options.appearance = arguments.appearance.appearance(asset);
+    options.groundFade = arguments.image.groundFade(asset);
     options.bakedOccluder = arguments.occluder == "baked";
     const Camera camera = arguments.camera.camera(asset);
     const float rotation = radians(arguments.light.rotationDegrees);
 
+    const bool showsLight = arguments.image.showsLight(), isFull = arguments.lightForm == "environment";
+    if (isFull && !arguments.light.isEnvironment())
+        throw UsageError("--light-as environment: expected a single environment, found other light; use "
+                         "--light-as cube");
+    MovingLight moving = arguments.light.moving(showsLight);
+    files.addInputs(moving.files());
+    files.check();
+    const Light light = moving.at(arguments.light.seconds);
+
     Progress progress("tracing", uint64_t(options.height), "rows");
     const auto report = [&](int rows) { progress.update(uint64_t(rows)); };
-    Image image;
-    if (arguments.lightForm == "environment") {
-        if (!arguments.light.isEnvironment())
-            throw UsageError("--light-as environment: expected a single environment, found other light; use "
-                             "--light-as cube");
-        image = renderReference(asset, camera, arguments.light.environment(), rotation,
-                                arguments.environmentWidth, options, report);
-    } else {
-        MovingLight moving = arguments.light.moving();
-        files.addInputs(moving.files());
-        files.check();
-        const Light light = turned(moving.at(arguments.light.seconds), rotation);
-        image = renderReference(asset, camera, sampleLight(light, asset.faceSize), options, report);
-    }
-    arguments.image.write(arguments.image.output, image);
+    Image image = isFull
+                      ? renderReference(asset, camera, arguments.light.environment(), rotation,
+                                        arguments.environmentWidth, options, report)
+                      : renderReference(asset, camera, sampleLight(turned(light, rotation), asset.faceSize),
+                                        options, report);
+    const float exposure = arguments.image.exposureFor(image);
+    if (showsLight)
+        drawBackground(image, makeBackground(light, arguments.image.backgroundBlur()), camera, rotation);
+    arguments.image.write(arguments.image.output, image, exposure);
 }
 
 } // namespace
@@ -71,6 +77,7 @@ void addReferenceCommand(CLI::App& program) {
     arguments->appearance.add(*command);
     arguments->light.add(*command);
     arguments->camera.add(*command);
+    addSamples(*command, arguments->samples);
     command
         ->add_option(
             "--brdf", arguments->brdf,

@@ -4,6 +4,7 @@
 #include "apps/relume/selection_arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
+#include "engine/render/background_pass.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "engine/vk/timing_capture.h"
@@ -25,6 +26,7 @@ struct Arguments {
     SelectionArguments selection;
     int terms = 0; // 0: all
     bool residual = true;
+    int samples = kDefaultSamples;
     int frames = 1;
     float rate = 24; // frames a second of light that moves
     std::string turn = "camera";
@@ -90,7 +92,7 @@ void run(const Arguments& arguments) {
     }
     vk::TimingCapture* const capture = timings ? &*timings : nullptr;
     vk::CpuSpan loading(capture, "load");
-    MovingLight moving = arguments.light.moving();
+    MovingLight moving = arguments.light.moving(arguments.image.showsLight());
     checkFiles(arguments, moving);
     const Asset asset = readAsset(arguments.file);
     if (const std::optional<float> share = asset.provenance.bakedShare)
@@ -100,18 +102,29 @@ void run(const Arguments& arguments) {
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     if (capture) capture->attach(*device);
     LightPass light(*device, asset.faceSize);
-    light.setLight(moving.at(arguments.light.seconds));
+    std::optional<BackgroundPass> background;
+    if (arguments.image.showsLight()) background.emplace(*device);
+    const auto setLight = [&](const Light& lit) {
+        light.setLight(lit);
+        if (background) background->setLight(lit, arguments.image.backgroundBlur());
+    };
+    setLight(moving.at(arguments.light.seconds));
     Relighter relighter(*device, asset,
                         {.residuals = arguments.residual ? makeResiduals(asset) : Residuals()});
     relighter.setMode(arguments.mode);
-    ViewPass view(*device, asset, {.width = arguments.camera.width, .height = arguments.camera.height});
+    ViewPass view(
+        *device, asset,
+        {.width = arguments.camera.width, .height = arguments.camera.height, .samples = arguments.samples});
+    tellSamples(view.samples(), arguments.samples, *device);
     view.setAppearance(appearance);
     view.setTerms(arguments.terms);
+    view.setGroundFade(arguments.image.groundFade(asset));
 
     const bool turnsBoth = arguments.turn == "both";
     const bool turnsLight = turnsBoth || arguments.turn == "light";
     const bool turnsCamera = turnsBoth || arguments.turn == "camera";
     LightLoss loss;
+    float exposure = 0; // of the first frame, for all: none flickers
     Progress progress("rendering", uint64_t(arguments.frames), "frames");
     vk::Commands commands(*device, "render");
     commands.setCapture(capture);
@@ -121,23 +134,26 @@ void run(const Arguments& arguments) {
         const float angle = 2 * kPi * float(frame) / float(arguments.frames);
         const bool lightChanges = frame == 0 || turnsLight || moving.moves();
         if (frame > 0 && moving.moves())
-            light.setLight(moving.at(arguments.light.seconds + double(frame) / double(arguments.rate)));
+            setLight(moving.at(arguments.light.seconds + double(frame) / double(arguments.rate)));
         vk::CpuSpan recording(capture, "record");
         commands.begin();
+        const float rotation = radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0);
         if (lightChanges) {
-            light.record(commands, radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0),
-                         arguments.selection.selection());
+            light.record(commands, rotation, arguments.selection.selection());
             relighter.record(commands, light, appearance);
         }
-        view.record(commands, arguments.camera.camera(asset, turnsCamera ? angle : 0), relighter);
+        const Camera camera = arguments.camera.camera(asset, turnsCamera ? angle : 0);
+        view.record(commands, camera, relighter);
+        if (background) background->record(commands, view.image(), camera, rotation);
         recording.end();
         commands.submitAndWait();
         vk::CpuSpan reading(capture, "read back");
         if (lightChanges) loss.add(light.readStats());
-        const Image image = view.read();
+        if (frame == 0) exposure = arguments.image.exposureFor(view.read());
+        const Image image = background ? background->read() : view.read();
         reading.end();
         const vk::CpuSpan writing(capture, "write image");
-        arguments.image.write(framePath(arguments, frame), image);
+        arguments.image.write(framePath(arguments, frame), image, exposure);
         progress.update(uint64_t(frame) + 1);
     }
     loss.log(asset.faceSize);
@@ -176,6 +192,7 @@ void addRenderCommand(CLI::App& program) {
         ->check(CLI::IsMember({"on", "off"}))
         ->default_str("on");
     arguments->camera.add(*command);
+    addSamples(*command, arguments->samples);
     command
         ->add_option("--frames", arguments->frames,
                      "Images, numbered, of one full turn and of --rate a second")

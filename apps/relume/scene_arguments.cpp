@@ -39,6 +39,13 @@ void SceneArguments::add(CLI::App& command) {
                     ->type_name("AXIS")
                     ->check(CLI::IsMember({"y", "z"}))
                     ->capture_default_str();
+    mBrushOption = command
+                       .add_option("--brush-rotation", mBrushRotation,
+                                   "Degrees to turn brushed (anisotropic) materials on the surface, "
+                                   "counter-clockwise")
+                       ->type_name("DEGREES")
+                       ->check(between(-kLargestBrushRotation, kLargestBrushRotation))
+                       ->capture_default_str();
     command.add_flag("--ground", ground, "Put a diffuse ground under the object");
     mGroundDetails.push_back(
         command.add_option("--ground-material", mGroundMaterial, "Material of the ground")
@@ -62,9 +69,12 @@ void SceneArguments::add(CLI::App& command) {
 Scene SceneArguments::load(bool isRefined) const {
     Scene scene;
     GroundOptions groundOptions = mGroundOptions;
-    if (isRefined && mTessellationOption->count() == 0) groundOptions.tessellation = kRefinedGroundQuads;
+    if (isRefined && mTessellationOption->count() == 0) {
+        groundOptions.tessellation = kRefinedGroundQuads;
+        groundOptions.isStart = true;
+    }
     const bool isScene = input.ends_with(".json");
-    for (const CLI::Option* option : {mMaterialOption, mUpOption})
+    for (const CLI::Option* option : {mMaterialOption, mUpOption, mBrushOption})
         if (isScene && option->count() > 0)
             throw UsageError("{}: has no effect on a scene file, whose parts say it themselves",
                              option->get_name());
@@ -75,6 +85,8 @@ Scene SceneArguments::load(bool isRefined) const {
         scene = readScene(input, groundOptions);
     else
         scene.parts = loadParts(input, mUp == "z" ? UpAxis::Z : UpAxis::Y, chosenMaterial());
+    if (!isScene)
+        for (Part& part : scene.parts) part.brushRotation = mBrushRotation;
     if (ground) {
         for (const Part& part : scene.parts)
             if (part.name == "ground") throw UsageError("--ground: {} has a ground already", input);
@@ -101,7 +113,7 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
 }
 
 void BakeArguments::add(CLI::App& command, bool takesLayout) {
-    mFactorization.add(command, options.factorization.terms);
+    mFactorization.add(command, options.factorization);
     const int ofRows = defaultCoefficients(TransportLayout::Rows);
     if (takesLayout)
         mLayout.add(command, true);
@@ -144,13 +156,25 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
         ->type_name("TRIANGLES")
         ->capture_default_str();
     command
-        .add_option("--refine", mRefinementError,
+        .add_option("--refine", mRefine,
                     fmt::format("Add vertices where interpolation between them would be seen, until it is "
                                 "estimated to change reflected light by this share of it, root mean square "
-                                "over all surfaces: {} to {}, 0.01 is good, 0.03 coarse (default: "
-                                "meshes stay as they are)",
-                                kLeastRefinementError, kMostRefinementError))
-        ->type_name("ERROR");
+                                "over all surfaces: {} to {}, 0.01 is good, 0.03 coarse; auto: so in parts "
+                                "of fewer than {} vertices, to {}; off: meshes stay as they are",
+                                kLeastRefinementError, kMostRefinementError, kCoarseVertices,
+                                kAutoRefinementError))
+        ->type_name("ERROR|auto|off")
+        ->capture_default_str();
+}
+
+static std::optional<RefinementRecord> refinementOf(const std::string& text) {
+    if (text == "off") return std::nullopt;
+    if (text == "auto") return RefinementRecord{.wanted = kAutoRefinementError, .isAuto = true};
+    RefinementRecord record;
+    if (!CLI::detail::lexical_cast(text, record.wanted))
+        throw UsageError("--refine: expected auto, off or an error of {} to {}, found \"{}\"",
+                         kLeastRefinementError, kMostRefinementError, text);
+    return record;
 }
 
 void BakeArguments::resolve() {
@@ -162,8 +186,7 @@ void BakeArguments::resolve() {
     options.visibilityMethod.reset();
     for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
         if (mVisibility == visibilityMethodName(method)) options.visibilityMethod = method;
-    options.refinement.reset();
-    if (mRefinementError) options.refinement = RefinementRecord{.wanted = *mRefinementError};
+    options.refinement = refinementOf(mRefine);
     options.occluderTriangles = 0;
     if (mOccluder != "full") {
         const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&

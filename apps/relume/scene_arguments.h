@@ -14,7 +14,7 @@
 namespace relume {
 
 // What a mesh without materials of its own is made of, where none is named.
-constexpr const char* kDefaultMaterial = "ashikhmin-shirley";
+constexpr const char* kDefaultMaterial = "gold";
 
 // Of one material or several, as options name them: the text that readMaterials() takes.
 std::string joinMaterials(const std::vector<std::string>& materials, bool separate);
@@ -38,6 +38,8 @@ struct SceneArguments {
     bool mSeparate = false;
     CLI::Option* mMaterialOption = nullptr;
     CLI::Option* mUpOption = nullptr;
+    CLI::Option* mBrushOption = nullptr;
+    float mBrushRotation = 0;
     std::vector<CLI::Option*> mGroundDetails; // mean nothing without --ground
     CLI::Option* mTessellationOption = nullptr;
     std::string mUp = "y";
@@ -59,7 +61,7 @@ struct BakeArguments {
     LayoutArguments mLayout;
     std::optional<int> mCoefficients;
     std::string mOccluder = "full", mVisibility = "traced";
-    std::optional<double> mRefinementError;
+    std::string mRefine = "auto";
 };
 
 // Bakes in memory with progress on stderr.

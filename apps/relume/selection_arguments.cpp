@@ -11,13 +11,17 @@ void SelectionArguments::add(CLI::App& command) {
                         "Drop light coefficients below this, where the largest is 32767; the paper's is 1024")
             ->type_name("VALUE")
             ->check(CLI::Range(0, kLightMaximum));
-    command.add_option("--coefficients", mCount, "Keep so many light coefficients, the largest, instead")
+    command
+        .add_option("--coefficients", mCount,
+                    "Keep so many light coefficients, those that weigh most, instead")
         ->type_name("COUNT")
         ->check(CLI::Range(1, int(kMaximumLightEntries)))
         ->capture_default_str()
         ->excludes(threshold);
-    command.add_flag("--area-weighted", mAreaWeighted,
-                     "Weigh light coefficients by the area of their functions when selecting");
+    command.add_flag_function(
+        "--area-weighted,!--no-area-weighted", [this](int64_t count) { mAreaWeighted = count > 0; },
+        "Weigh light coefficients by the area of their functions when selecting (default: unless by "
+        "--threshold)");
 }
 
 LightSelection SelectionArguments::selection() const { return {mThreshold, mCount, mAreaWeighted}; }

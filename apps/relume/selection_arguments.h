@@ -1,4 +1,5 @@
-// --threshold, --coefficients, --area-weighted: which coefficients of the light are kept.
+// --threshold, --coefficients, --area-weighted and --no-area-weighted: which coefficients of the light are
+// kept.
 #pragma once
 
 #include "engine/light/light_selection.h"
@@ -15,7 +16,7 @@ class SelectionArguments {
   private:
     std::optional<int> mThreshold;
     int mCount = kDefaultLightCount;
-    bool mAreaWeighted = false;
+    std::optional<bool> mAreaWeighted;
 };
 
 } // namespace relume

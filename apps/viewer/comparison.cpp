@@ -96,7 +96,8 @@ void Comparison::publish(Result result, const std::stop_token& stop) {
 }
 
 void Comparison::work(const View& view, ProgressiveReference& reference, std::stop_token stop) {
-    reference.restart(view.camera, view.light, view.appearance, view.relit.width, view.relit.height);
+    reference.restart(view.camera, view.light, view.appearance, view.relit.width, view.relit.height,
+                      view.samples);
     Clock::time_point shown;
     while (reference.passes() < kPasses && reference.addPass(stop)) {
         // What is shown costs a frame.

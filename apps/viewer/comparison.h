@@ -19,6 +19,7 @@ class Comparison {
         LightCube light;
         Appearance appearance;
         Image relit;
+        int samples = 1; // of its pixels
     };
     // What is known of it so far.
     struct Result {

@@ -140,7 +140,7 @@ void Content::cancelBake() {
 
 void Content::beginBake(const Bake& bake) {
     std::vector<std::string> options;
-    if (extensionOf(bake.input) != ".json") options = {"--ground", "--ground-tessellation", "64"};
+    if (extensionOf(bake.input) != ".json") options = {"--ground"};
     if (!mDeviceSelect.empty()) options.insert(options.end(), {"--device", mDeviceSelect});
     try {
         mBake = std::make_unique<BakeProcess>(bake.input, bake.output, options);
@@ -204,10 +204,12 @@ void Content::readEnvironment(size_t number) {
     mWorker.post(
         "reading " + choice.name,
         [this, number, file = choice.file]() -> Worker::Result {
-            auto map = std::make_shared<const Environment>(
-                prepareForSampling(file.empty() ? makeSky() : relume::readEnvironment(file)));
-            return [this, number, map] {
+            Environment whole = file.empty() ? makeSky() : relume::readEnvironment(file);
+            auto map = std::make_shared<const Environment>(prepareForSampling(whole));
+            auto picture = makePicture(file.empty() ? makeSky(kSkyPictureColumns) : std::move(whole));
+            return [this, number, map, picture] {
                 mLight.environments[number].map = map;
+                mLight.environments[number].picture = picture;
                 mHasChanged = true;
             };
         },
@@ -222,6 +224,7 @@ void Content::openLight(const std::filesystem::path& file) {
         "reading " + file.filename().string(),
         [this, file]() -> Worker::Result {
             auto light = std::make_shared<MovingLight>(readLight(file));
+            light->keepPictures();
             return [this, light, file] {
                 mLight.file = light;
                 mLight.fileName = file;

@@ -45,7 +45,7 @@ Light lightOf(const LightState& state) {
         light.sky->turbidity = state.sky.turbidity;
         light.sky->gain = state.environmentGain;
     } else if (state.chosen().map)
-        light.environments.push_back({state.chosen().map, 0, state.environmentGain});
+        light.environments.push_back({state.chosen().map, 0, state.environmentGain, state.chosen().picture});
     for (const StrokeChoice& stroke : state.strokes)
         light.strokes.push_back({.direction = directionAt(stroke.azimuth, stroke.elevation),
                                  .angularRadius = glm::radians(stroke.radius),

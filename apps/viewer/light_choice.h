@@ -19,7 +19,8 @@ struct EnvironmentChoice {
     std::string name;
     std::filesystem::path file = {};
     std::shared_ptr<const Environment> map = nullptr; // prepared; null until it was read, and of a day sky
-    bool isRead = false;                              // or being read, or could not be
+    std::shared_ptr<const Environment> picture = nullptr; // makePicture(), there when `map` is
+    bool isRead = false;                                  // or being read, or could not be
 };
 
 // A day sky as it is chosen, on the meridian of its time: at 12 the sun is highest.

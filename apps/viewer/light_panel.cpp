@@ -143,6 +143,18 @@ void drawSelection(LightSelection& selection) {
     explain("The so many largest of the light are kept: fewer are faster, and further from the light");
 }
 
+void drawBackground(SceneState& state) {
+    constexpr const char* kBehind[] = {"Environment", "None"};
+    int behind = int(state.background);
+    if (ImGui::Combo("Background", &behind, kBehind, 2)) state.background = Behind(behind);
+    explain("What is seen behind the object; lamps light it and are not seen");
+    if (state.background == Behind::None) return;
+    slider("Blur", state.backgroundBlur, 0, 30, "%.1f deg");
+    explain("The background out of focus; the light stays as it is");
+    ImGui::Checkbox("Fade the ground", &state.fadesGround);
+    explain("The ground ends before its edge; comparing shows all of it");
+}
+
 } // namespace
 
 void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
@@ -167,6 +179,7 @@ void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wis
     slider("Rotation", light.rotation, -180, 180, "%.1f deg");
     explain("Shift + right drag in the view turns the light too");
     drawSelection(light.selection);
+    drawBackground(state);
 }
 
 } // namespace relume

@@ -17,9 +17,10 @@ RayTracer occluderOf(const Asset& asset) {
 } // namespace
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
-    : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), appearance(defaultAppearance(asset)),
-      light(device, asset.faceSize), relighter(device, asset, {.residuals = makeResiduals(asset)}),
-      view(device, asset), surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
+    : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), groundFade(makeGroundFade(asset)),
+      appearance(defaultAppearance(asset)), light(device, asset.faceSize),
+      relighter(device, asset, {.residuals = makeResiduals(asset)}), view(device, asset),
+      surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

@@ -17,6 +17,7 @@ struct Model {
     std::filesystem::path file;
     Asset asset;
     Bounds bounds; // of the object
+    std::optional<GroundFade> groundFade;
     Appearance appearance;
     LightPass light;
     Relighter relighter;

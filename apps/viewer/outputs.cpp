@@ -75,13 +75,13 @@ bool Outputs::record(const vk::Image& window) {
     return true;
 }
 
-void Outputs::save(const SceneState& state, const Model* model) {
+void Outputs::save(const SceneState& state, const Model* model, bool fadesGround) {
     const Image screen =
         screenImage(mScreen.map<uint8_t>(), int(mWindow.width), int(mWindow.height), mWindow.format);
     std::string failure;
     for (const std::filesystem::path& file : std::exchange(mScreenshots, {})) {
         try {
-            saveScreenshot(file, screen, state, model);
+            saveScreenshot(file, screen, state, model, fadesGround);
             mTell(file.string() + " is written");
         } catch (const std::exception& why) {
             failure = why.what();
@@ -92,7 +92,7 @@ void Outputs::save(const SceneState& state, const Model* model) {
 }
 
 void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
-                             const Model* model) {
+                             const Model* model, bool fadesGround) {
     if (file.extension() != ".exr") return writePng(file, screen);
     if (!model) throw Error("{}: nothing is shown yet", file.string());
     writeExr(file, model->view.read());
@@ -104,8 +104,12 @@ void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& scr
         if (!values) return; // no file says it
         writeLightFile(light, *values);
     }
-    spdlog::info("the same: {}",
-                 renderCommand(state, model->file, int(mWindow.width), int(mWindow.height), light));
+    const auto command = [&](Drawn drawn) {
+        return renderCommand(state, fadesGround, model->file, int(mWindow.width), int(mWindow.height), light,
+                             drawn);
+    };
+    spdlog::info("as a picture: {}", command(Drawn::Picture));
+    spdlog::info("the same: {}", command(Drawn::Radiance));
 }
 
 } // namespace relume

@@ -23,6 +23,9 @@ class Outputs {
     // Of the next frame: .exr of the view, linear; else .png of the window.
     void wantScreenshot(const std::filesystem::path& file) { mScreenshots.push_back(file); }
 
+    // The next frame will be written to a file.
+    bool wantsFrame() const { return !mScreenshots.empty() || mRecorder; }
+
     // Every frame from now on, in a folder of its own. Throws Error.
     void beginRecording();
     void endRecording();
@@ -38,13 +41,13 @@ class Outputs {
     // Copies the window's image, in COLOR_ATTACHMENT_OPTIMAL, if it is wanted; then it is in
     // TRANSFER_SRC_OPTIMAL, and save() is due once this has ended.
     bool record(const vk::Image& window);
-    // Writes it all; `model` is what the view shows, null: nothing yet. Throws Error for what cannot be
-    // written, after the rest was.
-    void save(const SceneState& state, const Model* model);
+    // Writes it all; `model` is what the view shows, null: nothing yet; `fadesGround`:
+    // SceneView::fadesGround(). Throws Error for what cannot be written, after the rest was.
+    void save(const SceneState& state, const Model* model, bool fadesGround);
 
   private:
     void saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
-                        const Model* model);
+                        const Model* model, bool fadesGround);
 
     const vk::Device& mDevice;
     vk::Commands& mCommands;

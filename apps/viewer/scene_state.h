@@ -12,6 +12,9 @@ namespace relume {
 // What is shown of the reference image of the same view (comparison.h).
 enum class Compare { Off, Split, Reference, Difference };
 
+// The background of the view: the light, or the window's own color.
+enum class Behind { Environment, None };
+
 // What paints on the environment. Degrees.
 struct Brush {
     bool isInHand = false;
@@ -27,8 +30,15 @@ struct SceneState {
     std::vector<WeightedMaterial> material; // a blend; empty: as it was baked
     int terms = 0;                          // that are summed, of a model's K; 0: all
     bool addsResidual = true;               // what these leave of the BRDF is added
+    int samples = kDefaultSamples;          // a pixel: 1, 2, 4 or 8
     ToneCurve tone = ToneCurve::Agx;
     float exposure = 0; // stops
+    // They are what the object asks for: found again for another model, environment or light file, and when
+    // asked for.
+    bool exposesItself = true, wantsExposure = true;
+    Behind background = Behind::Environment;
+    float backgroundBlur = 0; // degrees
+    bool fadesGround = true;  // where there is a background
     Inspect inspect = Inspect::Off;
     Compare compare = Compare::Off;
     float split = 0.5f;          // of the window's width: relit left of it, the reference right

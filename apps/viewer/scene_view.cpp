@@ -1,9 +1,11 @@
 #include "apps/viewer/scene_view.h"
 
 #include "engine/base/error.h"
+#include "engine/render/auto_exposure.h"
 #include "engine/vk/upload.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace relume {
 
@@ -21,7 +23,7 @@ bool operator==(const WeightedMaterial& a, const WeightedMaterial& b) {
 SceneView::SceneView(const vk::Device& device, std::function<void()> wake, Tell tell)
     : mDevice(device), mTell(std::move(tell)),
       mFeed(wake, [this](const std::string& why) { mTell(why, true); }), mComparison(wake),
-      mComparePass(std::in_place, device) {}
+      mComparePass(std::in_place, device), mBackgroundPass(std::in_place, device) {}
 
 bool SceneView::poll() {
     bool hasNews = mFeed.poll();
@@ -46,7 +48,7 @@ bool SceneView::poll() {
 }
 
 void SceneView::record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model,
-                       ivec2 size) {
+                       ivec2 size, bool isFinal) {
     if (model != mModel) begin(model, state);
     if (!state.orbit)
         state.orbit =
@@ -56,10 +58,11 @@ void SceneView::record(vk::Commands& commands, SceneState& state, const std::sha
     recordLight(commands, state);
     mImage = nullptr;
     if (!mLit) return;
-    recordView(commands, state, size);
+    recordView(commands, state, size, isFinal);
     mIsStill = light == mLightVersion && view == mViewVersion;
     mImage = &mModel->view.image();
     recordCompared(commands, state);
+    recordBackground(commands, state);
 }
 
 void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
@@ -115,7 +118,8 @@ void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
     // The light before, until the one chosen is there.
     if (light.file ? !fromFile : !light.isReady()) return;
     if (mLit && mLitFile == fromFile && lightsAlike(*mLit, light)) return;
-    mModel->light.setLight(fromFile ? *fromFile : lightOf(light));
+    mLight = fromFile ? *fromFile : lightOf(light);
+    mModel->light.setLight(mLight);
     mModel->light.record(commands, glm::radians(light.rotation), light.selection);
     mModel->relighter.record(commands, mModel->light, mModel->appearance);
     mLit = light;
@@ -125,17 +129,24 @@ void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
     mLightVersion++;
 }
 
-void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec2 size) {
-    const Seen now{state.orbit->camera(), size, state.terms, state.addsResidual, state.inspect};
-    if (mSeen && mSeen->camera.eye == now.camera.eye && mSeen->camera.target == now.camera.target &&
-        mSeen->camera.verticalFov == now.camera.verticalFov && mSeen->size == size &&
-        mSeen->terms == now.terms && mSeen->addsResidual == now.addsResidual && mSeen->inspect == now.inspect)
-        return;
+void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec2 size, bool isFinal) {
+    Seen now{state.orbit->camera(), size,          state.terms,       state.addsResidual,
+             state.samples,         state.inspect, fadesGround(state)};
+    const bool isSame = mSeen && mSeen->camera.eye == now.camera.eye &&
+                        mSeen->camera.target == now.camera.target &&
+                        mSeen->camera.verticalFov == now.camera.verticalFov && mSeen->size == size &&
+                        mSeen->terms == now.terms && mSeen->addsResidual == now.addsResidual &&
+                        mSeen->inspect == now.inspect && mSeen->fadesGround == now.fadesGround;
+    if (isSame && mSeen->samples == now.samples) return;
+    // While things move edges may be jagged: what stays is drawn again, with all samples.
+    if (!isSame && !isFinal) now.samples = 1;
     const vk::ImageOptions& options = mModel->view.image().options();
     if (ivec2(int(options.width), int(options.height)) != size) mModel->view.resize(size.x, size.y);
+    mModel->view.setSamples(now.samples);
     mModel->view.setTerms(now.terms);
     mModel->view.setResidual(now.addsResidual);
     mModel->view.setInspect(now.inspect);
+    mModel->view.setGroundFade(now.fadesGround ? mModel->groundFade : std::nullopt);
     mModel->view.record(commands, now.camera, mModel->relighter);
     mSeen = now;
     mViewVersion++;
@@ -165,13 +176,42 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
     mImage = &mComparePass->image();
 }
 
-void SceneView::submitted(const SceneState& state) {
-    if (!mModel || !mLit) return;
+bool SceneView::fadesGround(const SceneState& state) const {
+    // The reference has all of it.
+    return mModel && mModel->groundFade && state.fadesGround && state.background != Behind::None &&
+           state.inspect == Inspect::Off && !compares(state);
+}
+
+void SceneView::recordBackground(vk::Commands& commands, const SceneState& state) {
+    if (state.background == Behind::None || isFalseColor(state)) return;
+    const std::pair wanted(mLightVersion, state.backgroundBlur);
+    if (mBehind != wanted) mBackgroundPass->setLight(mLight, glm::radians(state.backgroundBlur));
+    mBehind = wanted;
+    mBackgroundPass->record(commands, *mImage, mSeen->camera, glm::radians(mLit->rotation));
+    mImage = &mBackgroundPass->image();
+}
+
+bool SceneView::submitted(SceneState& state) {
+    if (!mModel || !mLit) return false;
     if (!mLightStats) mLightStats = mModel->light.readStats();
-    if (!mIsStill || !compares(state) || mComparedVersion == mViewVersion) return;
-    mComparison.begin(
-        {mModel, mSeen->camera, mModel->light.readCube(), mModel->appearance, mModel->view.read()});
-    mComparedVersion = mViewVersion;
+    if (mIsStill && compares(state) && mComparedVersion != mViewVersion) {
+        mComparison.begin({mModel, mSeen->camera, mModel->light.readCube(), mModel->appearance,
+                           mModel->view.read(), mModel->view.samples()});
+        mComparedVersion = mViewVersion;
+    }
+    return findExposure(state);
+}
+
+bool SceneView::findExposure(SceneState& state) {
+    if (!state.exposesItself || state.inspect != Inspect::Off) return false;
+    const std::shared_ptr<const Environment> map = mLit->file ? nullptr : mLit->chosen().map;
+    const bool isNew = !mExposed || mExposed->model.lock() != mModel || mExposed->map.lock() != map ||
+                       mExposed->file.lock() != mLit->file;
+    if (!isNew && !state.wantsExposure) return false;
+    state.wantsExposure = false;
+    mExposed = Exposed{mModel, map, mLit->file};
+    const float before = std::exchange(state.exposure, autoExposure(mModel->view.read()));
+    return state.exposure != before;
 }
 
 const vk::Image* SceneView::image() const { return mImage; }
@@ -185,6 +225,8 @@ SceneState SceneView::drawn(SceneState state) const {
     if (state.light.file) state.light.seconds = mFeed.seconds();
     return state;
 }
+
+bool SceneView::isDraft(const SceneState& state) const { return mSeen && mSeen->samples != state.samples; }
 
 bool SceneView::isSettled(const SceneState& state) const {
     return mLit && (state.light.file ? mFeed.isNewest() : state.light.isReady());

@@ -5,6 +5,7 @@
 #include "apps/viewer/content.h"
 #include "apps/viewer/light_feed.h"
 #include "apps/viewer/scene_state.h"
+#include "engine/render/background_pass.h"
 #include "engine/render/compare_pass.h"
 
 namespace relume {
@@ -18,14 +19,22 @@ class SceneView {
     // Takes in what other threads have found. True: a frame is to be drawn.
     bool poll();
 
-    // Records what is to be drawn anew of a model, at this size. Corrects in `state` what cannot be.
-    void record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model, ivec2 size);
-    // After that was submitted, and has ended.
-    void submitted(const SceneState& state);
+    // Records whatever of the model must be redrawn at this size, and corrects impossible settings in
+    // `state`. A view that differs from the last frame's is drawn as a draft of one sample a pixel, unless
+    // `isFinal`.
+    void record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model, ivec2 size,
+                bool isFinal);
+    // The last frame has fewer samples than are wanted, so that another one must be drawn.
+    bool isDraft(const SceneState& state) const;
+    // Call it after the recorded commands have finished. Returns true if it found a new exposure, so that the
+    // frame must be recorded and shown again.
+    bool submitted(SceneState& state);
 
     // With the shaders that the device has now.
     void remakePrograms() {
         mComparePass.emplace(mDevice);
+        mBackgroundPass.emplace(mDevice);
+        mBehind.reset();
         mImage = nullptr;
     }
 
@@ -47,6 +56,8 @@ class SceneView {
     const std::optional<LightStats>& lightStats() const { return mLightStats; }
     // A reference is wanted: comparing is on, and what is seen is radiance.
     static bool compares(const SceneState& state);
+    // The ground of the model that is shown ends before its edge.
+    bool fadesGround(const SceneState& state) const;
     // Of the reference of what is seen; no passes: none is there.
     const Comparison::Result& compared() const { return mCompared; }
 
@@ -56,19 +67,33 @@ class SceneView {
         ivec2 size{0};
         int terms = 0;
         bool addsResidual = true;
+        int samples = 0;
         Inspect inspect = Inspect::Off;
+        bool fadesGround = false;
+    };
+    // The model and light that the automatic exposure belongs to.
+    struct Exposed {
+        std::weak_ptr<const Model> model;
+        std::weak_ptr<const Environment> map;
+        std::weak_ptr<const MovingLight> file;
     };
     void begin(const std::shared_ptr<Model>& model, SceneState& state);
     void wearChosen(SceneState& state);
     void recordLight(vk::Commands& commands, SceneState& state);
-    void recordView(vk::Commands& commands, const SceneState& state, ivec2 size);
+    void recordView(vk::Commands& commands, const SceneState& state, ivec2 size, bool isFinal);
     void recordCompared(vk::Commands& commands, const SceneState& state);
+    void recordBackground(vk::Commands& commands, const SceneState& state);
+    bool findExposure(SceneState& state);
 
     const vk::Device& mDevice;
     Tell mTell;
     LightFeed mFeed;
     Comparison mComparison;
     std::optional<ComparePass> mComparePass;
+    std::optional<BackgroundPass> mBackgroundPass;
+    Light mLight;                                      // what the tuples were made for, not turned
+    std::optional<std::pair<uint64_t, float>> mBehind; // light version and blur that the pass has
+    std::optional<Exposed> mExposed;
     std::shared_ptr<Model> mModel;
     std::vector<WeightedMaterial> mWorn;
     std::optional<LightState> mLit; // what the tuples on the device were made for

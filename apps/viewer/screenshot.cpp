@@ -30,14 +30,15 @@ bool needsLightFile(const LightState& light) {
            (light.isDay() || !light.lamps.empty() || !light.strokes.empty() || light.environmentGain != 1);
 }
 
-std::string renderCommand(const SceneState& state, const std::filesystem::path& bake, int width, int height,
-                          const std::filesystem::path& lightFile) {
+std::string renderCommand(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
+                          int width, int height, const std::filesystem::path& lightFile, Drawn drawn) {
     const LightState& light = state.light;
     const Camera camera = state.orbit->camera();
     std::string command = fmt::format(
-        "relume render {} -o image.exr --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
-        quoted(bake.string()), width, height, camera.eye.x, camera.eye.y, camera.eye.z, camera.target.x,
-        camera.target.y, camera.target.z, state.fovDegrees, light.rotation);
+        "relume render {} -o image.{} --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
+        quoted(bake.string()), drawn == Drawn::Picture ? "png" : "exr", width, height, camera.eye.x,
+        camera.eye.y, camera.eye.z, camera.target.x, camera.target.y, camera.target.z, state.fovDegrees,
+        light.rotation);
     if (!light.selection.threshold)
         command += fmt::format(" --coefficients {}", light.selection.count);
     else
@@ -52,8 +53,17 @@ std::string renderCommand(const SceneState& state, const std::filesystem::path& 
         command += state.material.size() == 1
                        ? fmt::format(" -m {}", quoted(worn.name))
                        : fmt::format(" -m {}", quoted(fmt::format("{}={}", worn.name, worn.weight)));
+    if (state.samples != kDefaultSamples) command += fmt::format(" --samples {}", state.samples);
     if (state.terms > 0) command += fmt::format(" --terms {}", state.terms);
     if (!state.addsResidual) command += " --residual off";
+    const bool isSeen = state.background == Behind::Environment; // what .png has if nothing is said
+    if (drawn == Drawn::Radiance) return command + (fadesGround ? " --ground-fade" : "");
+    constexpr const char* kCurves[] = {"none", "aces", "agx"};
+    command += fmt::format(" --exposure={} --tone {}", state.exposure, kCurves[size_t(state.tone)]);
+    if (!isSeen) command += " --background none";
+    if (isSeen && state.backgroundBlur > 0)
+        command += fmt::format(" --background-blur {}", state.backgroundBlur);
+    if (isSeen && !fadesGround) command += " --no-ground-fade";
     return command;
 }
 

@@ -15,9 +15,11 @@ Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkForm
 // Whether lightFileOf() must be written for a command to say what lights the object.
 bool needsLightFile(const LightState& light);
 
-// The command line that draws the same view of `bake`, bit for bit. `state` has its orbit; `light` is where
-// lightFileOf() was written, if it was needed.
-std::string renderCommand(const SceneState& state, const std::filesystem::path& bake, int width, int height,
-                          const std::filesystem::path& light);
+// The command line that draws the same view of `bake` as linear radiance without a background, bit for bit;
+// or as a picture, as it is seen without panels. `state` has its orbit; `fadesGround`:
+// SceneView::fadesGround(); `light` is where lightFileOf() was written, if it was needed.
+enum class Drawn { Radiance, Picture };
+std::string renderCommand(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
+                          int width, int height, const std::filesystem::path& light, Drawn drawn);
 
 } // namespace relume

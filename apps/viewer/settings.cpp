@@ -165,12 +165,18 @@ void setCoefficients(SceneState& state, const json& value) {
     if (count == 0)
         selection.threshold = selection.threshold.value_or(kPaperLightThreshold);
     else
-        selection = {.count = count, .areaWeighted = selection.areaWeighted};
+        selection = {.count = count};
 }
 
 json coefficientsOf(const SceneState& state) {
     const LightSelection& selection = state.light.selection;
     return selection.threshold ? 0 : selection.count;
+}
+
+void setSamples(SceneState& state, const json& value) {
+    if (value != 1 && value != 2 && value != 4 && value != 8)
+        throw Error("\"samples\": expected 1, 2, 4 or 8, found {}", value.dump());
+    state.samples = value.get<int>();
 }
 
 // A name, "" for what was baked, or weights by name.
@@ -187,6 +193,14 @@ void setMaterial(SceneState& state, const json& value) {
         throw Error("\"material\": expected at least one weight above 0, found {}", value.dump());
     state.material = blend;
 }
+
+void setExposure(SceneState& state, const json& value) {
+    const bool isAuto = value == "auto";
+    if (!isAuto) state.exposure = numberOf("exposure", value, -100, 100);
+    state.exposesItself = state.wantsExposure = isAuto;
+}
+
+json exposureOf(const SceneState& state) { return state.exposesItself ? json("auto") : json(state.exposure); }
 
 template <typename Element>
 void setList(const std::string& name, std::vector<Element>& list, Element (*from)(const json&),
@@ -208,7 +222,10 @@ const std::vector<Setting>& settings() {
         number("rotation", &LightState::rotation, -1e6f, 1e6f),
         number("gain", &LightState::environmentGain, 0, 1e6f),
         number("seconds", &LightState::seconds, 0, 1e6f),
-        number("exposure", &SceneState::exposure, -100, 100, kKept),
+        {"exposure", setExposure, exposureOf},
+        choice("background", &SceneState::background, {"environment", "none"}, kKept),
+        number("background-blur", &SceneState::backgroundBlur, 0, 90, kKept),
+        flag("ground-fade", &SceneState::fadesGround, kKept),
         number("terms", &SceneState::terms, 0, 1024),
         number("split", &SceneState::split, 0, 1),
         choice("tone", &SceneState::tone, {"none", "aces", "agx"}, kKept),
@@ -229,6 +246,7 @@ const std::vector<Setting>& settings() {
         flag("vsync", &SceneState::waitsForDisplay, kKept),
         {"coefficients", setCoefficients, coefficientsOf},
         {"threshold", setThreshold},
+        {"samples", setSamples, [](const SceneState& state) { return json(state.samples); }},
         {"lamps", setLamps},
         {"strokes", setStrokes},
         {"day-sky", setSky},

@@ -97,7 +97,7 @@ std::string errorsIn(const std::string& log) {
 
 } // namespace
 
-std::vector<uint32_t> compileShader(const std::filesystem::path& source) {
+std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::string_view macro) {
     static const Glslang process;
     const EShLanguage stage = stageOf(source);
     const std::string text = readText(source), name = source.string();
@@ -108,6 +108,8 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source) {
     // As shaders/CMakeLists.txt: glslangValidator -V --target-env vulkan1.3 -I…
     glslang::TShader shader(stage);
     shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
+    const std::string preamble = macro.empty() ? "" : "#define " + std::string(macro) + "\n";
+    shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
@@ -125,7 +127,7 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source) {
 
 #else
 
-std::vector<uint32_t> compileShader(const std::filesystem::path& source) {
+std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::string_view) {
     throw Error("{}: cannot be compiled: this program was built without glslang (on Debian: glslang-dev)",
                 source.string());
 }
@@ -140,7 +142,7 @@ size_t reloadShaders(vk::Device& device, const std::filesystem::path& folder) {
     std::vector<vk::ShaderReplacement> replacements;
     for (const FrameShader& shader : kFrameShaders) {
         const std::filesystem::path source = folder / shader.file;
-        replacements.push_back({source.string(), shader.spirv, compileShader(source)});
+        replacements.push_back({source.string(), shader.spirv, compileShader(source, shader.macro)});
     }
     return device.replaceShaders(replacements);
 }

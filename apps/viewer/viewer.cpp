@@ -94,6 +94,7 @@ class Viewer : public ScriptTarget {
 
     bool prepareSwapchain();
     void drawFrame();
+    bool submitFrame(const vk::Image& target, uint32_t image);
     void drawUi();
     void recordView(const vk::Image& target);
     PanelFacts facts() const;
@@ -155,6 +156,8 @@ Viewer::Viewer(const ViewerOptions& options)
       mPictures(mUi.pictures(), Window::wake),
       mOutputs(mDevice, mCommands, [this](const std::string& words) { tell(words); }) {
     for (const auto& [name, value] : mHabits.settings.items()) {
+        // Versions without backgrounds stored the exposure even if the user had never set it.
+        if (name == "exposure" && !mHabits.settings.contains("background")) continue;
         try {
             applySetting(mState, name, value, nullptr);
         } catch (const std::exception& why) {
@@ -490,21 +493,30 @@ void Viewer::drawFrame() {
 
     const vk::Image& target = mSwapchain.images()[*image];
     mCommands.clearTimes();
-    mCommands.begin();
-    mUi.pictures().record(mCommands);
-    recordView(target);
-    mUi.record(mCommands, *image);
-    const bool isRead = mOutputs.record(target);
-    mCommands.transition(
-        target, isRead ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-        VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, isRead ? vk::Stage::Transfer : vk::Stage::Color, vk::Stage::Host);
-    mCommands.submitAndWait();
-    mView.submitted(mState);
+    bool isRead = submitFrame(target, *image);
+    // A new light is never shown with the exposure of the last one.
+    if (mView.submitted(mState)) isRead = submitFrame(target, *image);
     if (mView.image()) mPictures.update(mState, mContent.shown(), mView);
     if (isRead) save();
     if (!mSwapchain.present(*image)) mNeedsSwapchain = true;
     mTimes.add(secondsSince(start), mCommands.times());
     mFramesWanted = std::max(0, mFramesWanted - 1);
+    // One frame draws all samples; a second one notices that the view is still.
+    if (!moves() && mView.isDraft(mState)) wantFrames(2);
+}
+
+// True: the window's image is to be read.
+bool Viewer::submitFrame(const vk::Image& target, uint32_t image) {
+    mCommands.begin();
+    mUi.pictures().record(mCommands);
+    recordView(target);
+    mUi.record(mCommands, image);
+    const bool isRead = mOutputs.record(target);
+    mCommands.transition(
+        target, isRead ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, isRead ? vk::Stage::Transfer : vk::Stage::Color, vk::Stage::Host);
+    mCommands.submitAndWait();
+    return isRead;
 }
 
 void Viewer::drawUi() {
@@ -522,7 +534,7 @@ void Viewer::drawUi() {
 void Viewer::recordView(const vk::Image& target) {
     const vec3 background = mState.isDark ? vec3(0.11f, 0.12f, 0.14f) : vec3(0.75f, 0.77f, 0.8f);
     const ivec2 size(int(mSwapchain.width()), int(mSwapchain.height()));
-    if (mContent.shown()) mView.record(mCommands, mState, mContent.shown(), size);
+    if (mContent.shown()) mView.record(mCommands, mState, mContent.shown(), size, mOutputs.wantsFrame());
     if (const vk::Image* const view = mView.image()) {
         const bool isFalse = mView.isFalseColor(mState);
         mDisplay->record(
@@ -567,8 +579,9 @@ PanelFacts Viewer::facts() const {
 void Viewer::save() {
     const Model* const model = mView.image() ? mContent.shown().get() : nullptr;
     if (mOptions.exitFrame)
-        return mOutputs.save(mView.drawn(mState), model); // nobody else will see what fails
-    attempt([&] { mOutputs.save(mView.drawn(mState), model); });
+        return mOutputs.save(mView.drawn(mState), model,
+                             mView.fadesGround(mState)); // nobody else sees what fails
+    attempt([&] { mOutputs.save(mView.drawn(mState), model, mView.fadesGround(mState)); });
 }
 
 void Viewer::toggleRecording() {

@@ -1,4 +1,4 @@
-// Which files were read, so that a program does not write over them.
+// A record of the files that a process reads, so that it does not overwrite them.
 #pragma once
 
 #include <filesystem>

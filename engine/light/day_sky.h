@@ -13,6 +13,8 @@ struct DaySky {
     vec3 ground{0.2f};      // what share of light it gives back, in [0, 1]: all below the horizon
     bool hasDisc = true;    // the sun itself; without it, only the light it scatters
     float gain = 1;
+
+    bool operator==(const DaySky&) const = default;
 };
 
 // The sky's luminance and chromaticity by Preetham, Shirley, Smits: A Practical Analytic Model for Daylight,
@@ -21,7 +23,7 @@ struct DaySky {
 // clamped. The ground is of one radiance: `ground` times the horizontal irradiance of sky and sun over π.
 shared::LightSky makeSkyModel(const DaySky& sky);
 
-// Radiance towards a unit direction, without the sun's disc. GLSL twin: shaders/light_sky.comp.
+// Radiance towards a unit direction, without the sun's disc. GLSL twin: shaders/lib/sky.glsl.
 vec3 skyRadiance(const shared::LightSky& model, vec3 direction);
 
 // The sun's disc, 0.53 degrees across, as dim as the air makes it (the transmittances of the same paper, at

@@ -34,4 +34,10 @@ vec3 Environment::lookup(vec3 d) const {
                     glm::mix(pixel(at.x0, at.y1), pixel(at.x1, at.y1), at.weight.x), at.weight.y);
 }
 
+std::shared_ptr<const Environment> makePicture(Environment environment) {
+    if (environment.width > kMostPictureColumns)
+        environment = prepareForSampling(environment, kMostPictureColumns);
+    return std::make_shared<const Environment>(std::move(environment));
+}
+
 } // namespace relume

@@ -4,6 +4,7 @@
 #include "engine/image/image.h"
 
 #include <filesystem>
+#include <memory>
 
 namespace relume {
 
@@ -33,6 +34,15 @@ struct Environment {
 // that; both are counted in the log. Throws Error, also for a latlong that is not twice as wide as high.
 Environment readEnvironment(const std::filesystem::path& path);
 
+// Most columns of what is kept of a map for looking at: a degree in 22 of them.
+constexpr int kMostPictureColumns = 8192;
+
+// The map as it is looked at: itself, or area-averaged down to kMostPictureColumns.
+std::shared_ptr<const Environment> makePicture(Environment environment);
+
+// Columns of the built-in sky where it is looked at.
+constexpr int kSkyPictureColumns = 2048;
+
 // The built-in sky: blue above, warm near the horizon, brown below, with a soft sun; generated in code.
 Environment makeSky(int width = 512);
 
@@ -41,5 +51,9 @@ Environment makeSky(int width = 512);
 // so that a pixel near a pole is as wide as one at the equator, then the three rows around each pole
 // averaged. Keeps Σ radiance · solid angle to 1e-6.
 Environment prepareForSampling(const Environment& environment, int maxWidth = 512);
+
+// Heat spread over the sphere until a point has a standard deviation of `deviation` radians along each axis:
+// a Gaussian where that is small. Keeps Σ radiance · solid angle and even maps, to rounding.
+Environment blur(const Environment& environment, float deviation);
 
 } // namespace relume

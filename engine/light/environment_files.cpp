@@ -10,7 +10,8 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kMostMaps = 64; // of at most 1.5 MiB
+constexpr size_t kMostMaps = 64;    // of at most 1.5 MiB
+constexpr size_t kMostPictures = 4; // of at most 384 MiB: as many as a moment's light is made of
 
 // By value, whatever number of digits they have.
 struct ByNumber {
@@ -58,15 +59,32 @@ std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pa
 
 std::shared_ptr<const Environment> EnvironmentFiles::map(const std::filesystem::path& file) {
     mNamed.insert(file);
-    const auto found = std::ranges::find(mMaps, file, [](const auto& entry) { return entry.first; });
-    if (found != mMaps.end()) {
-        mMaps.splice(mMaps.begin(), mMaps, found);
-    } else {
-        mMaps.emplace_front(file,
-                            std::make_shared<const Environment>(prepareForSampling(readEnvironment(file))));
-        if (mMaps.size() > kMostMaps) mMaps.pop_back();
-    }
-    return mMaps.front().second;
+    if (const auto known = find(mMaps, file)) return known;
+    Environment whole = readEnvironment(file);
+    auto map = std::make_shared<const Environment>(prepareForSampling(whole));
+    keep(mMaps, kMostMaps, file, map);
+    if (mKeepsPictures) keep(mPictures, kMostPictures, file, makePicture(std::move(whole)));
+    return map;
+}
+
+std::shared_ptr<const Environment> EnvironmentFiles::picture(const std::filesystem::path& file) {
+    if (!mKeepsPictures) return nullptr;
+    if (const auto known = find(mPictures, file)) return known;
+    keep(mPictures, kMostPictures, file, makePicture(readEnvironment(file)));
+    return mPictures.front().second;
+}
+
+std::shared_ptr<const Environment> EnvironmentFiles::find(Kept& kept, const std::filesystem::path& file) {
+    const auto found = std::ranges::find(kept, file, [](const auto& entry) { return entry.first; });
+    if (found == kept.end()) return nullptr;
+    kept.splice(kept.begin(), kept, found);
+    return found->second;
+}
+
+void EnvironmentFiles::keep(Kept& kept, size_t most, const std::filesystem::path& file,
+                            std::shared_ptr<const Environment> environment) {
+    kept.emplace_front(file, std::move(environment));
+    if (kept.size() > most) kept.pop_back();
 }
 
 const std::vector<std::filesystem::path>& EnvironmentFiles::sequence(const std::filesystem::path& pattern) {

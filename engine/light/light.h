@@ -16,6 +16,10 @@ namespace relume {
 struct EnvironmentLight {
     std::shared_ptr<const Environment> map;
     float rotation = 0, gain = 1;
+    std::shared_ptr<const Environment> picture =
+        nullptr; // makePicture() of the same, for backgrounds; or null
+
+    bool operator==(const EnvironmentLight&) const = default;
 };
 
 // Most lamps, strokes and distant lights, of each.

@@ -33,7 +33,9 @@ void addEnvironment(const JsonObject& object, const LightMoment& moment, float s
     const float rotation = glm::radians(object.number("rotate", 0, -kMostDegrees, kMostDegrees));
     const float gain = share * object.number("gain", 1, 0, kMostGain);
     const auto add = [&](const std::filesystem::path& file, float weight) {
-        if (weight > 0) light.environments.push_back({moment.files.map(file), rotation, weight * gain});
+        if (weight > 0)
+            light.environments.push_back(
+                {moment.files.map(file), rotation, weight * gain, moment.files.picture(file)});
     };
     if (object.find("sequence") && object.find("file"))
         object.fail("sequence", "no such key beside \"file\"");

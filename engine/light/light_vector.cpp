@@ -45,8 +45,8 @@ std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
     std::vector<float> weights;
     for (uint32_t i = 0; i < coefficients.size(); i++) {
         const int x = int(i) % size, y = int(i) / size % size;
-        weights.push_back(
-            componentOf(largestComponent(coefficients[i]) * (selection.areaWeighted ? areaOf(x, y) : 1.0f)));
+        weights.push_back(componentOf(largestComponent(coefficients[i]) *
+                                      (selection.isAreaWeighted() ? areaOf(x, y) : 1.0f)));
     }
     std::vector<uint32_t> kept;
     for (uint32_t i = 0; i < weights.size(); i++)

@@ -23,6 +23,9 @@ class MovingLight {
     // That the description names, the light file itself left out.
     const std::set<std::filesystem::path>& files() const { return mFiles.named(); }
 
+    // Lets at() also return the full-resolution pictures that backgrounds need.
+    void keepPictures() { mFiles.keepPictures(); }
+
     // Factor of all of it, at least 0.
     void setGain(float gain) { mGain = gain; }
 

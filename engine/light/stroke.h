@@ -12,6 +12,8 @@ struct Stroke {
     vec3 radiance;
     float softness = 0.5f; // the share of the radius over which it fades, in [0, 1]
     float opacity = 1;     // in its middle, in [0, 1]
+
+    bool operator==(const Stroke&) const = default;
 };
 
 // The stroke as the device takes it: amount is its opacity.

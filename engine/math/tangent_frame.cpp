@@ -12,4 +12,17 @@ TangentFrame tangentFrame(vec3 n) {
     return {s, glm::cross(n, s), n};
 }
 
+TangentFrame lowerTangentFrame(vec3 n) {
+    constexpr vec3 kMirror(1, -1, 1);
+    return tangentFrame(n, kMirror * tangentFrame(kMirror * n).s);
+}
+
+TangentFrame tangentFrame(vec3 n, vec3 tangent) {
+    vec3 s = tangent - glm::dot(tangent, n) * n;
+    const float squared = glm::dot(s, s);
+    if (!(squared > 1e-10f)) return tangentFrame(n);
+    s /= std::sqrt(squared);
+    return {s, glm::cross(n, s), n};
+}
+
 } // namespace relume

@@ -1,4 +1,4 @@
-// Tangent frames from normals. GLSL twin: shaders/lib/tangent_frame.glsl.
+// Tangent frames from normals and tangents. GLSL twin: shaders/lib/tangent_frame.glsl.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -17,5 +17,12 @@ struct TangentFrame {
 // The frame of a unit normal, smooth over the sphere but at n = (0, -1, 0), where s = (1, 0, 0):
 // the derivative of the stereographic projection from that pole (all-frequency relighting, 2004, 3.1).
 TangentFrame tangentFrame(vec3 normal);
+
+// Returns the mirror image of tangentFrame() in the plane y = 0: smooth over the sphere but at n = (0, 1, 0).
+TangentFrame lowerTangentFrame(vec3 normal);
+
+// Returns the frame of a unit normal whose s is the part of `tangent` that is orthogonal to it;
+// tangentFrame(normal) where there is none.
+TangentFrame tangentFrame(vec3 normal, vec3 tangent);
 
 } // namespace relume

@@ -54,7 +54,7 @@ void LightPass::record(vk::Commands& commands, float rotation, const LightSelect
     const shared::LightQuantisePush quantise{coefficients(),
                                              kLightSumLimit,
                                              uint32_t(std::countr_zero(unsigned(mFaceSize))),
-                                             selection.areaWeighted,
+                                             selection.isAreaWeighted(),
                                              selection.threshold ? 0 : uint32_t(selection.count),
                                              shareOf(selection.threshold.value_or(0))};
     static std::atomic<uint64_t> recordings = 0;

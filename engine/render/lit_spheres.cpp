@@ -6,7 +6,6 @@
 #include "engine/render/view_grid.h"
 #include "engine/vk/upload.h"
 #include "shaders/sphere_cube_comp.h"
-#include "shaders/sphere_frame_comp.h"
 #include "shaders/sphere_light_comp.h"
 #include "shaders/sphere_reflect_comp.h"
 #include "shaders/sphere_spectrum_comp.h"
@@ -26,8 +25,7 @@ namespace {
 constexpr uint32_t kNone = 0xffffffff;
 constexpr uint32_t kBatch = 32; // nodes that are made together: what buffers between passes hold
 constexpr VkFormat kTexelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr uint32_t kSphereTexels = kSphereRings * kSphereAzimuths,
-                   kTupleTexels = kTupleRings * kTupleAzimuths;
+constexpr uint32_t kSphereTexels = kSphereRings * kSphereAzimuths;
 
 uint32_t roundUp(uint32_t value, uint32_t step) { return (value + step - 1) / step; }
 
@@ -115,16 +113,19 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, Residuals r
     std::vector<float> weights;
     for (size_t part = 0; part < asset.parts.size(); part++) {
         mResiduals[part].resize(asset.parts[part].sets.size());
-        for (size_t set = 0; set < mResiduals[part].size(); set++)
-            if (const ResidualSet* residual = mResiduals[part][set].get();
-                residual && !mSets.contains(residual))
-                addSet(*residual, asset.parts[part].sets[set].brdf, weights);
+        const bool hasTangents = !asset.parts[part].mesh.tangents.empty();
+        for (size_t set = 0; set < mResiduals[part].size(); set++) {
+            const ResidualSet* residual = mResiduals[part][set].get();
+            if (!residual) continue;
+            if (!mSets.contains(residual)) addSet(*residual, asset.parts[part].sets[set].brdf, weights);
+            if (hasTangents) mSets.at(residual).isTurned = 1, mTupleRows = kTurnedRows;
+        }
     }
     if (!mSets.empty()) makePrograms();
-    uint32_t components = 1, parts = 1, frequencies = 0;
+    uint32_t components = 1, frequencies = 0;
     for (const Kernel& kernel : mKernels) {
         components = std::max(components, kernel.components);
-        parts = std::max(parts, 2 * kernel.push.harmonics + 1);
+        mMostParts = std::max(mMostParts, kernel.parts());
         frequencies = std::max(frequencies, kernel.push.frequencies);
     }
     const uint32_t batch = mKernels.empty() ? 0 : kBatch;
@@ -134,17 +135,17 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, Residuals r
     mGrid = vk::upload<vec4>(device, gridFrames(allNodes()), "view grid");
     mTexels = makeTexels(device, 6 * kSphereCubeBordered * kSphereCubeBordered, "sphere cube");
     mLights = makeTexels(device, 2 * kTupleLights, "lights of cells");
-    mTupleTexels = makeTexels(device, uint64_t(tupleImages) * kTupleTexels, "unshadowed tuples");
-    mTuples = emptyImage(device, kTupleAzimuths, kTupleRings, tupleImages, "unshadowed tuples");
+    mTupleTexels =
+        makeTexels(device, uint64_t(tupleImages) * mTupleRows * kTupleAzimuths, "unshadowed tuples");
+    mTuples = emptyImage(device, kTupleAzimuths, mTupleRows, tupleImages, "unshadowed tuples");
     mCubeImage = vk::Image(device, imageOptions(kSphereCubeBordered, kSphereCubeBordered, 6), "sphere cube");
     mBatchNodes = makeTexels(device, 2 * batch, "sphere nodes");
     mPolar = makeTexels(device, uint64_t(batch) * kSphereTexels, "polar light");
     mSpectrum = makeTexels(device, 2 * uint64_t(batch) * (frequencies + 1) * kSphereRings, "light spectrum");
     mReflected =
         makeTexels(device, uint64_t(batch) * components * (kSphereRings / 4) * 6, "reflected spectrum");
-    mParts = makeTexels(device, uint64_t(batch) * parts * kSphereTexels, "sphere parts");
-    mFramed = makeTexels(device, uint64_t(parts > 1 ? batch : 0) * kSphereTexels, "spheres in frames");
-    mImage = emptyImage(device, kSphereAzimuths, kSphereRings, 1, "lit spheres");
+    mParts = makeTexels(device, uint64_t(batch) * mMostParts * kSphereTexels, "sphere parts");
+    mImage = emptyImage(device, kSphereAzimuths, mMostParts * kSphereRings, 1, "lit spheres");
     mSlotTable.assign(std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
     mSlots = vk::upload<uint32_t>(device, mSlotTable, "sphere slots");
 }
@@ -156,7 +157,6 @@ void LitSpheres::makePrograms() {
     mSpectrumProgram = {mDevice, sphere_spectrum_comp_spirv, {}, "sphere spectrum"};
     mReflect = {mDevice, sphere_reflect_comp_spirv, {}, "sphere reflect"};
     mSynthesize = {mDevice, sphere_synthesize_comp_spirv, {}, "sphere synthesize"};
-    mFrame = {mDevice, sphere_frame_comp_spirv, {}, "sphere frame"};
 }
 
 void LitSpheres::addSet(const ResidualSet& set, const FactoredBrdf& factors, std::vector<float>& weights) {
@@ -164,7 +164,7 @@ void LitSpheres::addSet(const ResidualSet& set, const FactoredBrdf& factors, std
     lights.layers = 1;
     lights.viewMaps = factors.lightMaps;
     mSets.emplace(&set, Set{uint32_t(weights.size() / 4), uint32_t(factors.terms), uint32_t(factors.mapping),
-                            makeViewMapTexture(mDevice, lights, "light maps")});
+                            makeViewMapTexture(mDevice, lights, "light maps"), 0});
     for (const vec3& weight : set.irradianceWeights)
         weights.insert(weights.end(), {weight.x, weight.y, weight.z});
     weights.resize(roundUp(uint32_t(weights.size()), 12) * 12, 0); // whole quads of terms
@@ -200,8 +200,9 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
             commands.dispatch(
                 mUnshadowed,
                 {texels(mLights), {set.lightMaps.image, isPolar ? mPolarSampler : mSampler}, mTupleTexels},
-                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGrey, set.firstImage},
-                {kTupleAzimuths, kTupleRings, roundUp(set.terms, 4)});
+                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGrey, set.firstImage, mTupleRows,
+                                     set.isTurned},
+                {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});
         }
         commands.barrier(Stage::Compute, Stage::Transfer);
         const auto fill = [&](const vk::Buffer& from, const vk::Image& to, Stage readBy) {
@@ -227,7 +228,8 @@ void LitSpheres::makeRoom(size_t spheres) {
             spheres, mDevice.name(), most);
     mSlotCount = std::min(most, roundUp(uint32_t(spheres + spheres / 4), 16) * 16);
     mRetired.push_back(std::move(mImage));
-    mImage = vk::Image(mDevice, imageOptions(kSphereAzimuths, kSphereRings, mSlotCount), "lit spheres");
+    mImage = vk::Image(mDevice, imageOptions(kSphereAzimuths, mMostParts * kSphereRings, mSlotCount),
+                       "lit spheres");
     freeSlots();
 }
 
@@ -250,7 +252,7 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
         wanted += missing.back().size();
     }
     if (wanted == 0) return;
-    // Those of other views make room, where there is none.
+    // Spheres of other views are evicted if there is no room.
     if (mFreeSlots.size() < wanted)
         for (uint32_t& slot : mSlotTable)
             if (slot != kNone && !used.contains(slot)) {
@@ -296,18 +298,13 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.dispatch(mSynthesize, {texels(mReflected), mParts}, push,
                       {kSphereAzimuths / 4, kSphereRings / 4, push.nodes * (push.harmonics + 1)});
-    const bool isFramed = push.harmonics > 0;
-    if (isFramed) {
-        commands.barrier(Stage::Compute, Stage::Compute);
-        commands.dispatch(mFrame, {texels(mParts), texels(mBatchNodes), mFramed}, push,
-                          {kSphereAzimuths, kSphereRings, push.nodes});
-    }
     commands.barrier(Stage::Compute, Stage::Transfer);
     for (size_t i = 0; i < nodes.size(); i++) {
         uint32_t& slot = mSlotTable[number * kGridNodes + nodes[i]];
         slot = mFreeSlots.back();
         mFreeSlots.pop_back();
-        commands.copy(isFramed ? mFramed : mParts, i * kSphereTexels * sizeof(vec4), mImage, slot);
+        // A kernel that has fewer parts than others leaves rows below them that nobody reads.
+        commands.copy(mParts, i * kernel.parts() * kSphereTexels * sizeof(vec4), mImage, slot);
     }
 }
 
@@ -315,18 +312,21 @@ std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node) const {
     const uint32_t slot = mSlotTable[kernel * kGridNodes + node];
     RELUME_CHECK(slot != kNone);
     const std::vector<vec4> texels = readImage(mDevice, mImage);
-    const auto first = texels.begin() + std::ptrdiff_t(size_t(slot) * kSphereTexels);
-    return {first, first + kSphereTexels};
+    const auto first = texels.begin() + std::ptrdiff_t(size_t(slot) * mMostParts * kSphereTexels);
+    return {first, first + std::ptrdiff_t(mKernels[kernel].parts() * kSphereTexels)};
 }
 
 std::vector<vec3> LitSpheres::readTuples(const ResidualSet* residual) const {
     const Set& set = mSets.at(residual);
     const std::vector<vec4> texels = readImage(mDevice, mTuples);
-    std::vector<vec3> tuples(size_t(kTupleTexels) * set.terms);
-    for (size_t texel = 0; texel < kTupleTexels; texel++)
-        for (size_t value = 0; value < 3 * size_t(set.terms); value++)
-            tuples[texel * set.terms + value / 3][int(value % 3)] =
-                texels[(set.firstImage + value / 4) * kTupleTexels + texel][int(value % 4)];
+    std::vector<vec3> tuples;
+    for (size_t texel = 0; texel < size_t(set.rows()) * kTupleAzimuths; texel++)
+        for (size_t value = 0; value < 3 * size_t(set.terms); value += 3) {
+            const auto at = [&](size_t i) {
+                return texels[(set.firstImage + i / 4) * mTupleRows * kTupleAzimuths + texel][int(i % 4)];
+            };
+            tuples.emplace_back(at(value), at(value + 1), at(value + 2));
+        }
     return tuples;
 }
 

@@ -16,15 +16,16 @@ namespace relume {
 
 class LitSpheres {
   public:
-    // Of `asset`'s parts and sets; keeps `residuals`, which may be empty. Throws OutOfMemory.
+    // Makes buffers for all parts and sets of `asset`, and keeps `residuals`, which may be empty. Throws
+    // OutOfMemory.
     LitSpheres(const vk::Device& device, const Asset& asset, Residuals residuals);
 
-    // Pass "unshadowed": the light of the spheres that are made from now on, and the tuples of points that
-    // nothing shadows.
+    // Records pass "unshadowed": it sets the light of all spheres made from now on, and sums the unshadowed
+    // tuples.
     void recordLight(vk::Commands& commands, const LightPass& light);
 
-    // Pass "spheres": makes those of these kernels for these nodes of the grid that are not there. Draws may
-    // use them at once.
+    // Records pass "spheres": it makes the missing spheres of these kernels and grid nodes, for draws that
+    // follow.
     void record(vk::Commands& commands, std::span<const uint32_t> kernels, const std::set<uint32_t>& nodes);
 
     // Null: terms alone.
@@ -32,14 +33,17 @@ class LitSpheres {
     // The number of a layer's kernel.
     uint32_t kernel(const SphereKernel* layer) const { return mKernelNumbers.at(layer); }
 
-    // A sphere a node and kernel, kSphereAzimuths × kSphereRings. RGBA32F; layers by slots().
+    // A layer for each node and kernel, by slots(): a sphere of kSphereAzimuths × kSphereRings for harmonic 0
+    // of the view's azimuth a, below it two for each other harmonic c, whose products with cos 2ca and -sin
+    // 2ca are added to it. RGBA32F.
     const vk::Image& image() const { return mImage; }
     // uint: the layer of kernel · kGridNodes + node.
     const vk::Buffer& slots() const { return mSlots; }
     // Two vec4 a node: its direction, and the side that azimuth 0 is at.
     const vk::Buffer& grid() const { return mGrid; }
     // Tuples of points that nothing shadows: polar maps about +Y of kTupleAzimuths × kTupleRings normals,
-    // three for each four terms of a set, laid out as tuples are. RGBA32F.
+    // three for each four terms of a set, laid out as tuples are; kTurnedRows for sets of parts with
+    // tangents. RGBA32F.
     const vk::Image& tuples() const { return mTuples; }
     uint32_t firstTuples(const ResidualSet* set) const { return mSets.at(set).firstImage; }
     // Laid out as tuples, in whole quads of terms: ResidualSet::irradianceWeights.
@@ -47,18 +51,23 @@ class LitSpheres {
     uint32_t firstWeight(const ResidualSet* set) const { return mSets.at(set).firstImage; } // in texels
 
     // As they were last made, for tests and `relume verify`. They wait for the device.
-    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node) const; // rings × azimuths
-    std::vector<vec3> readTuples(const ResidualSet* set) const;         // rings × azimuths × terms
+    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node) const; // spheres × rings × azimuths
+    std::vector<vec3> readTuples(const ResidualSet* set) const;         // rows × azimuths × terms
 
   private:
     struct Kernel {
         shared::SpherePush push;
         uint32_t components;
         vk::Buffer values;
+
+        uint32_t parts() const { return 2 * push.harmonics + 1; }
     };
     struct Set {
         uint32_t firstImage, terms, mapping;
         ViewMapTexture lightMaps;
+        uint32_t isTurned; // 0 if the frames of all its parts follow from normals
+
+        uint32_t rows() const { return isTurned ? shared::kTurnedRows : shared::kTupleRings; }
     };
 
     void makePrograms();
@@ -72,15 +81,17 @@ class LitSpheres {
     std::map<const SphereKernel*, uint32_t> mKernelNumbers;
     std::map<const ResidualSet*, Set> mSets;
     std::vector<Kernel> mKernels;
-    vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize, mFrame;
+    vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
     vk::Sampler mSampler, mPolarSampler; // the latter wraps in x
     vk::Buffer mTexels, mLights, mTupleTexels, mGrid, mSlots, mWeights;
-    vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts, mFramed;
+    vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mCubeImage, mImage, mTuples;
     std::vector<vk::Image> mRetired;  // smaller ones of before, which commands that wait may still name
-    std::vector<uint32_t> mSlotTable; // by kernel · kGridNodes + node; kNone
+    std::vector<uint32_t> mSlotTable; // slots(); kNone
     std::vector<uint32_t> mFreeSlots;
     uint32_t mSlotCount = 0;
+    uint32_t mMostParts = 1;                   // of a kernel
+    uint32_t mTupleRows = shared::kTupleRings; // of an image of unshadowed tuples: the most that a set has
 };
 
 } // namespace relume

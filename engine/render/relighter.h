@@ -14,7 +14,7 @@ namespace relume {
 struct RelighterOptions {
     // Bytes of the largest buffer of transport; the device's own limit holds as well.
     uint64_t largestShard = std::numeric_limits<uint64_t>::max();
-    // What K terms leave of BRDFs, by part and set; empty: terms alone.
+    // The residuals by part and set; empty to draw the K terms alone.
     Residuals residuals = {};
 };
 
@@ -38,7 +38,7 @@ class Relighter {
     // vec3 per row, row = vertex · terms + term: what the light gives of a term, the γ of the method.
     const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set]->tuples(); }
 
-    // What materials reflect of the light without shadows. A view makes what it needs.
+    // The unshadowed reflection of the light. A view pass makes the spheres that it needs.
     LitSpheres& spheres() const { return *mSpheres; }
 
     // Those of the last submission. Waits for the device.

@@ -1,5 +1,5 @@
-// What the K terms leave of a BRDF, as data: how much of the light a surface reflects that nothing shadows,
-// by the exact BRDF. Pixels multiply it with what terms say of shadows: docs/residual.md.
+// The residual of a BRDF: kernels that give its exact, unshadowed reflection, which pixels combine with the
+// shadowed K terms (docs/residual.md).
 #pragma once
 
 #include "engine/math/vector.h"
@@ -28,18 +28,19 @@ struct SphereKernel {
     int components() const { return frequencies + 1 + harmonics * (2 * frequencies + 1); }
 };
 
-// Of a set of materials.
+// The residual of a set of materials.
 struct ResidualSet {
-    // By layer of the set's view maps.
+    // One kernel per layer of the set's view maps.
     std::vector<std::shared_ptr<const SphereKernel>> layers;
     // Neither light nor view maps are negative anywhere: ratios of their sums are safe.
-    bool isPositive = false;
+    bool hasNonnegativeTerms = false;
     // a_k per channel: Σ a_k g_k is as near to 1 as light maps come, in least squares over the hemisphere
     // weighted by the cosine. So Σ a_k γ_k is the irradiance of a point.
     std::vector<vec3> irradianceWeights;
 };
 
-// By part, then by its sets; null where terms alone are drawn.
+// Residuals by part, then by set; null where the K terms are drawn alone. Parts may share them, but those
+// with tangents with no others: their unshadowed tuples are laid out differently.
 using Residuals = std::vector<std::vector<std::shared_ptr<const ResidualSet>>>;
 
 } // namespace relume

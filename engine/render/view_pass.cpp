@@ -1,13 +1,19 @@
 #include "engine/render/view_pass.h"
 
 #include "engine/base/error.h"
+#include "engine/render/download_image.h"
+#include "engine/render/footprint.h"
 #include "engine/render/map_texture.h"
 #include "engine/render/numbered_triangles.h"
+#include "engine/render/view_formats.h"
 #include "engine/render/view_grid.h"
 #include "engine/scene/closed_mesh.h"
 #include "engine/vk/upload.h"
+#include "shaders/view_edges_frag.h"
 #include "shaders/view_inspect_frag.h"
+#include "shaders/view_inspect_samples_frag.h"
 #include "shaders/view_shade_frag.h"
+#include "shaders/view_shade_samples_frag.h"
 #include "shaders/view_shade_vert.h"
 #include "shaders/view_surface_frag.h"
 #include "shaders/view_surface_vert.h"
@@ -16,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace relume {
 
@@ -23,18 +30,7 @@ using vk::Stage;
 
 namespace {
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32_UINT;
-
-// Where it is offered 24 bits of depth, since they take half the memory of 32 and as precise where most of a
-// scene is: beyond twice the near plane's distance. One of the two always is.
-VkFormat depthFormatOf(const vk::Device& device) {
-    VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_D24_UNORM_S8_UINT, &properties);
-    return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
-               ? VK_FORMAT_D24_UNORM_S8_UINT
-               : VK_FORMAT_D32_SFLOAT_S8_UINT;
-}
+constexpr uint32_t kEdgeBit = 0x80; // of the stencil, where pixels have several samples
 
 float pixelFraction(const vk::Device& device) {
     return std::exp2(-float(device.limits().subPixelPrecisionBits));
@@ -49,13 +45,27 @@ void expectTexels(const vk::Device& device, uint64_t texels, const std::string& 
                     name, texels, device.name(), device.limits().maxTexelBufferElements, orElse);
 }
 
-// Of what pixels show where the stencil says that they may.
-vk::GraphicsOptions shadeOptions(VkFormat depthFormat) {
-    return {.colorFormat = kColorFormat,
+// Options of passes that shade pixels whose stencil equals the part's value in these bits.
+vk::GraphicsOptions shadeOptions(VkFormat depthFormat, uint32_t stencilBits = 0xff) {
+    return {.colorFormat = kViewColorFormat,
             .depthFormat = depthFormat,
             .depthCompare = VK_COMPARE_OP_ALWAYS,
             .depthWrite = false,
-            .stencil = vk::Stencil::Equal};
+            .stencil = vk::Stencil::Equal,
+            .stencilCompared = stencilBits};
+}
+
+// The most that lit spheres of any layer have; 0 where there are none.
+uint32_t mostHarmonics(const ResidualSet* residual) {
+    int most = 0;
+    if (residual)
+        for (const auto& layer : residual->layers) most = std::max(most, layer->harmonics);
+    return uint32_t(most);
+}
+
+uint32_t estimateOf(const ResidualSet* residual) {
+    if (!residual) return shared::kTermsAlone;
+    return residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference;
 }
 
 template <typename T>
@@ -73,7 +83,8 @@ std::vector<shared::ViewVertex> verticesOf(const Mesh& mesh) {
     vertices.reserve(mesh.vertexCount());
     for (size_t v = 0; v < mesh.vertexCount(); v++)
         vertices.push_back({mesh.positions[v], mesh.normals[v], mesh.uvs.empty() ? vec2(0) : mesh.uvs[v],
-                            mesh.colors.empty() ? vec4(0) : mesh.colors[v]});
+                            mesh.colors.empty() ? vec4(0) : mesh.colors[v],
+                            mesh.tangents.empty() ? vec3(0) : mesh.tangents[v], 0});
     return vertices;
 }
 
@@ -104,38 +115,10 @@ uint32_t lookOf(const std::vector<shared::ViewLayer>& layers) {
     return layers.size() == 1 ? shared::kSingleLook : shared::kLayersLook;
 }
 
-// Where a box may appear, in clip space after division; everywhere if some of it is nearer than the near
-// plane.
-struct Footprint {
-    bool isWhole = true; // none of it is
-    vec2 low = vec2(1), high = vec2(-1);
-};
-
-Footprint footprintOf(const Bounds& bounds, const mat4& clipFromWorld) {
-    Footprint footprint;
-    for (int corner = 0; corner < 8; corner++) {
-        const vec3 point(corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
-                         corner & 4 ? bounds.high.z : bounds.low.z);
-        const vec4 clip = clipFromWorld * vec4(point, 1);
-        if (!(clip.z >= 0 && clip.w > 0)) return {false, vec2(-1), vec2(1)};
-        const vec2 place = vec2(clip) / clip.w;
-        footprint.low = glm::min(footprint.low, place);
-        footprint.high = glm::max(footprint.high, place);
-    }
-    return footprint;
-}
-
 } // namespace
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
-    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(depthFormatOf(device)) {
-    vk::GraphicsOptions surfaces{.colorFormat = kSurfaceFormat, .depthFormat = mDepthFormat};
-    surfaces.stencil = vk::Stencil::Write;
-    surfaces.readsPositions = true;
-    mSurfaceProgram = {device, view_surface_vert_spirv, view_surface_frag_spirv, {}, surfaces, "surfaces"};
-    surfaces.cull = vk::Cull::Clockwise;
-    mClosedSurfaceProgram = {device,   view_surface_vert_spirv, view_surface_frag_spirv, {},
-                             surfaces, "closed surfaces"};
+    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(viewDepthFormat(device)) {
     constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     mPixelSampler = {device, kClamp, kClamp, "view surfaces", VK_FILTER_NEAREST};
     mDiskSampler = {device, kClamp, kClamp, "view maps"};
@@ -148,7 +131,57 @@ ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptio
         firstSurface += mParts.back().surfaces;
     }
     setAppearance(defaultAppearance(asset));
-    resize(options.width, options.height);
+    mSamples = supportedViewSamples(device, mDepthFormat, options.samples);
+    makePrograms();
+    makeImages(options.width, options.height);
+}
+
+void ViewPass::setSamples(int samples) {
+    const int supported = supportedViewSamples(mDevice, mDepthFormat, samples);
+    if (supported == mSamples) return;
+    mSamples = supported;
+    mHasShadePrograms = false;
+    makePrograms();
+    makeImages(int(mColor.options().width), int(mColor.options().height));
+}
+
+void ViewPass::makePrograms() {
+    SamplePrograms& programs = mPrograms[mSamples];
+    if (programs.surfaces.pipeline()) return;
+    vk::GraphicsOptions surfaces{.colorFormat = kViewSurfaceFormat, .depthFormat = mDepthFormat};
+    surfaces.stencil = vk::Stencil::Write;
+    surfaces.readsPositions = true;
+    surfaces.samples = uint32_t(mSamples);
+    programs.surfaces = {mDevice, view_surface_vert_spirv, view_surface_frag_spirv, {}, surfaces, "surfaces"};
+    surfaces.cull = vk::Cull::Clockwise;
+    programs.closedSurfaces = {mDevice,  view_surface_vert_spirv, view_surface_frag_spirv, {},
+                               surfaces, "closed surfaces"};
+    if (mSamples == 1) return;
+    vk::GraphicsOptions edges = shadeOptions(mDepthFormat, kEdgeBit - 1);
+    edges.stencil = vk::Stencil::Replace;
+    edges.stencilWritten = kEdgeBit;
+    edges.writesColor = false;
+    // Constants are numbered as in lib/pixel_samples.glsl.
+    programs.edges = {
+        mDevice, view_shade_vert_spirv, view_edges_frag_spirv, {0, 0, 0, 0, 0, uint32_t(mSamples)},
+        edges,   "view edges"};
+}
+
+void ViewPass::makeShadePrograms(const Relighter& relighter) {
+    for (size_t p = 0; p < mParts.size(); p++)
+        for (size_t s = 0; s < mParts[p].sets.size(); s++) {
+            const ResidualSet* residual = residualOf(p, s, relighter);
+            std::set<uint32_t> harmonics{mostHarmonics(residual)};
+            if (residual)
+                for (const auto& layer : residual->layers) harmonics.insert(uint32_t(layer->harmonics));
+            for (uint32_t look : {shared::kSingleLook, shared::kLayersLook, shared::kSurfaceLook})
+                for (Pixels pixels : {Pixels::All, Pixels::Inner, Pixels::Edges})
+                    for (uint32_t count : harmonics)
+                        if ((pixels == Pixels::All) == (mSamples == 1) &&
+                            (look == shared::kSingleLook || count == *harmonics.rbegin()))
+                            shadeProgram(mParts[p].sets[s],
+                                         {look, true, estimateOf(residual), count, pixels});
+        }
 }
 
 ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface) {
@@ -162,8 +195,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
                     source.name, numbered.positions.size(), mDevice.name(), mostVertices);
     part.drawnPositions = vk::upload<vec3>(mDevice, numbered.positions, source.name + " drawn positions");
     part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
-    expectTexels(mDevice, sizeof(shared::ViewVertex) / sizeof(vec4) * source.mesh.vertexCount(),
-                 source.name + " vertices");
+    expectTexels(mDevice, shared::kVertexTexels * source.mesh.vertexCount(), source.name + " vertices");
     expectTexels(mDevice, source.mesh.triangleCount(), source.name + " triangles");
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
     part.triangles = vk::upload<glm::u32vec4>(mDevice, cornersOf(source.mesh), source.name + " triangles");
@@ -182,6 +214,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
     for (const MaterialSet& set : source.sets) {
         RELUME_CHECK_EQ(size_t(verticesOf(set.transport)), source.mesh.vertexCount());
         part.sets.push_back(makeSet(set, source.name));
+        part.sets.back().hasTangents = !source.mesh.tangents.empty();
         mostLayers = std::max(mostLayers, 2 * set.materials.size());
     }
     part.layers = vk::Buffer(mDevice, mostLayers * sizeof(shared::ViewLayer), vk::BufferUse::Device,
@@ -202,8 +235,6 @@ ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& na
     set.materials = uint32_t(source.materials.size());
     set.mapping = source.brdf.mapping;
     set.viewMaps = makeViewMapTexture(mDevice, source.brdf, name + " view maps");
-    for (uint32_t look : {shared::kSingleLook, shared::kLayersLook, shared::kSurfaceLook})
-        set.programs[look] = &shadeProgram(set.terms, set.viewMaps.isGrey, look);
     return set;
 }
 
@@ -215,50 +246,79 @@ void ViewPass::setAppearance(const Appearance& appearance) {
         part.wornLayers.clear();
         for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
             part.wornLayers.push_back({uint32_t(layer.layer) * wornSet(part).viewMaps.imagesPerLayer,
-                                       layer.channel, layer.textured, layer.weight, 0});
+                                       layer.channel, layer.textured, layer.weight, 0, 0});
         part.look = lookOf(part.wornLayers);
     }
 }
 
-const vk::GraphicsProgram& ViewPass::shadeProgram(uint32_t terms, bool grey, uint32_t look, bool allTerms,
-                                                  uint32_t estimate) {
-    vk::GraphicsProgram& program =
-        mShadePrograms[{terms, uint32_t(grey), look, uint32_t(allTerms), estimate}];
-    if (!program.pipeline())
-        program = vk::GraphicsProgram(mDevice, view_shade_vert_spirv, view_shade_frag_spirv,
-                                      {terms, uint32_t(grey), look, uint32_t(allTerms), estimate},
-                                      shadeOptions(mDepthFormat), fmt::format("view of {} terms", terms));
+const vk::GraphicsProgram& ViewPass::shadeProgram(const Set& set, const Shading& shading) {
+    const bool isOfEdges = shading.pixels == Pixels::Edges;
+    const vk::Constants constants = {set.terms,
+                                     uint32_t(set.viewMaps.isGrey),
+                                     shading.look,
+                                     uint32_t(shading.allTerms),
+                                     shading.estimate,
+                                     uint32_t(mSamples),
+                                     uint32_t(isOfEdges),
+                                     shading.harmonics,
+                                     uint32_t(set.hasTangents)};
+    vk::GraphicsProgram& program = mShadePrograms[constants];
+    if (program.pipeline()) return program;
+    const std::string name = fmt::format("view of {} terms", set.terms);
+    if (shading.pixels == Pixels::All) {
+        program = {mDevice,   view_shade_vert_spirv,      view_shade_frag_spirv,
+                   constants, shadeOptions(mDepthFormat), name};
+        return program;
+    }
+    vk::GraphicsOptions options = shadeOptions(mDepthFormat, isOfEdges ? kEdgeBit : 0xff);
+    options.addsColor = isOfEdges;
+    program = {mDevice,
+               view_shade_vert_spirv,
+               view_shade_samples_frag_spirv,
+               constants,
+               options,
+               name + (isOfEdges ? ", edges" : "")};
     return program;
 }
 
 void ViewPass::resize(int width, int height) {
     RELUME_CHECK(width > 0 && height > 0);
-    vk::ImageOptions options{.format = kColorFormat, .width = uint32_t(width), .height = uint32_t(height)};
+    makeImages(width, height);
+}
+
+void ViewPass::makeImages(int width, int height) {
+    vk::ImageOptions options{
+        .format = kViewColorFormat, .width = uint32_t(width), .height = uint32_t(height)};
     options.usage =
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     mColor = vk::Image(mDevice, options, "view color");
-    options.format = kSurfaceFormat;
+    options.samples = uint32_t(mSamples);
+    options.format = kViewSurfaceFormat;
     options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     mSurfaces = vk::Image(mDevice, options, "view surfaces");
     options.format = mDepthFormat;
     options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     mDepth = vk::Image(mDevice, options, "view depth");
+    mPixelDepth = {};
+    mDrawn.reset();
+    options.samples = 1;
+    if (mSamples > 1) mPixelDepth = vk::Image(mDevice, options, "view depth of pixels");
 }
 
 ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
     const auto width = int(mColor.options().width), height = int(mColor.options().height);
     const vec3 forward = glm::normalize(camera.target - camera.eye);
     // At unit depth, where directions are linear in x and y.
-    const auto centre = [&](int x, int y) {
+    const auto center = [&](int x, int y) {
         const vec3 direction = camera.pixelDirection(x, y, width, height);
         return direction / glm::dot(direction, forward);
     };
     Frame frame;
     frame.clipFromWorld = camera.clipFromWorld(float(width) / float(height), mBounds);
     frame.eye = camera.eye;
-    frame.right = (centre(width, 0) - centre(0, 0)) / float(width);
-    frame.down = (centre(0, height) - centre(0, 0)) / float(height);
-    frame.corner = centre(0, 0) - 0.5f * (frame.right + frame.down);
+    frame.right = (center(width, 0) - center(0, 0)) / float(width);
+    frame.down = (center(0, height) - center(0, 0)) / float(height);
+    frame.corner = center(0, 0) - 0.5f * (frame.right + frame.down);
     frame.pixel = vec2(2 / float(width), 2 / float(height));
     return frame;
 }
@@ -266,7 +326,8 @@ ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
 void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const {
     if (part.surfaces == 0) return;
     const bool showsNoBack = part.isClosed && footprintOf(part.bounds, frame.clipFromWorld).isWhole;
-    commands.bind(showsNoBack ? mClosedSurfaceProgram : mSurfaceProgram, {},
+    const SamplePrograms& programs = mPrograms.at(mSamples);
+    commands.bind(showsNoBack ? programs.closedSurfaces : programs.surfaces, {},
                   shared::ViewSurfacePush{frame.clipFromWorld, part.firstSurface});
     commands.setPositions(part.drawnPositions);
     commands.setStencil(stencilOf(part));
@@ -276,11 +337,11 @@ void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Pa
         commands.drawIndexed(part.drawnTriangles, 3 * run.count, 1, 3 * run.first);
 }
 
-std::optional<shared::ViewRays> ViewPass::raysOf(const Frame& frame, const Part& part) {
-    const Footprint footprint = footprintOf(part.bounds, frame.clipFromWorld);
+std::optional<shared::ViewRays> ViewPass::raysOf(const Frame& frame, const Bounds& bounds) {
+    const Footprint footprint = footprintOf(bounds, frame.clipFromWorld);
     const vec2 low = glm::max(footprint.low - frame.pixel, vec2(-1)),
                high = glm::min(footprint.high + frame.pixel, vec2(1));
-    if (part.surfaces == 0 || low.x >= high.x || low.y >= high.y) return std::nullopt;
+    if (low.x >= high.x || low.y >= high.y) return std::nullopt;
     return shared::ViewRays{frame.eye, frame.corner, frame.right, frame.down,
                             vec4(low.x, low.y, high.x, high.y)};
 }
@@ -289,33 +350,63 @@ void ViewPass::inspect(vk::Commands& commands, const Frame& frame, const Part& p
     static_assert(uint32_t(Inspect::Wireframe) == shared::kInspectWireframe &&
                   uint32_t(Inspect::Normals) == shared::kInspectNormals &&
                   uint32_t(Inspect::Density) == shared::kInspectDensity);
-    const std::optional<shared::ViewRays> rays = raysOf(frame, part);
-    if (!rays) return;
-    if (!mInspectProgram.pipeline()) {
-        mInspectProgram = {mDevice, view_shade_vert_spirv,      view_inspect_frag_spirv,
-                           {},      shadeOptions(mDepthFormat), "inspect"};
+    const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
+    if (!rays || part.surfaces == 0) return;
+    vk::GraphicsProgram& program = mPrograms.at(mSamples).inspect;
+    if (!program.pipeline()) {
+        vk::GraphicsOptions options = shadeOptions(mDepthFormat);
+        if (mSamples > 1) options.stencil = vk::Stencil::None, options.addsColor = true;
+        if (mSamples > 1)
+            program = {mDevice,
+                       view_shade_vert_spirv,
+                       view_inspect_samples_frag_spirv,
+                       {0, 0, 0, 0, 0, uint32_t(mSamples)},
+                       options,
+                       "inspect samples"};
+        else
+            program = {mDevice, view_shade_vert_spirv, view_inspect_frag_spirv, {}, options, "inspect"};
         mMedianArea = medianAreaOf(mAsset);
     }
     commands.bind(
-        mInspectProgram,
+        program,
         {{mSurfaces, mPixelSampler},
          vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
          vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT)},
         shared::ViewInspectPush{*rays, part.firstSurface, part.surfaces, uint32_t(mInspect), mMedianArea});
-    commands.setStencil(stencilOf(part));
+    if (mSamples == 1) commands.setStencil(stencilOf(part));
     commands.draw(6);
 }
 
-const ResidualSet* ViewPass::residualOf(const Part& part, const Relighter& relighter) const {
-    return mAddsResidual ? relighter.spheres().set(size_t(&part - mParts.data()), part.worn.set) : nullptr;
+void ViewPass::markEdges(vk::Commands& commands, const Frame& frame) const {
+    const vk::GraphicsProgram& program = mPrograms.at(mSamples).edges;
+    // Marks edges among the pixels whose first sample has this stencil value.
+    const auto mark = [&](const Part& part, const Bounds& bounds, uint32_t stencil) {
+        const std::optional<shared::ViewRays> rays = raysOf(frame, bounds);
+        if (!rays || part.surfaces == 0) return;
+        commands.bind(
+            program,
+            {{mSurfaces, mPixelSampler}, vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT)},
+            shared::ViewEdgesPush{*rays, part.firstSurface, part.surfaces});
+        commands.setStencil(stencil | kEdgeBit);
+        commands.draw(6);
+    };
+    for (const Part& part : mParts) mark(part, part.bounds, stencilOf(part));
+    // Pixels whose first sample is empty are tested once, with the data of any part.
+    const auto any = std::ranges::find_if(mParts, [](const Part& part) { return part.surfaces > 0; });
+    if (any != mParts.end()) mark(*any, mBounds, 0);
+}
+
+const ResidualSet* ViewPass::residualOf(size_t part, size_t set, const Relighter& relighter) const {
+    return mAddsResidual ? relighter.spheres().set(part, set) : nullptr;
 }
 
 void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const Relighter& relighter) {
     std::set<uint32_t> kernels, nodes;
-    for (Part& part : mParts) {
-        const ResidualSet* residual = residualOf(part, relighter);
-        const std::optional<shared::ViewRays> rays = raysOf(frame, part);
-        if (!residual || !rays || part.wornLayers.empty()) continue;
+    for (size_t i = 0; i < mParts.size(); i++) {
+        Part& part = mParts[i];
+        const ResidualSet* residual = residualOf(i, part.worn.set, relighter);
+        const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
+        if (!residual || !rays || part.surfaces == 0 || part.wornLayers.empty()) continue;
         const vec2 size(float(mColor.options().width), float(mColor.options().height));
         const vec4 rectangle = 0.5f * (rays->rectangle + 1.0f) * vec4(size, size);
         addGridNodes(nodes, rays->corner, rays->right, rays->down, vec2(rectangle),
@@ -324,6 +415,7 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
             const size_t number = layer.firstMap / wornSet(part).viewMaps.imagesPerLayer;
             const uint32_t kernel = relighter.spheres().kernel(residual->layers[number].get());
             layer.firstSlot = kernel * shared::kGridNodes;
+            layer.harmonics = uint32_t(residual->layers[number]->harmonics);
             kernels.insert(kernel);
         }
     }
@@ -331,19 +423,18 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
         relighter.spheres().record(commands, std::vector(kernels.begin(), kernels.end()), nodes);
 }
 
-void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& part,
-                     const Relighter& relighter) {
+void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, const Relighter& relighter,
+                     Pixels pixels) {
+    const Part& part = mParts[number];
     const Set& set = wornSet(part);
     const LitSpheres& spheres = relighter.spheres();
-    const ResidualSet* residual = residualOf(part, relighter);
-    const uint32_t estimate = !residual              ? shared::kTermsAlone
-                              : residual->isPositive ? shared::kResidualRatio
-                                                     : shared::kResidualDifference;
-    const vk::Buffer& tuples = relighter.tuples(size_t(&part - mParts.data()), part.worn.set);
-    const std::optional<shared::ViewRays> rays = raysOf(frame, part);
-    if (!rays) return;
+    const ResidualSet* residual = residualOf(number, part.worn.set, relighter);
+    const vk::Buffer& tuples = relighter.tuples(number, part.worn.set);
+    const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
+    if (!rays || part.surfaces == 0) return;
     const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
     const bool isSingle = part.look == shared::kSingleLook;
+    const bool fades = mGroundFade && mGroundFade->part == number;
     const shared::ViewShadePush push{*rays,
                                      part.firstSurface,
                                      part.surfaces,
@@ -356,10 +447,11 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
                                      usesAll ? set.terms : uint32_t(mTerms),
                                      isSingle ? part.wornLayers[0].firstSlot : 0,
                                      residual ? spheres.firstTuples(residual) : 0,
-                                     residual ? spheres.firstWeight(residual) : 0};
-    commands.bind(usesAll && estimate == shared::kTermsAlone
-                      ? *set.programs[part.look]
-                      : shadeProgram(set.terms, set.viewMaps.isGrey, part.look, usesAll, estimate),
+                                     residual ? spheres.firstWeight(residual) : 0,
+                                     fades ? vec4(mGroundFade->center, mGroundFade->inner, mGroundFade->outer)
+                                           : vec4(0)};
+    const uint32_t harmonics = isSingle && residual ? part.wornLayers[0].harmonics : mostHarmonics(residual);
+    commands.bind(shadeProgram(set, {part.look, usesAll, estimateOf(residual), harmonics, pixels}),
                   {{mSurfaces, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
@@ -375,56 +467,64 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, const Part& par
                    {spheres.tuples(), mPolarSampler},
                    vk::Binding::texelsOf(spheres.weights(), VK_FORMAT_R32G32B32A32_SFLOAT)},
                   push);
-    commands.setStencil(stencilOf(part));
+    commands.setStencil(pixels == Pixels::Edges ? kEdgeBit : stencilOf(part));
     commands.draw(6);
+}
+
+void ViewPass::recordSurfaces(vk::Commands& commands, const Frame& frame) const {
+    commands.transition(mSurfaces, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        Stage::Draw, Stage::Color);
+    const vk::Image* const firstSamples = mSamples > 1 ? &mPixelDepth : nullptr;
+    for (const vk::Image* depth : {&mDepth, firstSamples})
+        if (depth)
+            commands.transition(*depth, VK_IMAGE_LAYOUT_UNDEFINED,
+                                VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, Stage::Color, Stage::Color);
+    commands.render({.color = &mSurfaces, .depth = &mDepth, .firstSamples = firstSamples}, [&] {
+        for (const Part& part : mParts) drawSurfaces(commands, frame, part);
+    });
+    commands.transition(mSurfaces, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Color, Stage::Draw);
 }
 
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const Frame frame = frameOf(camera);
+    if (!std::exchange(mHasShadePrograms, true)) makeShadePrograms(relighter);
     if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)
         if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
     commands.barrier(Stage::Transfer, Stage::Draw);
     commands.pass("view", [&] {
-        commands.transition(mSurfaces, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                            Stage::Draw, Stage::Color);
-        commands.transition(mDepth, VK_IMAGE_LAYOUT_UNDEFINED,
-                            VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, Stage::Color, Stage::Color);
-        commands.render({.color = &mSurfaces, .depth = &mDepth}, [&] {
-            for (const Part& part : mParts) drawSurfaces(commands, frame, part);
-        });
-        commands.transition(mSurfaces, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Color, Stage::Draw);
+        if (mDrawn != frame) {
+            recordSurfaces(commands, frame);
+            mDrawn = frame;
+            mHasMarkedEdges = false;
+        }
         commands.transition(mColor, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             Stage::Transfer, Stage::Color);
         commands.barrier(Stage::Color, Stage::Color);
-        commands.render({.color = &mColor, .depth = &mDepth, .keepsDepth = true}, [&] {
-            for (size_t i = 0; i < mParts.size(); i++)
-                if (mInspect == Inspect::Off)
-                    shade(commands, frame, mParts[i], relighter);
-                else
-                    inspect(commands, frame, mParts[i]);
+        const auto shadeAll = [&](Pixels pixels) {
+            for (size_t i = 0; i < mParts.size(); i++) shade(commands, frame, i, relighter, pixels);
+        };
+        const vk::Image& depth = mSamples > 1 ? mPixelDepth : mDepth;
+        commands.render({.color = &mColor, .depth = &depth, .keepsDepth = true}, [&] {
+            if (mInspect != Inspect::Off) {
+                for (const Part& part : mParts) inspect(commands, frame, part);
+            } else if (mSamples == 1) {
+                shadeAll(Pixels::All);
+            } else {
+                if (!std::exchange(mHasMarkedEdges, true)) markEdges(commands, frame);
+                shadeAll(Pixels::Inner);
+                shadeAll(Pixels::Edges);
+            }
         });
         commands.transition(mColor, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Stage::Color, Stage::Transfer);
     });
 }
 
-Image ViewPass::read() const {
-    Image image(int(mColor.options().width), int(mColor.options().height));
-    const vk::Buffer readback(mDevice, std::span(image.pixels).size_bytes(), vk::BufferUse::Readback,
-                              "view readback");
-    vk::Commands commands(mDevice, "view readback");
-    commands.begin();
-    commands.copy(mColor, readback, 1);
-    commands.barrier(Stage::Transfer, Stage::Host);
-    commands.submitAndWait();
-    const std::span<vec4> pixels = readback.map<vec4>();
-    std::copy(pixels.begin(), pixels.end(), image.pixels.begin());
-    return image;
-}
+Image ViewPass::read() const { return downloadImage(mDevice, mColor); }
 
 Image ViewPass::render(const Camera& camera, const Relighter& relighter) {
     vk::Commands commands(mDevice, "view");

@@ -32,10 +32,10 @@ mat4 Camera::clipFromWorld(float aspect, const Bounds& scene) const {
                                row(zScale * view.forward, -zScale * near), row(view.forward, 0)));
 }
 
-vec3 Camera::pixelDirection(int x, int y, int width, int height) const {
+vec3 Camera::directionAt(vec2 place, int width, int height) const {
     const View view = viewOf(*this);
     const float tangent = std::tan(0.5f * verticalFov), aspect = float(width) / float(height);
-    const float u = (2 * float(x) + 1) / float(width) - 1, v = (2 * float(y) + 1) / float(height) - 1;
+    const float u = 2 * place.x / float(width) - 1, v = 2 * place.y / float(height) - 1;
     return glm::normalize(view.forward + u * tangent * aspect * view.right - v * tangent * view.up);
 }
 

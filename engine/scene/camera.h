@@ -15,7 +15,11 @@ struct Camera {
     mat4 clipFromWorld(float aspect, const Bounds& scene) const;
 
     // Unit direction through the centre of pixel (x, y), y down from the top.
-    vec3 pixelDirection(int x, int y, int width, int height) const;
+    vec3 pixelDirection(int x, int y, int width, int height) const {
+        return directionAt({float(x) + 0.5f, float(y) + 0.5f}, width, height);
+    }
+    // Likewise through any place, in pixels from the upper left corner.
+    vec3 directionAt(vec2 place, int width, int height) const;
 };
 
 // The camera on a sphere about the object that sees all of `bounds`: azimuth and elevation in

@@ -36,4 +36,10 @@ vec3 evaluate(const FactoredBrdf& brdf, vec3 incoming, vec3 outgoing, int layer)
     return sum;
 }
 
+bool isNonnegative(const FactoredBrdf& brdf) {
+    const auto isAtLeastZero = [](vec3 v) { return v.x >= 0 && v.y >= 0 && v.z >= 0; };
+    return std::ranges::all_of(brdf.lightMaps, isAtLeastZero) &&
+           std::ranges::all_of(brdf.viewMaps, isAtLeastZero);
+}
+
 } // namespace relume

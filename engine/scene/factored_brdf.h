@@ -46,4 +46,7 @@ vec3 lookupMap(const vec3* map, int size, DiskMapping mapping, vec3 local);
 // The K-term sum of a layer at a pair of local directions; not clamped, so it can be negative.
 vec3 evaluate(const FactoredBrdf& brdf, vec3 incoming, vec3 outgoing, int layer = 0);
 
+// Returns whether no texel of any map is negative, so that no sum of terms is either.
+bool isNonnegative(const FactoredBrdf& brdf);
+
 } // namespace relume

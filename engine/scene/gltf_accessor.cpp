@@ -129,7 +129,7 @@ std::vector<vec2> readGltfUvs(const tinygltf::Model& model, int index, const std
     return readVectors<vec2>(model, index, TINYGLTF_TYPE_VEC2, 2, name);
 }
 
-std::vector<vec4> readGltfColors(const tinygltf::Model& model, int index, const std::string& name) {
+std::vector<vec4> readGltfFourVectors(const tinygltf::Model& model, int index, const std::string& name) {
     if (accessorAt(model, index, name).type == TINYGLTF_TYPE_VEC3)
         return readVectors<vec4>(model, index, TINYGLTF_TYPE_VEC3, 3, name);
     return readVectors<vec4>(model, index, TINYGLTF_TYPE_VEC4, 4, name);

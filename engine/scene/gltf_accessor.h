@@ -15,8 +15,8 @@ namespace relume {
 std::vector<vec3> readGltfVectors(const tinygltf::Model& model, int index, const std::string& name);
 std::vector<vec2> readGltfUvs(const tinygltf::Model& model, int index, const std::string& name);
 
-// The same of VEC4 or VEC3. What VEC3 does not say is 0: colours serve as weights.
-std::vector<vec4> readGltfColors(const tinygltf::Model& model, int index, const std::string& name);
+// The same of VEC4 or VEC3: colours and tangents. What VEC3 does not say is 0: colours serve as weights.
+std::vector<vec4> readGltfFourVectors(const tinygltf::Model& model, int index, const std::string& name);
 
 // The bytes of buffer view number `index`.
 std::span<const unsigned char> gltfViewBytes(const tinygltf::Model& model, int index,

@@ -125,6 +125,7 @@ class SceneReader {
         Mesh& mesh = mMeshes[std::max(primitive.material, -1)];
         addTriangles(mesh, corners, positions.size(), glm::determinant(glm::dmat3(transform)) < 0);
         addNormals(mesh, primitive, positions.size(), glm::dmat3(transform));
+        addTangents(mesh, primitive, positions.size(), glm::dmat3(transform));
         addAttributes(mesh, primitive, positions.size());
         for (const vec3& p : positions) mesh.positions.push_back(vec3(transform * glm::dvec4(p, 1)));
     }
@@ -163,6 +164,25 @@ class SceneReader {
         }
     }
 
+    // Adds zeros where the file has no tangents, or none that can be read: few materials need them.
+    void addTangents(Mesh& mesh, const tinygltf::Primitive& primitive, size_t count,
+                     const glm::dmat3& linear) const {
+        const auto found = primitive.attributes.find("TANGENT");
+        std::vector<vec4> tangents;
+        try {
+            if (found != primitive.attributes.end())
+                tangents = readGltfFourVectors(mModel, found->second, mName);
+        } catch (const Error& unreadable) {
+            spdlog::warn("{}; brushed materials do without its tangents", unreadable.what());
+        }
+        tangents.resize(count, vec4(0));
+        for (const vec4& tangent : tangents) {
+            const dvec3 turned = linear * dvec3(tangent);
+            const double length = glm::length(turned);
+            mesh.tangents.push_back(length > 0 ? vec3(turned / length) : vec3(0));
+        }
+    }
+
     void addAttributes(Mesh& mesh, const tinygltf::Primitive& primitive, size_t count) const {
         const GltfWish wish = mWishes(std::max(primitive.material, -1));
         const auto uv = primitive.attributes.find(fmt::format("TEXCOORD_{}", wish.uvSet));
@@ -173,7 +193,7 @@ class SceneReader {
         }
         const auto color = primitive.attributes.find("COLOR_0");
         if (wish.attributes.colors && color != primitive.attributes.end()) {
-            std::vector<vec4> colors = readGltfColors(mModel, color->second, mName);
+            std::vector<vec4> colors = readGltfFourVectors(mModel, color->second, mName);
             colors.resize(count, vec4(0));
             mesh.colors.insert(mesh.colors.end(), colors.begin(), colors.end());
         }

@@ -21,8 +21,9 @@ struct GltfWish {
 using GltfWishes = std::function<GltfWish(int material)>;
 
 // The default scene (or the first) as one mesh for each material number, node transforms applied, unchecked
-// but for indices. A mesh has a normal of length zero where the file has none, and fewer uvs or colors than
-// vertices where a primitive lacks what is wished for. Throws Error, in which `name` stands for the file.
+// but for indices. A mesh has a normal or tangent of length zero where the file has none, and fewer uvs or
+// colors than vertices where a primitive lacks what is wished for. Throws Error, in which `name` stands for
+// the file.
 std::map<int, Mesh> readGltfGeometry(const tinygltf::Model& model, const GltfWishes& wishes,
                                      const std::string& name);
 

@@ -8,6 +8,7 @@ namespace relume {
 struct GroundOptions {
     int tessellation = 148; // Quads a side: 149² = 22,201 vertices, the paper's ground for the bunny.
     float extent = 3.0f;    // Side, in units of the object's largest horizontal or vertical extent.
+    bool isStart = false;   // Whether refinement is to add vertices: nobody asked for this tessellation.
 };
 
 // Quads a side of a ground that is refined, unless it says its own.

@@ -40,6 +40,11 @@ Bounds boundsOf(const Mesh& mesh) {
     return bounds;
 }
 
+TangentFrame frameOf(const Mesh& mesh, size_t vertex) {
+    const vec3 normal = mesh.normals[vertex];
+    return mesh.tangents.empty() ? tangentFrame(normal) : tangentFrame(normal, mesh.tangents[vertex]);
+}
+
 void makeNormals(Mesh& mesh) {
     // In double precision: squared areas of tiny meshes vanish in single.
     std::vector<dvec3> sums(mesh.vertexCount(), dvec3(0));
@@ -71,6 +76,7 @@ void reorderVertices(Mesh& mesh, std::span<const uint32_t> order) {
     reorder(mesh.normals, order);
     reorder(mesh.uvs, order);
     reorder(mesh.colors, order);
+    reorder(mesh.tangents, order);
 }
 
 void append(Mesh& mesh, const Mesh& other) {
@@ -80,6 +86,7 @@ void append(Mesh& mesh, const Mesh& other) {
     appendAttribute(mesh.normals, count, other.normals, otherCount);
     appendAttribute(mesh.uvs, count, other.uvs, otherCount);
     appendAttribute(mesh.colors, count, other.colors, otherCount);
+    appendAttribute(mesh.tangents, count, other.tangents, otherCount);
     mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
     mesh.triangles.reserve(mesh.triangleCount() + other.triangleCount());
     for (const uvec3& triangle : other.triangles) mesh.triangles.push_back(triangle + first);

@@ -1,7 +1,7 @@
 // Triangle meshes, as every stage sees them: welded, validated, with unit normals.
 #pragma once
 
-#include "engine/math/vector.h"
+#include "engine/math/tangent_frame.h"
 
 #include <limits>
 #include <span>
@@ -15,6 +15,8 @@ struct Mesh {
     std::vector<uvec3> triangles;  // Counter-clockwise seen from outside; indices into positions.
     std::vector<vec2> uvs = {};    // Empty or one per position: (0, 0) is an image's top left, v goes down.
     std::vector<vec4> colors = {}; // Empty or one per position: linear, in [0, 1].
+    // Empty or one per position, unit length and orthogonal to the normal: s of the vertex's frame.
+    std::vector<vec3> tangents = {};
 
     size_t vertexCount() const { return positions.size(); }
     size_t triangleCount() const { return triangles.size(); }
@@ -41,13 +43,17 @@ struct Bounds {
 
 Bounds boundsOf(const Mesh& mesh);
 
+// Returns the frame that a vertex's transport is baked in: of its tangent, or of its normal if the mesh has
+// none.
+TangentFrame frameOf(const Mesh& mesh, size_t vertex);
+
 // Fills `normals` by summing face normals weighted with the corner's angle (Thürmer and Wüthrich 1998).
 void makeNormals(Mesh& mesh);
 
 // Makes vertex order[i] vertex i, with all its attributes. Triangles are the caller's to renumber.
 void reorderVertices(Mesh& mesh, std::span<const uint32_t> order);
 
-// Appends `other`'s vertices and triangles; normals, uvs and colors are kept only if both meshes have them.
+// Appends `other`'s vertices and triangles; attributes are kept only if both meshes have them.
 void append(Mesh& mesh, const Mesh& other);
 
 } // namespace relume

@@ -75,7 +75,20 @@ void normaliseNormals(Mesh& mesh, const std::string& name) {
     mesh.normals.clear();
 }
 
-// Gives vertices that are equal the number of the first of them.
+// Makes tangents unit length and orthogonal to the normals, or drops all of them if none is a direction.
+// A single one that is not gives way to the s of the normal's frame.
+void normaliseTangents(Mesh& mesh) {
+    const auto isDirection = [](vec3 t) { return isFinite(t) && glm::dot(t, t) > 1e-12f; };
+    if (mesh.tangents.size() != mesh.vertexCount() || std::ranges::none_of(mesh.tangents, isDirection))
+        mesh.tangents.clear();
+    for (size_t i = 0; i < mesh.tangents.size(); i++) {
+        const vec3 tangent = mesh.tangents[i];
+        mesh.tangents[i] =
+            tangentFrame(mesh.normals[i], isDirection(tangent) ? glm::normalize(tangent) : vec3(0)).s;
+    }
+}
+
+// Gives vertices that are equal the number of the first of them, whose tangent all have from then on.
 void weld(Mesh& mesh) {
     // Adding zero turns the negative zero, which is equal but has other bits, into the positive one.
     for (vec3& position : mesh.positions) position += 0.0f;
@@ -140,6 +153,7 @@ Mesh cleanUp(Mesh mesh, const std::string& name) {
     if (std::max({extent.x, extent.y, extent.z}) < kSmallestExtent)
         throw Error("{}: is less than {:g} units across: scale it up before export", name, kSmallestExtent);
     if (mesh.normals.empty()) makeNormals(mesh);
+    normaliseTangents(mesh);
     return mesh;
 }
 

@@ -35,6 +35,7 @@ bool isGltf(const std::filesystem::path& path) {
 void turnZUp(Mesh& mesh) {
     for (vec3& p : mesh.positions) p = {p.x, p.z, -p.y};
     for (vec3& n : mesh.normals) n = {n.x, n.z, -n.y};
+    for (vec3& t : mesh.tangents) t = {t.x, t.z, -t.y};
 }
 
 Mesh decodeMesh(std::span<const std::byte> bytes, const std::filesystem::path& path, UpAxis up,

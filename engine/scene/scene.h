@@ -14,6 +14,8 @@ namespace relume {
 
 enum class UpAxis { Y, Z };
 
+constexpr float kLargestBrushRotation = 36000; // degrees, either way
+
 // One surface. Its transform is already applied to the mesh.
 struct Part {
     std::string name;
@@ -27,6 +29,8 @@ struct Part {
     bool paintedByColors = false;              // Whether mesh.colors are these weights instead.
     std::filesystem::path materialFolder = {}; // Where relative paths in `material` start.
     std::vector<InputFile> textureFiles = {};  // What the textures came from, unless `source` holds them.
+    float brushRotation = 0;    // Degrees that tangents are turned by about the normals, counter-clockwise.
+    bool keepsVertices = false; // Whether automatic refinement leaves it: its tessellation was asked for.
 };
 
 // What a part is painted with.

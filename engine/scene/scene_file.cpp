@@ -40,6 +40,7 @@ void transform(Mesh& mesh, vec3 translation, vec3 degrees, float scale, const st
                         kLargestCoordinate);
     }
     for (vec3& normal : mesh.normals) normal = glm::normalize(rotation * normal);
+    for (vec3& tangent : mesh.tangents) tangent = rotation * tangent;
 }
 
 PartPaint readPaint(const JsonObject& node, const std::filesystem::path& folder) {
@@ -58,8 +59,9 @@ void renameParts(std::vector<Part>& parts, const std::string& name) {
 }
 
 std::vector<Part> readParts(const Json& json, const std::string& place, const std::filesystem::path& folder) {
-    static constexpr std::string_view kKeys[] = {"name",  "mesh",     "up",         "translate",   "rotate",
-                                                 "scale", "material", "base_color", "material_map"};
+    static constexpr std::string_view kKeys[] = {"name",         "mesh",          "up",       "translate",
+                                                 "rotate",       "scale",         "material", "base_color",
+                                                 "material_map", "brush_rotation"};
     const JsonObject node(json, place, kKeys);
     const std::string mesh = node.text("mesh", "");
     if (mesh.empty()) node.fail("mesh", "a mesh file, or one of sphere, torus, knot, plane");
@@ -75,7 +77,12 @@ std::vector<Part> readParts(const Json& json, const std::string& place, const st
     const std::string source = isBuiltinMesh(mesh) ? mesh : (folder / mesh).string();
     std::vector<Part> parts = loadParts(source, up == "z" ? UpAxis::Z : UpAxis::Y, material, paint);
     renameParts(parts, node.text("name", ""));
-    for (Part& part : parts) transform(part.mesh, translation, degrees, scale, place);
+    const float brushRotation =
+        node.number("brush_rotation", 0, -kLargestBrushRotation, kLargestBrushRotation);
+    for (Part& part : parts) {
+        transform(part.mesh, translation, degrees, scale, place);
+        part.brushRotation = brushRotation;
+    }
     return parts;
 }
 
@@ -87,6 +94,7 @@ void readGround(const Json& json, const std::string& place, GroundOptions option
     const float quads = node.number("tessellation", float(options.tessellation), 1, kMostGroundQuads);
     if (quads != std::floor(quads)) node.fail("tessellation", "a whole number");
     options.tessellation = int(quads);
+    if (node.find("tessellation")) options.isStart = false;
     options.extent = node.number("extent", options.extent, kSmallestGroundExtent, kLargestGroundExtent);
     addGround(scene, options, materialOf(node).value_or("white-diffuse"));
 }

@@ -9,7 +9,7 @@ namespace relume {
 constexpr ChunkTag kMeta = chunkTag("META");
 constexpr ChunkTag kOccluderPositions = chunkTag("OPOS"), kOccluderTriangles = chunkTag("OTRI");
 constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), kTriangles = chunkTag("MTRI"),
-                   kUvs = chunkTag("MUVS"), kColors = chunkTag("MCOL");
+                   kUvs = chunkTag("MUVS"), kColors = chunkTag("MCOL"), kTangents = chunkTag("MTAN");
 constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
@@ -34,6 +34,7 @@ void forEachArray(const Asset& asset, const Array& array, const Transport& trans
         array(kTriangles, number, part.mesh.triangles);
         array(kUvs, number, part.mesh.uvs);
         array(kColors, number, part.mesh.colors);
+        array(kTangents, number, part.mesh.tangents);
         if (part.baseColor) array(kBaseColor, number, part.baseColor->texels);
         if (part.materialMap) array(kMaterialMap, number, part.materialMap->texels);
         for (const MaterialSet& set : part.sets) {

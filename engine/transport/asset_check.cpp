@@ -72,6 +72,14 @@ void checkMesh(const Mesh& mesh, const std::string& where) {
     expectCount(mesh.normals.size(), mesh.vertexCount(), where, "normals");
     expect(std::ranges::all_of(mesh.normals, [](vec3 n) { return std::abs(glm::dot(n, n) - 1.0f) <= 2e-3f; }),
            where, "normals of length 1 within 0.001");
+    if (mesh.tangents.empty()) return;
+    expectCount(mesh.tangents.size(), mesh.vertexCount(), where, "tangents");
+    for (size_t i = 0; i < mesh.vertexCount(); i++) {
+        const vec3 tangent = mesh.tangents[i];
+        expect(std::abs(glm::dot(tangent, tangent) - 1.0f) <= 2e-3f &&
+                   std::abs(glm::dot(tangent, mesh.normals[i])) <= 1e-3f,
+               where, "tangents of length 1, orthogonal to the normals, within 0.001");
+    }
 }
 
 void checkBrdf(const FactoredBrdf& brdf, const std::string& where) {

@@ -19,7 +19,8 @@ namespace relume {
 namespace {
 
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
-constexpr ChunkTag kPartTags[] = {kPositions, kNormals, kTriangles, kUvs, kColors, kBaseColor, kMaterialMap};
+constexpr ChunkTag kPartTags[] = {kPositions, kNormals,  kTriangles, kUvs,
+                                  kColors,    kTangents, kBaseColor, kMaterialMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
 constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport, kClusters, kBases};
 
@@ -157,6 +158,7 @@ void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& size
     part.mesh.triangles = readArray<uvec3>(file, kTriangles, number, sizes.triangles);
     part.mesh.uvs = readArray<vec2>(file, kUvs, number, sizes.uvs);
     part.mesh.colors = readArray<vec4>(file, kColors, number, sizes.colors);
+    part.mesh.tangents = readArray<vec3>(file, kTangents, number, sizes.tangents);
     const auto readTexels = [&](ChunkTag tag, Texture& texture) {
         texture.texels = readArray<uint32_t>(file, tag, number, texture.texelCount());
     };

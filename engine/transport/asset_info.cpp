@@ -49,6 +49,7 @@ Json describePart(const AssetPart& part) {
     if (part.baseColor) json["base_color"] = {part.baseColor->width, part.baseColor->height};
     if (part.materialMap) json["material_map"] = {part.materialMap->width, part.materialMap->height};
     if (part.paintedByColors) json["material_map"] = "colors";
+    if (!part.mesh.tangents.empty()) json["tangents"] = true;
     json["sets"] = Json::array();
     for (const MaterialSet& set : part.sets) json["sets"].push_back(describeSet(set));
     return json;
@@ -94,10 +95,11 @@ std::string describeRefinement(const Json& record) {
     };
     const double error = number("error"), from = number("start_vertices"), to = number("vertices");
     if (error < 0 || from < 0 || to < 0) return "";
+    const bool isAuto = record.contains("auto") && record["auto"] == true;
     return fmt::format(
-        "interpolation between vertices: {:.2f} % of reflected light as estimated, meshes refined "
+        "interpolation between vertices: {:.2f} % of reflected light{} as estimated, meshes refined "
         "from {:.0f} to {:.0f} vertices",
-        100 * error, from, to);
+        100 * error, isAuto ? " of the parts that came coarse" : "", from, to);
 }
 
 Json describeApproximations(const Asset& asset) {
@@ -122,9 +124,11 @@ Json describeApproximations(const Asset& asset) {
                 : fmt::format("{:g} % being asked for", 100 * asset.layout->wantedError.value_or(0))));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
-            list.push_back(fmt::format("BRDF of {}: {} terms, maps of {} x {}{}", part.name, set.brdf.terms,
-                                       set.brdf.size, set.brdf.size,
-                                       set.brdf.layers > 1 ? ", light maps shared in a set" : ""));
+            list.push_back(fmt::format(
+                "BRDF of {}: {} terms, maps of {} x {}{}; what they leave of it is added, unshadowed, "
+                "when it is drawn",
+                part.name, set.brdf.terms, set.brdf.size, set.brdf.size,
+                set.brdf.layers > 1 ? ", light maps shared in a set" : ""));
     if (asset.provenance.bakedShare)
         list.push_back(fmt::format("preview: {:.0f} % of the vertices are baked, the others interpolated",
                                    100 * *asset.provenance.bakedShare));

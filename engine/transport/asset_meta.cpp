@@ -129,6 +129,7 @@ Json partJson(const AssetPart& part, std::span<const uint64_t>& setEntries) {
                  {"uvs", !part.mesh.uvs.empty()},
                  {"colors", !part.mesh.colors.empty()},
                  {"paintedByColors", part.paintedByColors}};
+    if (!part.mesh.tangents.empty()) json["tangents"] = true;
     if (part.baseColor) json["baseColor"] = textureJson(*part.baseColor);
     if (part.materialMap) json["materialMap"] = textureJson(*part.materialMap);
     json["sets"] = Json::array();
@@ -184,6 +185,7 @@ void readPart(const Reader& in, AssetMeta& meta) {
     sizes.triangles = in.whole("triangles", 1, kAnyCount);
     sizes.uvs = in.boolean("uvs") ? sizes.vertices : 0;
     sizes.colors = in.boolean("colors") ? sizes.vertices : 0;
+    sizes.tangents = in.has("tangents") && in.boolean("tangents") ? sizes.vertices : 0;
     part.paintedByColors = in.boolean("paintedByColors");
     if (in.has("baseColor")) part.baseColor = textureOf(in.object("baseColor"));
     if (in.has("materialMap")) part.materialMap = textureOf(in.object("materialMap"));

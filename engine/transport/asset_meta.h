@@ -16,7 +16,7 @@ constexpr size_t kVisibilityKeyDigits = 32; // XXH3-128, in hexadecimal
 
 // How long a part's arrays are.
 struct AssetPartSizes {
-    uint64_t vertices = 0, triangles = 0, uvs = 0, colors = 0;
+    uint64_t vertices = 0, triangles = 0, uvs = 0, colors = 0, tangents = 0;
 };
 
 // An asset whose arrays are still empty, and how long they are. The sizes of maps, textures and transport are

@@ -253,6 +253,12 @@ void Commands::render(const RenderTarget& target, const std::function<void()>& d
         depth.loadOp = target.keepsDepth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
         depth.storeOp = withStencil ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
         depth.clearValue.depthStencil = {1, 0};
+        if (target.firstSamples) {
+            depth.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
+            depth.resolveImageView = target.firstSamples->view();
+            depth.resolveImageLayout = depth.imageLayout;
+            depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        }
         rendering.pDepthAttachment = &depth;
         if (withStencil) rendering.pStencilAttachment = &depth;
     }

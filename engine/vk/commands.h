@@ -45,8 +45,9 @@ enum class Stage { Compute, Transfer, Color, Draw, Host };
 
 struct RenderTarget {
     const Image* color = nullptr;
-    const Image* depth = nullptr; // may be null; with its stencil, if it has one
-    bool keepsDepth = false;      // as it was drawn before; else cleared to 1, the stencil to 0
+    const Image* depth = nullptr;        // may be null; with its stencil, if it has one
+    bool keepsDepth = false;             // as it was drawn before; else cleared to 1, the stencil to 0
+    const Image* firstSamples = nullptr; // takes those of `depth` and its stencil in the end; may be null
     std::array<float, 4> clear{0, 0, 0, 0};
     uint32_t layers = 1;
 };

@@ -14,7 +14,7 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
     create.extent = {options.width, options.height, 1};
     create.mipLevels = 1;
     create.arrayLayers = options.layers;
-    create.samples = VK_SAMPLE_COUNT_1_BIT;
+    create.samples = VkSampleCountFlagBits(options.samples);
     create.tiling = VK_IMAGE_TILING_OPTIMAL;
     create.usage = options.usage;
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};

@@ -8,7 +8,8 @@ namespace relume::vk {
 struct ImageOptions {
     VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
     uint32_t width = 1, height = 1;
-    uint32_t layers = 1; // Always viewed as a 2D array
+    uint32_t layers = 1;  // Always viewed as a 2D array
+    uint32_t samples = 1; // of a pixel: a power of two
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 };
 

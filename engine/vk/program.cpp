@@ -166,24 +166,29 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     if (options.cull == Cull::Clockwise) raster.cullMode = VK_CULL_MODE_BACK_BIT; // front: counter-clockwise
     VkPipelineMultisampleStateCreateInfo multisample{
         VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    multisample.rasterizationSamples = VkSampleCountFlagBits(options.samples);
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = options.depthFormat != VK_FORMAT_UNDEFINED &&
                             (options.depthWrite || options.depthCompare != VK_COMPARE_OP_ALWAYS);
     depth.depthWriteEnable = depth.depthTestEnable && options.depthWrite;
     depth.depthCompareOp = options.depthCompare;
     depth.stencilTestEnable = options.stencil != Stencil::None;
-    depth.front.compareMask = 0xff;
-    if (options.stencil == Stencil::Write) {
-        depth.front.compareOp = VK_COMPARE_OP_ALWAYS;
+    depth.front.compareMask = options.stencilCompared;
+    depth.front.compareOp = options.stencil == Stencil::Write ? VK_COMPARE_OP_ALWAYS : VK_COMPARE_OP_EQUAL;
+    if (options.stencil == Stencil::Write || options.stencil == Stencil::Replace) {
         depth.front.passOp = VK_STENCIL_OP_REPLACE;
-        depth.front.writeMask = 0xff;
-    } else
-        depth.front.compareOp = VK_COMPARE_OP_EQUAL;
+        depth.front.writeMask = options.stencilWritten;
+    }
     depth.back = depth.front;
     VkPipelineColorBlendAttachmentState blend{};
-    blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                           VK_COLOR_COMPONENT_A_BIT;
+    if (options.writesColor)
+        blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                               VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    if (options.addsColor) {
+        blend.blendEnable = VK_TRUE;
+        blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    }
     VkPipelineColorBlendStateCreateInfo blending{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blending.attachmentCount = 1;
     blending.pAttachments = &blend;

@@ -48,8 +48,9 @@ class ComputeProgram : public Program {
                    std::string_view name, Subgroups subgroups = Subgroups::Any);
 };
 
-// What becomes of the stencil where a fragment is drawn: it is Commands::setStencil()'s value, or must be.
-enum class Stencil { None, Write, Equal };
+// The use of the stencil, with Commands::setStencil()'s value: Write stores it, Equal requires it, Replace
+// requires it in `stencilCompared` bits and stores it in `stencilWritten` bits.
+enum class Stencil { None, Write, Equal, Replace };
 
 enum class Cull { None, Clockwise }; // which triangles, as they are seen, are not drawn
 
@@ -59,8 +60,12 @@ struct GraphicsOptions {
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
     bool depthWrite = true; // false where all depths compare: no depth test
     Cull cull = Cull::None;
-    Stencil stencil = Stencil::None; // else the depth format must have one
-    bool readsPositions = false;     // attribute 0 is a vec3 of Commands::setPositions()
+    Stencil stencil = Stencil::None;                        // else the depth format must have one
+    uint32_t stencilCompared = 0xff, stencilWritten = 0xff; // bits
+    bool readsPositions = false; // attribute 0 is a vec3 of Commands::setPositions()
+    uint32_t samples = 1;        // of each pixel of what is drawn on
+    bool writesColor = true;
+    bool addsColor = false; // to what is there; else replaces it
 };
 
 // A vertex and a fragment shader drawing triangle lists, viewport and scissor dynamic,

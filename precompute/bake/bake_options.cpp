@@ -20,6 +20,8 @@ static void expectOneOf(const char* option, int value, const char* names, std::i
 
 int defaultCoefficients(TransportLayout layout) { return layout == TransportLayout::Rows ? 96 : 384; }
 
+FactorizationOptions defaultFactorization() { return {.terms = 8, .method = Factorization::NonNegative}; }
+
 void BakeOptions::validate() const {
     expectRange("--terms", factorization.terms, 1, kMaxTerms);
     expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);

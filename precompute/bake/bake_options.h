@@ -14,10 +14,13 @@ namespace relume {
 // N where none is named: what rows of the paper have; what others are made from may be as good as it can.
 int defaultCoefficients(TransportLayout layout);
 
+// Returns the default: the best pictures with the residual, for their bytes and time (docs/residual.md).
+FactorizationOptions defaultFactorization();
+
 struct BakeOptions {
     LayoutOptions layout;
     // K, 1 to 32, and how they are found. At most so many: a diffuse part needs a single one.
-    FactorizationOptions factorization;
+    FactorizationOptions factorization = defaultFactorization();
     int coefficients = defaultCoefficients(TransportLayout::Bases); // N, 1 to 6 F²
     int mapSize = 48;                                               // S, 4 to 64
     DiskMapping mapping = DiskMapping::EqualArea;

@@ -6,9 +6,11 @@
 #include "engine/transport/asset_meta.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/content_hash.h"
+#include "precompute/bake/tangents.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/bake/vertex_order.h"
 #include "precompute/bake/visibility_key.h"
+#include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/conversion.h"
@@ -16,7 +18,9 @@
 #include "precompute/refine/refinement.h"
 #include "precompute/visibility/occluder.h"
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
@@ -50,6 +54,7 @@ nlohmann::json describeInputs(const Scene& scene) {
     auto inputs = nlohmann::json::array();
     for (const Part& part : scene.parts) {
         inputs.push_back({{"name", part.name}, {"file", part.source}, {"hash", part.sourceHash}});
+        if (part.brushRotation != 0) inputs.back()["brush_rotation"] = part.brushRotation;
         for (const InputFile& texture : part.textureFiles)
             inputs.push_back({{"name", part.name}, {"file", texture.file}, {"hash", texture.hash}});
     }
@@ -70,8 +75,42 @@ void prepareTransport(BakePlan& plan) {
         }
 }
 
-void makeParts(std::vector<Part> parts, BakePlan& plan) {
+// Tells brushed parts from others. Each BRDF is made once: that of measured data reads a file.
+class BrushedParts {
+  public:
+    bool has(const AssetPart& part) {
+        bool isAny = false;
+        for (const MaterialSet& set : part.sets)
+            for (const AssetMaterial& material : set.materials) isAny |= !isIsotropic(material.description);
+        return isAny;
+    }
+
+  private:
+    bool isIsotropic(const std::string& description) {
+        const auto [known, isNew] = mKnown.emplace(description, true);
+        if (isNew) known->second = makeBrdf(description)->isIsotropic();
+        return known->second;
+    }
+
+    std::map<std::string, bool> mKnown;
+};
+
+// Only anisotropic materials follow tangents: the frames of others follow from their normals, of which what
+// nothing shadows is a function (docs/residual.md).
+void setTangents(AssetPart& part, float brushRotation, BrushedParts& brushed, BakeObserver& observer) {
+    if (!brushed.has(part)) {
+        part.mesh.tangents.clear();
+        if (brushRotation != 0)
+            spdlog::warn("{}: the brush rotation changes nothing; none of its materials is brushed "
+                         "(ashikhmin-shirley or ggx with two different widths)",
+                         part.name);
+    } else if (!makeTangents(part.mesh, brushRotation, [&] { return observer.wantsStop(); }))
+        throw BakeStopped("stopped");
+}
+
+void makeParts(std::vector<Part> parts, BakePlan& plan, BakeObserver& observer) {
     const BakeOptions& options = plan.options;
+    BrushedParts brushed;
     MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
     for (Part& part : parts) {
         std::vector<MaterialSet> sets =
@@ -80,15 +119,35 @@ void makeParts(std::vector<Part> parts, BakePlan& plan) {
                                     std::move(part.baseColor), std::move(part.materialMap),
                                     part.paintedByColors});
         checkPaint(plan.asset.parts.back());
+        setTangents(plan.asset.parts.back(), part.brushRotation, brushed, observer);
     }
 }
 
+// Returns the goal of --refine ERROR (all parts) or of --refine auto (coarse parts).
+RefinementGoal goalOf(const RefinementRecord& record, const Scene& scene) {
+    if (!record.isAuto) return {.wanted = record.wanted};
+    RefinementGoal goal{.wanted = record.wanted, .isRefined = std::vector<bool>(scene.parts.size(), false)};
+    uint64_t given = 0;
+    for (size_t i = scene.parts.size(); i-- > 0;) { // the ground comes last, and must be among them
+        const Part& part = scene.parts[i];
+        const uint64_t vertices = part.mesh.vertexCount();
+        if (part.keepsVertices || vertices >= kCoarseVertices || given + vertices > kMostAutoGiven) continue;
+        goal.isRefined[i] = true;
+        given += vertices;
+    }
+    goal.mostVertices = given + kMostAutoVertices;
+    return goal;
+}
+
 // The occluder stays what it was: the same surface, with fewer triangles.
-void refineMeshes(BakePlan& plan, BakeObserver& observer) {
+void refineMeshes(const RefinementGoal& goal, BakePlan& plan, BakeObserver& observer) {
     Asset& asset = plan.asset;
     RefinementRecord& record = *plan.options.refinement;
-    record = refine(asset.parts, asset.occluder, asset.visibilityOffset, record.wanted, observer);
-    for (AssetPart& part : asset.parts) orderVertices(part.mesh);
+    const bool isAuto = record.isAuto;
+    record = refine(asset.parts, asset.occluder, asset.visibilityOffset, goal, observer);
+    record.isAuto = isAuto;
+    for (size_t number = 0; number < asset.parts.size(); number++)
+        if (goal.isRefined.empty() || goal.isRefined[number]) orderVertices(asset.parts[number].mesh);
     observer.refined(record);
 }
 
@@ -179,12 +238,17 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     asset.occluder = std::move(occluder.mesh);
     plan.occluderSeconds = secondsSince(stage);
 
+    RefinementGoal goal;
+    if (options.refinement) goal = goalOf(*options.refinement, scene);
+    if (!goal.isRefined.empty() && std::ranges::count(goal.isRefined, true) == 0)
+        plan.options.refinement.reset(); // nothing is coarse
+
     stage = Clock::now();
     observer.stage(BakeStage::Factorisation, "");
-    makeParts(std::move(scene.parts), plan);
+    makeParts(std::move(scene.parts), plan, observer);
     plan.factorisationSeconds = secondsSince(stage);
 
-    if (options.refinement) refineMeshes(plan, observer);
+    if (plan.options.refinement) refineMeshes(goal, plan, observer);
     finish(plan);
     return plan;
 }
@@ -205,12 +269,14 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     const Clock::time_point stage = Clock::now();
     observer.stage(BakeStage::Factorisation, "");
     MaterialFactory factory(options.factorization, options.mapSize, options.mapping);
+    BrushedParts brushed;
     for (size_t number = 0; number < plan.asset.parts.size(); number++) {
         AssetPart& part = plan.asset.parts[number];
         if (materials[number].empty() && isFactoredSo) continue;
         const std::string text = materials[number].empty() ? materialsOf(part) : materials[number];
         part.sets = factory.make(text, {}, part.baseColor.has_value());
         checkPaint(part);
+        if (part.mesh.tangents.empty() || !brushed.has(part)) setTangents(part, 0, brushed, observer);
     }
     plan.factorisationSeconds = secondsSince(stage);
     finish(plan);

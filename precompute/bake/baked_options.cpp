@@ -5,6 +5,7 @@
 #include "precompute/layout/conversion.h"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -54,13 +55,14 @@ class OptionReader {
         };
         const auto count = [&](const char* key) {
             const double vertices = number(key);
-            if (vertices > double(kMostRefinedVertices) || vertices != std::floor(vertices))
-                fail(fmt::format("\"refinement\": \"{}\": expected a whole number up to {}", key,
-                                 kMostRefinedVertices));
+            constexpr uint32_t kMost = std::numeric_limits<uint32_t>::max();
+            if (vertices > double(kMost) || vertices != std::floor(vertices))
+                fail(fmt::format("\"refinement\": \"{}\": expected a whole number up to {}", key, kMost));
             return uint64_t(vertices);
         };
-        return RefinementRecord{number("wanted_error"), number("start_error"), number("error"),
-                                count("start_vertices"), count("vertices")};
+        return RefinementRecord{number("wanted_error"), number("start_error"),
+                                number("error"),        count("start_vertices"),
+                                count("vertices"),      value.contains("auto") && value["auto"] == true};
     }
 
     // `parse` gives an std::optional, empty for a name it does not know.
@@ -122,12 +124,14 @@ std::string describeOptions(const BakeOptions& options) {
         {"occluder_triangles", options.occluderTriangles},
         {"visibility", visibilityMethodName(*options.visibilityMethod)},
         {"vertex_order", kVertexOrder}};
-    if (const auto& refinement = options.refinement)
+    if (const auto& refinement = options.refinement) {
         description["refinement"] = {{"wanted_error", refinement->wanted},
                                      {"start_error", refinement->startError},
                                      {"error", refinement->error},
                                      {"start_vertices", refinement->startVertices},
                                      {"vertices", refinement->vertices}};
+        if (refinement->isAuto) description["refinement"]["auto"] = true;
+    }
     return description.dump();
 }
 

@@ -46,7 +46,7 @@ struct CoarseNeighbours::Search {
 CoarseNeighbours::Point CoarseNeighbours::pointOf(const Mesh& mesh, uint32_t vertex) const {
     const vec3 p = mesh.positions[vertex] * mScale, normal = mesh.normals[vertex];
     // Rows are of light maps in the vertex's frame: where frames turn, so do they.
-    const vec3 n = normal * kNormalWeight, s = tangentFrame(normal).s * kNormalWeight;
+    const vec3 n = normal * kNormalWeight, s = frameOf(mesh, vertex).s * kNormalWeight;
     return {{p.x, p.y, p.z, n.x, n.y, n.z, s.x, s.y, s.z}, normal, 0};
 }
 

@@ -69,7 +69,9 @@ void compareInputs(const Provenance& first, const Provenance& other, std::vector
         if (textOf(one, "file") != file)
             found.push_back(pair("input", textOf(one, "file"), file));
         else
-            found.push_back(fmt::format("input {}: its content", quoted(file)));
+            found.push_back(
+                fmt::format("input {}: its {}", quoted(file),
+                            textOf(one, "hash") == textOf(two, "hash") ? "brush rotation" : "content"));
     }
     if (found.size() == before) found.push_back(pair("inputs", first.inputs, other.inputs));
 }
@@ -107,7 +109,7 @@ void compareArrays(const ShardFile& first, const ShardFile& other, std::vector<s
         };
         return checksums(first) != checksums(other);
     };
-    if (differ({kPositions, kNormals, kTriangles, kUvs, kColors})) found.push_back("the meshes");
+    if (differ({kPositions, kNormals, kTriangles, kUvs, kColors, kTangents})) found.push_back("the meshes");
     if (differ({kBaseColor, kMaterialMap})) found.push_back("the textures");
     if (differ({kOccluderPositions, kOccluderTriangles})) found.push_back("the occluder");
     if (differ({kLightMaps, kViewMaps, kEigenvalues})) found.push_back("the materials' factors");

@@ -24,6 +24,7 @@ BakePlan planOfVertices(const BakePlan& plan, std::span<const std::vector<uint32
         for (const uint32_t vertex : chosen[number]) {
             fewer.mesh.positions.push_back(part.mesh.positions[vertex]);
             fewer.mesh.normals.push_back(part.mesh.normals[vertex]);
+            if (!part.mesh.tangents.empty()) fewer.mesh.tangents.push_back(part.mesh.tangents[vertex]);
         }
         const auto vertices = uint32_t(fewer.mesh.vertexCount());
         for (uint32_t first = 0; first < vertices; first += plan.blockVertices)

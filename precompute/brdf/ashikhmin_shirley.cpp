@@ -24,6 +24,8 @@ class AshikhminShirley final : public Brdf {
         return diffuse(liftAboveHorizon(incoming), liftAboveHorizon(outgoing));
     }
 
+    bool isIsotropic() const override { return mExponentU == mExponentV; }
+
     nlohmann::json describe() const override {
         return {{"model", "ashikhmin-shirley"},
                 {"kd", colourToJson(mDiffuse)},

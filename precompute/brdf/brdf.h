@@ -26,6 +26,9 @@ class Brdf {
     // Whether f(ωi, ωo) = f(ωo, ωi) by construction.
     virtual bool isReciprocal() const { return true; }
 
+    // Returns whether a turn of both directions about the normal changes nothing.
+    virtual bool isIsotropic() const { return true; }
+
     // {"model": NAME, every parameter…}, or of measured data {"measured": PATH, "scale": s, "hash": h}:
     // makeBrdf of it gives the same BRDF.
     virtual nlohmann::json describe() const = 0;

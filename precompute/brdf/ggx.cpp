@@ -18,6 +18,8 @@ class GgxConductor final : public Brdf {
                (mFacets.distribution(half) * mFacets.visibility(wi, wo));
     }
 
+    bool isIsotropic() const override { return mFacets.alphaU == mFacets.alphaV; }
+
     nlohmann::json describe() const override {
         return {{"model", "ggx"},
                 {"f0", colourToJson(mReflectance)},

@@ -34,6 +34,10 @@ class Lafortune final : public Brdf {
 
     vec3 evaluateBase(vec3, vec3) const override { return mDiffuse / kPi; }
 
+    bool isIsotropic() const override {
+        return std::ranges::all_of(mLobes, [](const Lobe& lobe) { return lobe.x == lobe.y; });
+    }
+
     nlohmann::json describe() const override {
         nlohmann::json lobes = nlohmann::json::array();
         for (const Lobe& lobe : mLobes)

@@ -12,7 +12,8 @@ using Eigen::VectorXf;
 
 namespace {
 
-constexpr int kSweeps = 60; // the error falls by less than a thousandth over the last twenty
+constexpr float kLeastValue = 1e-5f; // of the largest, that a term of the matrix has at least
+constexpr int kSweeps = 60;          // the error falls by less than a thousandth over the last twenty
 
 using Blocks = std::vector<MatrixXf>;
 
@@ -71,10 +72,26 @@ void normalise(LowRank& factors) {
     for (MatrixXf& block : factors.right) block = block(Eigen::all, order).eval();
 }
 
+// Appends terms of zeros.
+LowRank padded(LowRank factors, int terms) {
+    const auto widen = [&](MatrixXf& columns) {
+        columns.conservativeResizeLike(MatrixXf::Zero(columns.rows(), terms));
+    };
+    widen(factors.left);
+    for (MatrixXf& block : factors.right) widen(block);
+    factors.values.conservativeResizeLike(VectorXf::Zero(terms));
+    return factors;
+}
+
 } // namespace
 
 LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
     LowRank factors = lowRank(blocks, terms);
+    // A matrix of rank 1 or 2 has a nonnegative factorization of as many terms (Cohen, Rothblum: Nonnegative
+    // ranks, 1993); more terms would only split these.
+    const Index count = (factors.values.array() > kLeastValue * factors.values[0]).count();
+    const Index rank = std::max<Index>(count, 1); // what is black has a term of zeros
+    if (rank <= 2 && rank < terms) return padded(nonNegativeLowRank(blocks, int(rank)), terms);
     for (Index k = 0; k < terms; k++) startFromHalf(factors, k);
     for (int round = 0; round < kSweeps; round++) {
         const MatrixXf leftGram = factors.left.transpose() * factors.left;

@@ -115,7 +115,7 @@ void CpuBaker::bake(std::span<const shared::BakePoint> points, std::span<SparseT
             CpuBakeTimes& times = result->times;
             times.rays += mVisibility.trace(task[i].origin, task[i].normal, own.bits);
             times.visibility += clock.lap();
-            mTransport.evaluate(task[i].normal, own.bits, own.coefficients);
+            mTransport.evaluate(tangentFrame(task[i].normal, task[i].tangent), own.bits, own.coefficients);
             times.transport += clock.lap();
             mTransport.transform(own.coefficients);
             times.haar += clock.lap();

@@ -206,8 +206,8 @@ CpuCoefficients CpuTransport::makeWorkspace() const {
     return workspace;
 }
 
-void CpuTransport::evaluate(vec3 normal, std::span<const uint64_t> bits, CpuCoefficients& result) const {
-    const TangentFrame frame = tangentFrame(normal);
+void CpuTransport::evaluate(const TangentFrame& frame, std::span<const uint64_t> bits,
+                            CpuCoefficients& result) const {
     if (result.stride == 4)
         evaluateBlocks<4>(frame, bits, result);
     else

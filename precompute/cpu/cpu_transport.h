@@ -55,7 +55,7 @@ class CpuTransport {
     // Light map · cosine · solid angle · visible fraction, summed over each lighting texel, for the texels of
     // the blocks that see anything: transportVector in precompute/reference/transport_stages.h. `bits` as
     // CpuVisibility gives them.
-    void evaluate(vec3 normal, std::span<const uint64_t> bits, CpuCoefficients& result) const;
+    void evaluate(const TangentFrame& frame, std::span<const uint64_t> bits, CpuCoefficients& result) const;
 
     // Then haarFaces, in place, with what selection wants to know of every block.
     void transform(CpuCoefficients& result) const;

@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 #include "precompute/error/error_grid.h"
 #include "precompute/error/layout_costs.h"
+#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 #include <chrono>
@@ -142,20 +143,20 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     options.factorization.terms = kMaxTerms;
     const BakePlan plan = planBake(device, scene, options, observer);
     const Appearance appearance = defaultAppearance(plan.asset);
-    const LightVector vector =
-        makeLightVector(sampleLight(light.light, plan.asset.faceSize), light.selection);
+    GridLight gridLight{{}, sampleLight(light.light, plan.asset.faceSize)};
+    gridLight.drawn = makeLightVector(gridLight.cube, light.selection);
     const std::vector<SeenPoints> points = seenPoints(plan.asset, request.points);
     const std::vector<vec3> exact =
         exactRadiance(plan.asset, appearance, points, light.fine, shareOf(report, 0, 0.2));
-    const ErrorGrid grid =
-        errorGrid(plan.asset, appearance, points, exact, vector, shareOf(report, 0.2, 0.8));
+    const ErrorGrid grid = errorGrid(plan.asset, appearance, makeResiduals(plan.asset), points, exact,
+                                     gridLight, shareOf(report, 0.2, 0.8));
 
     MeshAdvice advice;
     advice.vertices = plan.vertices();
     for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
     advice.bases =
-        adviseBases(device, request, scene, grid, vector, points, observer, shareOf(report, 0.8, 1));
+        adviseBases(device, request, scene, grid, gridLight.drawn, points, observer, shareOf(report, 0.8, 1));
     if (advice.bases) *advice.bases->seconds += secondsBefore;
     if (advice.rows && advice.bases) // which take as long for a term
         advice.rows->seconds = *advice.bases->seconds * advice.rows->options.factorization.terms /
@@ -202,8 +203,7 @@ const AdvisedBake* Advice::best() const { return bestOf(bestMesh()); }
 Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLight& light,
               BakeObserver& observer, const Report& report) {
     if (request.options.factorization.method == Factorization::NonNegative)
-        throw UsageError("advise: terms of factorization \"nonnegative\" are only good together, so that no "
-                         "number of them can be advised; choose another factorization");
+        request.options.factorization.method = Factorization::Environment;
     request.options.layout = {};
     request.options.coefficients = defaultCoefficients(TransportLayout::Bases);
     request.options.factorization.wantedError.reset();

@@ -47,8 +47,9 @@ struct Advice {
 };
 
 // Looks at the object from four sides, default appearance. Takes minutes. Meshes of more than
-// kMostRefinedVertices are left as they are. Throws UsageError for Factorization::NonNegative, whose terms
-// are only good together, and as planBake() and StageTracer do.
+// kMostRefinedVertices are left as they are. Terms of Factorization::NonNegative are only good together:
+// Environment's are tried in their place, with what they leave (residual.h). Throws as planBake() and
+// StageTracer do.
 Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLight& light,
               BakeObserver& observer, const std::function<void(double)>& progress = {});
 

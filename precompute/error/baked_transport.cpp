@@ -26,7 +26,7 @@ void BakedTransport::forEachTerm(size_t part, uint32_t vertex, const FactoredBrd
                                  const std::function<void(size_t, const std::vector<vec3>&)>& use) const {
     const Mesh& mesh = mAsset.parts[part].mesh;
     const vec3 normal = mesh.normals[vertex];
-    const std::vector<LitCell> cells = lit(visibility(mesh.positions[vertex], normal), tangentFrame(normal));
+    const std::vector<LitCell> cells = lit(visibility(mesh.positions[vertex], normal), frameOf(mesh, vertex));
     const std::vector<MapPlace> places = placesOf(cells, brdf.size, brdf.mapping);
     for (int term = 0; term < brdf.terms; term++) {
         std::vector<vec3> transport = transportOf(cells, places, brdf.lightMap(term), mLighting.count());

@@ -20,6 +20,7 @@ class BakedTransport {
     // Bits of the occluder's visibility, from as high above the point as the bake's are, in the order of
     // CpuVisibility. `normal` is unit.
     std::vector<uint64_t> visibility(vec3 position, vec3 normal) const;
+    size_t visibilityWords() const { return mVisibility.texels() / 64; }
     // Of such bits, of a point with this frame.
     std::vector<LitCell> lit(std::span<const uint64_t> visibility, const TangentFrame& frame) const;
 

@@ -2,10 +2,11 @@
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"
-#include "precompute/error/baked_transport.h"
 #include "precompute/error/shared_progress.h"
+#include "precompute/error/unshadowed_light.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/reference/vertex_views.h"
+#include "precompute/residual/irradiance_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,12 +123,42 @@ class VertexLadders {
     std::map<Key, std::vector<Ladder>> mLadders;
 };
 
+const FactoredBrdf& wornFactors(const Asset& asset, const Appearance& appearance, size_t part) {
+    return asset.parts[part].sets[appearance[part].set].brdf;
+}
+
 // Per term.
 std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size_t part,
                           const SurfacePoint& point) {
-    const PartAppearance& worn = appearance[part];
-    return pointViews(asset.parts[part].sets[worn.set].brdf, wornLayers(asset.parts[part], worn),
+    return pointViews(wornFactors(asset, appearance, part), wornLayers(asset.parts[part], appearance[part]),
                       point.layerWeights(), point.outgoing);
+}
+
+// Interpolated, per term.
+std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, const RayHit& hit, size_t rung,
+                          size_t terms) {
+    const uvec3 corners = asset.parts[hit.mesh].mesh.triangles[hit.triangle];
+    std::vector<vec3> tuple(terms, vec3(0));
+    for (int corner = 0; corner < 3; corner++) {
+        const std::vector<Ladder>& ladders = vertices.at(hit.mesh, corners[corner]);
+        for (size_t term = 0; term < terms; term++)
+            tuple[term] += hit.weights[corner] * ladders[term].tuples[rung];
+    }
+    return tuple;
+}
+
+// Returns the residuals of the part's bound set cut to its first 1, 2, … K terms; empty if terms are drawn
+// alone.
+std::vector<ResidualSet> residualsOfPrefixes(const Asset& asset, const Appearance& appearance,
+                                             const Residuals& residuals, size_t part) {
+    if (residuals.empty() || !residuals[part][appearance[part].set]) return {};
+    FactoredBrdf factors = wornFactors(asset, appearance, part);
+    std::vector<ResidualSet> prefixes;
+    for (; factors.terms > 0; factors.terms--) {
+        factors.lightMaps.resize(size_t(factors.terms) * factors.mapTexels());
+        prefixes.push_back({{}, false, irradianceWeights(factors)});
+    }
+    return {prefixes.rbegin(), prefixes.rend()};
 }
 
 } // namespace
@@ -162,13 +193,14 @@ std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance
     return radiance;
 }
 
-ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
-                    std::span<const vec3> exact, const LightVector& light,
+ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
+                    std::span<const SeenPoints> points, std::span<const vec3> exact, const GridLight& light,
                     const std::function<void(double)>& progress) {
     const std::vector<SeenPoint> list = listPoints(points);
     RELUME_CHECK_EQ(list.size(), exact.size());
     RELUME_CHECK(!list.empty());
-    RELUME_CHECK_EQ(light.faceSize, asset.faceSize);
+    RELUME_CHECK_EQ(light.drawn.faceSize, asset.faceSize);
+    RELUME_CHECK_EQ(light.cube.size, asset.faceSize);
 
     ErrorGrid grid;
     grid.shares.assign(asset.parts.size(), 0);
@@ -177,7 +209,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         grid.terms = std::max(grid.terms, terms);
         grid.entries.emplace_back(size_t(terms));
     }
-    VertexLadders vertices(asset, appearance, light);
+    VertexLadders vertices(asset, appearance, light.drawn);
     for (const SeenPoint& seen : list) {
         const uvec3 corners = asset.parts[seen.hit->mesh].mesh.triangles[seen.hit->triangle];
         for (int corner = 0; corner < 3; corner++) vertices.add(seen.hit->mesh, corners[corner]);
@@ -193,24 +225,36 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
     vertices.addEntries(grid);
 
     MaterialBrdfs brdfs;
-    const DressedAsset dressed(asset, appearance, ReferenceBrdf::Factored, brdfs);
+    const DressedAsset dressed(asset, appearance, ReferenceBrdf::Exact, brdfs);
+    const BakedTransport transport(asset);
+    const std::span<const vec3> cube(light.cube.radiance);
+    std::vector<std::vector<ResidualSet>> prefixes;
+    for (size_t part = 0; part < asset.parts.size(); part++)
+        prefixes.push_back(residualsOfPrefixes(asset, appearance, residuals, part));
     double level = 0;
     grid.errors.resize(size_t(grid.terms));
     for (size_t i = 0; i < list.size(); i++) {
         const RayHit& hit = *list[i].hit;
-        const std::vector<vec3> views =
-            viewsAt(asset, appearance, hit.mesh, dressed.pointAt(hit, list[i].eye));
-        const uvec3 corners = asset.parts[hit.mesh].mesh.triangles[hit.triangle];
-        std::array<vec3, kRungs> radiance{};
-        for (size_t term = 0; term < size_t(grid.terms); term++)
+        const SurfacePoint point = dressed.pointAt(hit, list[i].eye);
+        const std::vector<vec3> views = viewsAt(asset, appearance, hit.mesh, point);
+        const std::vector<ResidualSet>& ofPrefixes = prefixes[hit.mesh];
+        UnshadowedLight unshadowed;
+        if (!ofPrefixes.empty())
+            unshadowed =
+                sumUnshadowed(transport, point, wornFactors(asset, appearance, hit.mesh), {&cube, 1}).front();
+        std::array<std::vector<vec3>, kRungs> tuples;
+        for (size_t rung = 0; rung < kRungs; rung++)
+            tuples[rung] = tupleAt(vertices, asset, hit, rung, views.size());
+        for (size_t terms = 1; terms <= size_t(grid.terms); terms++) {
+            const size_t own = std::min(terms, views.size());
+            const ResidualSet* residual = ofPrefixes.empty() ? nullptr : &ofPrefixes[own - 1];
             for (size_t rung = 0; rung < kRungs; rung++) {
-                if (term < views.size())
-                    for (int corner = 0; corner < 3; corner++)
-                        radiance[rung] += hit.weights[corner] * views[term] *
-                                          vertices.at(hit.mesh, corners[corner])[term].tuples[rung];
-                const glm::dvec3 error = glm::dvec3(glm::max(radiance[rung], vec3(0))) - glm::dvec3(exact[i]);
-                grid.errors[term][rung] += glm::dot(error, error);
+                const vec3 radiance = estimateRadiance(residual, std::span(views).first(own),
+                                                       std::span(tuples[rung]).first(own), unshadowed);
+                const glm::dvec3 error = glm::dvec3(radiance) - glm::dvec3(exact[i]);
+                grid.errors[terms - 1][rung] += glm::dot(error, error);
             }
+        }
         level += glm::dot(glm::dvec3(exact[i]), glm::dvec3(exact[i]));
         grid.shares[hit.mesh] += 1 / double(list.size());
     }

@@ -1,6 +1,7 @@
 // What error images would have, over K and N, predicted from a sample of points without a bake.
 #pragma once
 
+#include "engine/render/residual.h"
 #include "precompute/error/stage_radiance.h"
 
 namespace relume {
@@ -32,12 +33,18 @@ struct ErrorGrid {
     std::vector<double> shares; // of the points, per part
 };
 
+// The light of a grid: its selected entries, and the cube that they are selected from.
+struct GridLight {
+    LightVector drawn;
+    LightCube cube; // F texels a side
+};
+
 // `asset` has meshes, occluder and factored materials, those of the most terms to be tried; its transport is
-// not looked at. Throws Error where `exact` is black. Factors are nested: the first K terms are those of a
-// factorization into K (Factorization::NonNegative's are not). `light`: what is drawn under. `exact`: of the
-// points. On all cores; the same input gives the same grid.
-ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
-                    std::span<const vec3> exact, const LightVector& light,
+// not looked at. Parts and sets that have a residual are drawn with it. Throws Error where `exact` is black.
+// Factors are nested: the first K terms are those of a factorization into K (Factorization::NonNegative's are
+// not). `exact`: of the points. On all cores; the same input gives the same grid.
+ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
+                    std::span<const SeenPoints> points, std::span<const vec3> exact, const GridLight& light,
                     const std::function<void(double)>& progress = {});
 
 } // namespace relume

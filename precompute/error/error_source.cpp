@@ -8,6 +8,7 @@ struct Words {
     std::string_view title, name;
 };
 constexpr std::array<Words, kErrorSources> kWords = {{
+    {"drawing (lit spheres)", "drawing"},
     {"light selection", "light_selection"},
     {"storage", "storage"},
     {"wavelet truncation (N)", "truncation"},

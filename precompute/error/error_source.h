@@ -8,6 +8,8 @@
 namespace relume {
 
 enum class ErrorSource {
+    Drawing,         // what the device's image is off its recomputation: light without shadows looked up in
+                     // lit spheres instead of summed (residual.h), and rounding
     LightSelection,  // coefficients of the light that are dropped, and the 16 bits of those that are kept
     Storage,         // 11/11/10 bits of transport; of clusters and bases, all that they lose against rows
     Truncation,      // keeping N wavelet coefficients of a row
@@ -19,7 +21,7 @@ enum class ErrorSource {
     Occluder,        // shadows of the baked occluder, from the height that it asks for
     Visibility,      // V × V rays a face
 };
-constexpr size_t kErrorSources = 10;
+constexpr size_t kErrorSources = 11;
 
 // In a few words, for tables; and as an identifier, for files.
 std::string_view errorSourceTitle(ErrorSource source);

@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/render/view_pass.h"
 #include "precompute/error/low_order_light.h"
+#include "precompute/residual/residuals.h"
 
 #include <cmath>
 
@@ -12,10 +13,11 @@ namespace {
 
 // The device's images, one a light.
 std::vector<Image> draw(const vk::Device& device, const Asset& asset, const Appearance& appearance,
-                        std::span<const StudiedLight> lights, const ErrorView& look) {
+                        std::span<const StudiedLight> lights, const Residuals& residuals,
+                        const ErrorView& look) {
     LightPass lightPass(device, asset.faceSize);
-    Relighter relighter(device, asset);
-    ViewPass view(device, asset, {look.width, look.height});
+    Relighter relighter(device, asset, {.residuals = residuals});
+    ViewPass view(device, asset, {look.width, look.height, 1});
     view.setAppearance(appearance);
     std::vector<Image> images;
     for (const StudiedLight& studied : lights) {
@@ -29,17 +31,6 @@ std::vector<Image> draw(const vk::Device& device, const Asset& asset, const Appe
         images.push_back(view.read());
     }
     return images;
-}
-
-double differenceOf(const Image& image, const ViewPoints& points, std::span<const StageRadiance> stages,
-                    double level) {
-    double sum = 0;
-    for (size_t i = 0; i < points.pixels.size(); i++) {
-        const glm::dvec3 difference =
-            glm::dvec3(vec3(image.pixels[points.pixels[i]])) - glm::dvec3(stages[i][0]);
-        sum += glm::dot(difference, difference);
-    }
-    return level > 0 ? std::sqrt(sum / (3 * double(stages.size()))) / level : 0;
 }
 
 // Adds passes until the noise is small against the error of `study.drawn`, and says what came of it.
@@ -108,7 +99,8 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
     if (points.hits.empty())
         throw UsageError("none of {} x {} pixels shows the asset: choose another view", view.width,
                          view.height);
-    const std::vector<Image> drawn = draw(device, asset, appearance, lights, view);
+    const Residuals residuals = options.residual ? makeResiduals(asset) : Residuals();
+    const std::vector<Image> drawn = draw(device, asset, appearance, lights, residuals, view);
 
     std::vector<StageLight> stageLights;
     for (const StudiedLight& studied : lights)
@@ -121,16 +113,18 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
         if (progress) progress(kStagesShare * share);
     };
     std::vector<std::vector<StageRadiance>> stages =
-        StageTracer(asset, appearance).trace(points.hits, view.camera.eye, stageLights, stagesProgress);
+        StageTracer(asset, appearance, residuals)
+            .trace(points.hits, view.camera.eye, stageLights, stagesProgress);
 
     ProgressiveReference reference(asset);
     for (size_t i = 0; i < lights.size(); i++) {
         ErrorStudy& study = studies.lights.emplace_back();
         study.stages = std::move(stages[i]);
-        study.budget = errorBudget(study.stages);
         study.drawn = drawn[i];
-        study.drawnAside = differenceOf(study.drawn, points, study.stages, study.budget.level);
-        reference.restart(view.camera, lights[i].fine, appearance, view.width, view.height);
+        for (size_t point = 0; point < points.pixels.size(); point++)
+            study.stages[point][0] = vec3(study.drawn.pixels[points.pixels[point]]);
+        study.budget = errorBudget(study.stages);
+        reference.restart(view.camera, lights[i].fine, appearance, view.width, view.height, 1);
         const double done = kStagesShare + (1 - kStagesShare) * double(i) / double(lights.size());
         const auto afterPass = [&] {
             if (progress) progress(done);

@@ -30,14 +30,13 @@ struct LowOrderStudy {
 
 // Of one light. Root mean squares relative to that of the truth.
 struct ErrorStudy {
-    std::vector<StageRadiance> stages; // per point
+    std::vector<StageRadiance> stages; // per point; the first are the pixels of `drawn`
     ErrorBudget budget;
     Image drawn;     // by the device
     Image reference; // sampled (ProgressiveReference), linear
     int passes = 0;
     double measured = 0;   // drawn against the reference, free of the reference's noise
     double noise = 0;      // standard error of the reference
-    double drawnAside = 0; // drawn against the first stage: what the twin of drawing misses
     double truthAside = 0; // the last stage against the reference, free of its noise
     std::optional<LowOrderStudy> lowOrder;
 };
@@ -51,6 +50,7 @@ struct ErrorStudyOptions {
     ErrorView view;
     int mostPasses = 512; // of the reference, added until its noise is a tenth of the measured error; 0: none
     int lowOrder = 0;     // of LowOrderStudy; 0: none
+    bool residual = true; // what K terms leave of BRDFs is added
 };
 
 // One view under several lights, which share all rays. Throws Error. `progress` as StageTracer::trace().

@@ -57,18 +57,20 @@ struct StageTracer::Tuples {
 struct StageTracer::Wear {
     const FactoredBrdf* brdf;
     std::vector<WornLayer> layers;
-    std::vector<vec3> weights; // of the layers
-    std::vector<vec3> views;   // per term: view maps times weights, summed
+    std::vector<vec3> weights;   // of the layers
+    std::vector<vec3> views;     // per term: view maps times weights, summed
+    const ResidualSet* residual; // null: terms alone
 };
 
 struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
 };
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const BakeOptions& options)
-    : mAsset(asset), mAppearance(appearance), mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs),
-      mBaked(asset), mTruth(kTruthFaceSize), mFull(mergedMesh(asset), asset.visibilitySize),
-      mFullFine(mergedMesh(asset), kTruthVisibility),
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
+                         const BakeOptions& options)
+    : mAsset(asset), mAppearance(appearance), mResiduals(residuals),
+      mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs), mBaked(asset), mTruth(kTruthFaceSize),
+      mFull(mergedMesh(asset), asset.visibilitySize), mFullFine(mergedMesh(asset), kTruthVisibility),
       mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {
     for (size_t part = 0; part < asset.parts.size(); part++)
         mTables.emplace_back(asset.parts[part].sets[appearance[part].set],
@@ -76,8 +78,8 @@ StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const
                              mBrdfs);
 }
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance)
-    : StageTracer(asset, appearance, optionsOf(asset)) {}
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals)
+    : StageTracer(asset, appearance, residuals, optionsOf(asset)) {}
 
 StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
@@ -116,54 +118,77 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
 StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& point) const {
     const AssetPart& part = mAsset.parts[number];
     const FactoredBrdf& brdf = part.sets[mAppearance[number].set].brdf;
-    Wear wear{&brdf, wornLayers(part, mAppearance[number]), point.layerWeights(), {}};
+    const ResidualSet* residual =
+        mResiduals.empty() ? nullptr : mResiduals[number][mAppearance[number].set].get();
+    Wear wear{&brdf, wornLayers(part, mAppearance[number]), point.layerWeights(), {}, residual};
     wear.views = pointViews(brdf, wear.layers, wear.weights, point.outgoing);
     return wear;
 }
 
-void StageTracer::traceVertices(const RayHit& hit, const SurfacePoint& point, const Vertices& vertices,
-                                std::span<const Light> lights, std::span<StageRadiance> result) const {
-    const Wear wear = wearAt(hit.mesh, point);
+std::vector<UnshadowedLight> StageTracer::unshadowedAt(const SurfacePoint& point, const Wear& wear,
+                                                       std::span<const Light> lights) const {
+    if (!wear.residual) return std::vector<UnshadowedLight>(lights.size());
+    std::vector<std::span<const vec3>> cubes;
+    for (const Light& light : lights) cubes.emplace_back(light.coarse);
+    return sumUnshadowed(mBaked, point, *wear.brdf, cubes);
+}
+
+void StageTracer::traceVertices(const RayHit& hit, const Wear& wear,
+                                std::span<const UnshadowedLight> unshadowed, const Vertices& vertices,
+                                std::span<StageRadiance> result) const {
     const size_t terms = wear.views.size();
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
-    for (size_t light = 0; light < lights.size(); light++)
+    constexpr size_t kFirst = size_t(ErrorSource::Drawing) + 1;
+    std::vector<vec3> tuple(terms);
+    for (size_t light = 0; light < result.size(); light++) {
         for (size_t stage = 0; stage < Tuples::kStages; stage++) {
-            vec3 radiance(0);
+            std::ranges::fill(tuple, vec3(0));
             for (int corner = 0; corner < 3; corner++) {
                 const Tuples& tuples = vertices.tuples.at(vertexKey(hit.mesh, corners[corner]));
                 const vec3* of = &tuples.values[(light * Tuples::kStages + stage) * terms];
-                for (size_t term = 0; term < terms; term++)
-                    radiance += hit.weights[corner] * wear.views[term] * of[term];
+                for (size_t term = 0; term < terms; term++) tuple[term] += hit.weights[corner] * of[term];
             }
-            result[light][stage] = glm::max(radiance, vec3(0));
+            result[light][kFirst + stage] =
+                estimateRadiance(wear.residual, wear.views, tuple, unshadowed[light]);
         }
+        result[light][0] = result[light][kFirst];
+    }
 }
 
 // The point's own transport: of the K terms, then of the whole table, then of the BRDF itself.
-void StageTracer::traceOwnTransport(size_t number, const SurfacePoint& point, std::span<const uint64_t> baked,
-                                    std::span<const Light> lights, std::span<StageRadiance> result) const {
-    const Wear wear = wearAt(number, point);
+void StageTracer::traceOwnTransport(size_t number, const SurfacePoint& point, const Wear& wear,
+                                    std::span<const UnshadowedLight> unshadowed,
+                                    std::span<const uint64_t> baked, std::span<const Light> lights,
+                                    std::span<StageRadiance> result) const {
     const FactoredBrdf& brdf = *wear.brdf;
     const std::vector<LitCell> lit = mBaked.lit(baked, point.frame);
     const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
     const std::vector<vec3> table = mTables[number].lightMap(wear.layers, wear.weights, point.outgoing);
 
-    constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 3;
+    constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 2;
+    const size_t terms = wear.views.size();
+    std::vector<glm::dvec3> tuples(lights.size() * terms);
     std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
     for (size_t i = 0; i < lit.size(); i++) {
-        vec3 factored(0);
-        for (size_t term = 0; term < wear.views.size(); term++)
-            factored += wear.views[term] * lookupMap(brdf.lightMap(int(term)), places[i]);
-        const std::array<vec3, kStages> reflected = {factored, lookupMap(table.data(), places[i]),
+        for (size_t term = 0; term < terms; term++) {
+            const vec3 map = lit[i].weight * lookupMap(brdf.lightMap(int(term)), places[i]);
+            for (size_t light = 0; light < lights.size(); light++)
+                tuples[light * terms + term] += glm::dvec3(map * lights[light].coarse[lit[i].texel]);
+        }
+        const std::array<vec3, kStages> reflected = {lookupMap(table.data(), places[i]),
                                                      point.reflected(lit[i].local)};
         for (size_t light = 0; light < lights.size(); light++)
             for (size_t stage = 0; stage < kStages; stage++)
                 sums[light][stage] +=
                     glm::dvec3(lit[i].weight * reflected[stage] * lights[light].coarse[lit[i].texel]);
     }
-    for (size_t light = 0; light < lights.size(); light++)
+    for (size_t light = 0; light < lights.size(); light++) {
+        const auto first = tuples.begin() + std::ptrdiff_t(light * terms);
+        const std::vector<vec3> tuple(first, first + std::ptrdiff_t(terms));
+        result[light][kFirst] = estimateRadiance(wear.residual, wear.views, tuple, unshadowed[light]);
         for (size_t stage = 0; stage < kStages; stage++)
-            result[light][kFirst + stage] = glm::max(vec3(sums[light][stage]), vec3(0));
+            result[light][kFirst + 1 + stage] = glm::max(vec3(sums[light][stage]), vec3(0));
+    }
 }
 
 void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked,
@@ -227,8 +252,10 @@ StageTracer::trace(std::span<const RayHit> points, vec3 eye, std::span<const Sta
         const SurfacePoint point = mDressed.pointAt(hit, eye);
         std::vector<StageRadiance> stages(lights.size());
         const std::vector<uint64_t> baked = mBaked.visibility(point.position, point.frame.n);
-        traceVertices(hit, point, vertices, lights, stages);
-        traceOwnTransport(hit.mesh, point, baked, lights, stages);
+        const Wear wear = wearAt(hit.mesh, point);
+        const std::vector<UnshadowedLight> unshadowed = unshadowedAt(point, wear, lights);
+        traceVertices(hit, wear, unshadowed, vertices, stages);
+        traceOwnTransport(hit.mesh, point, wear, unshadowed, baked, lights, stages);
         traceTruth(point, baked, lights, stages);
         for (size_t light = 0; light < lights.size(); light++) result[light][i] = stages[light];
         pointProgress.add();

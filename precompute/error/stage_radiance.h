@@ -6,6 +6,7 @@
 #include "precompute/error/baked_transport.h"
 #include "precompute/error/error_source.h"
 #include "precompute/error/tabulated_brdf.h"
+#include "precompute/error/unshadowed_light.h"
 #include "precompute/reference/dressed_asset.h"
 
 #include <functional>
@@ -13,8 +14,9 @@
 namespace relume {
 
 // Linear radiance of a point: [0] as drawn, [i + 1] with ErrorSource(i) and all before it made exact. Those
-// from factors are clamped at zero, as images are. The last is the truth but for the number of shadow rays:
-// the exact BRDF and the full mesh under 6 × 256² texels of light, four rays a texel.
+// from factors are estimated with what the factors leave, as pixels are, or clamped at zero. The last is the
+// truth but for the number of shadow rays: the exact BRDF and the full mesh under 6 × 256² texels of light,
+// four rays a texel.
 using StageRadiance = std::array<vec3, kErrorSources + 1>;
 
 constexpr int kTruthFaceSize = 256;   // texels a side of the light that stands for the truth
@@ -29,19 +31,24 @@ struct StageLight {
 
 class StageTracer {
   public:
-    // Refers to `asset` and `appearance`, which it is dressed in. Throws Error as Embree, as makeBrdf(), and
-    // as baked_options.h's optionsOf().
-    StageTracer(const Asset& asset, const Appearance& appearance);
+    // Refers to all three; `appearance` is what the asset is dressed in, `residuals` say which sets are drawn
+    // with what their terms leave (none: empty). Throws Error as Embree, as makeBrdf(), and as
+    // baked_options.h's optionsOf().
+    StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals = kNoResiduals);
 
     // Of points that rays from `eye` hit (RayHit::mesh is the part), under each light: [light][point]. On all
-    // cores; the same input gives the same values. `progress` is called with the share of work done, now and
-    // then, from one thread at a time; what it throws ends the work.
+    // cores; the same input gives the same values. No image is known here: [0] is as [1]. `progress` is
+    // called with the share of work done, now and then, from one thread at a time; what it throws ends the
+    // work.
     std::vector<std::vector<StageRadiance>> trace(std::span<const RayHit> points, vec3 eye,
                                                   std::span<const StageLight> lights,
                                                   const std::function<void(double)>& progress = {}) const;
 
   private:
-    StageTracer(const Asset& asset, const Appearance& appearance, const BakeOptions& options);
+    static inline const Residuals kNoResiduals;
+
+    StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
+                const BakeOptions& options);
 
     struct Light;
     struct Tuples;
@@ -51,15 +58,20 @@ class StageTracer {
     Light prepare(const StageLight& light) const;
     Tuples vertexTuples(size_t part, uint32_t vertex, std::span<const Light> lights) const;
     Wear wearAt(size_t part, const SurfacePoint& point) const;
-    void traceVertices(const RayHit& hit, const SurfacePoint& point, const Vertices& vertices,
-                       std::span<const Light> lights, std::span<StageRadiance> result) const;
-    void traceOwnTransport(size_t part, const SurfacePoint& point, std::span<const uint64_t> baked,
+    // Per light; of nothing where terms are drawn alone.
+    std::vector<UnshadowedLight> unshadowedAt(const SurfacePoint& point, const Wear& wear,
+                                              std::span<const Light> lights) const;
+    void traceVertices(const RayHit& hit, const Wear& wear, std::span<const UnshadowedLight> unshadowed,
+                       const Vertices& vertices, std::span<StageRadiance> result) const;
+    void traceOwnTransport(size_t part, const SurfacePoint& point, const Wear& wear,
+                           std::span<const UnshadowedLight> unshadowed, std::span<const uint64_t> baked,
                            std::span<const Light> lights, std::span<StageRadiance> result) const;
     void traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked, std::span<const Light> lights,
                     std::span<StageRadiance> result) const;
 
     const Asset& mAsset;
     const Appearance& mAppearance;
+    const Residuals& mResiduals;
     MaterialBrdfs mBrdfs;
     DressedAsset mDressed;
     std::vector<TabulatedBrdf> mTables; // per part, of the worn set

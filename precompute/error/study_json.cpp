@@ -17,7 +17,6 @@ nlohmann::ordered_json describe(const ErrorStudy& study) {
                                    {"measured", study.measured},
                                    {"reference_noise", study.noise},
                                    {"reference_passes", study.passes},
-                                   {"unexplained_drawing", study.drawnAside},
                                    {"unexplained_truth", study.truthAside}};
     if (study.lowOrder) {
         json["spherical_harmonics"] = study.lowOrder->error;

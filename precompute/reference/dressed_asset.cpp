@@ -56,7 +56,9 @@ SurfacePoint DressedAsset::pointAt(const RayHit& hit, vec3 eye) const {
     const vec3 normal = interpolate(mesh.normals);
     // Opposite normals can cancel out on a fold.
     const bool isCancelled = glm::dot(normal, normal) < 1e-12f;
-    const TangentFrame frame = tangentFrame(isCancelled ? mesh.normals[corners.x] : glm::normalize(normal));
+    const vec3 tangent = mesh.tangents.empty() ? vec3(0) : interpolate(mesh.tangents);
+    const TangentFrame frame =
+        tangentFrame(isCancelled ? mesh.normals[corners.x] : glm::normalize(normal), tangent);
     const vec3 outgoing = liftAboveHorizon(frame.toLocal(glm::normalize(eye - position)));
     const vec2 uv = mesh.uvs.empty() ? vec2(0) : interpolate(mesh.uvs);
     const vec4 color = mesh.colors.empty() ? vec4(0) : interpolate(mesh.colors);

@@ -19,7 +19,7 @@ struct SurfacePoint {
         SeenBrdf brdf;
     };
     vec3 position;
-    TangentFrame frame; // of the interpolated normal
+    TangentFrame frame; // of the interpolated normal and tangent
     vec3 outgoing;      // the view direction in the frame, above the horizon
     std::vector<Layer> layers;
 
@@ -33,7 +33,7 @@ class DressedAsset {
     // Refers to `asset`. Exact BRDFs come from `brdfs`, which throws if they cannot be had.
     DressedAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind, MaterialBrdfs& brdfs);
 
-    // Normals and positions are interpolated as in the view pass.
+    // Attributes are interpolated as in the view pass.
     SurfacePoint pointAt(const RayHit& hit, vec3 eye) const;
 
   private:

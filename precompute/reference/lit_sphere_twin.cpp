@@ -57,29 +57,43 @@ std::vector<CellLight> cellLights(const LightCube& light) {
     return lights;
 }
 
-std::vector<vec3> unshadowedTuples(const std::vector<CellLight>& lights, const FactoredBrdf& factors) {
+std::vector<vec3> unshadowedTuples(const std::vector<CellLight>& lights, const FactoredBrdf& factors,
+                                   bool isTurned) {
     std::vector<vec3> tuples;
-    for (uint32_t ring = 0; ring < kTupleRings; ring++)
-        for (uint32_t azimuth = 0; azimuth < kTupleAzimuths; azimuth++) {
-            const TangentFrame frame = tangentFrame(
-                polarDirection({0, 1, 0}, {1, 0, 0}, (float(ring) + 0.5f) * kPi / float(kTupleRings),
-                               (float(azimuth) + 0.5f) * 2 * kPi / float(kTupleAzimuths)));
-            for (int term = 0; term < factors.terms; term++) {
-                vec3 sum(0);
-                for (const CellLight& light : lights) {
-                    const vec3 local = frame.toLocal(light.direction);
-                    if (local.z > kGrazingCosine)
-                        sum += local.z * light.energy *
-                               lookupMap(factors.lightMap(term), factors.size, factors.mapping, local);
-                }
-                tuples.push_back(sum);
+    const auto add = [&](const TangentFrame& frame) {
+        for (int term = 0; term < factors.terms; term++) {
+            vec3 sum(0);
+            for (const CellLight& light : lights) {
+                const vec3 local = frame.toLocal(light.direction);
+                if (local.z > kGrazingCosine)
+                    sum += local.z * light.energy *
+                           lookupMap(factors.lightMap(term), factors.size, factors.mapping, local);
             }
+            tuples.push_back(sum);
         }
+    };
+    const auto normalAt = [](uint32_t ring, uint32_t azimuth) {
+        return polarDirection({0, 1, 0}, {1, 0, 0}, (float(ring) + 0.5f) * kPi / float(kTupleRings),
+                              (float(azimuth) + 0.5f) * 2 * kPi / float(kTupleAzimuths));
+    };
+    for (uint32_t ring = 0; !isTurned && ring < kTupleRings; ring++)
+        for (uint32_t azimuth = 0; azimuth < kTupleAzimuths; azimuth++)
+            add(tangentFrame(normalAt(ring, azimuth)));
+    for (uint32_t row = 0; isTurned && row < kTurnedRows; row++) {
+        const bool isBelow = row >= kTurnedRows / 2;
+        const uint32_t ring = row % kTupleSideRings + (isBelow ? kTupleRings - kTupleSideRings : 0);
+        const auto turn = float(row / kTupleSideRings % kTupleTurns) * 2 * kPi / float(kTupleTurns);
+        for (uint32_t azimuth = 0; azimuth < kTupleAzimuths; azimuth++) {
+            const vec3 normal = normalAt(ring, azimuth);
+            const TangentFrame frame = isBelow ? lowerTangentFrame(normal) : tangentFrame(normal);
+            add(tangentFrame(normal, std::cos(turn) * frame.s + std::sin(turn) * frame.t));
+        }
+    }
     return tuples;
 }
 
 std::vector<vec3> polarLight(const std::vector<vec3>& cube, vec3 direction) {
-    constexpr int kSide = 3; // samples of a cell on either side
+    constexpr int kSide = 2; // samples of a cell on either side
     const TangentFrame frame = tangentFrame(direction);
     const auto lookup = [&](vec3 d) {
         const int face = cubeTexel(d, 1).face;
@@ -115,18 +129,11 @@ std::vector<vec3> polarLight(const std::vector<vec3>& cube, vec3 direction) {
     return polar;
 }
 
-std::vector<vec3> litSphere(const SphereKernel& kernel, const std::vector<vec3>& polar, vec3 direction) {
+std::vector<vec3> litSpheres(const SphereKernel& kernel, const std::vector<vec3>& polar) {
     using Complex = std::complex<double>;
+    constexpr size_t kTexels = size_t(kSphereRings) * kSphereAzimuths;
     const auto phase = [](double turns) { return std::polar(1.0, turns * 2 * double(kPi)); };
-    const TangentFrame axes = tangentFrame(direction);
-    const auto viewTurn = [&](uint32_t ring, uint32_t azimuth) {
-        const vec3 normal =
-            polarDirection(axes.n, axes.s, (float(ring) + 0.5f) * kPi / 2 / float(kSphereRings),
-                           float(azimuth) * 2 * kPi / float(kSphereAzimuths));
-        const vec3 local = tangentFrame(normal).toLocal(direction);
-        return double(std::atan2(local.y, local.x) / (2 * kPi));
-    };
-    std::vector<vec3> sphere(kSphereRings * kSphereAzimuths, vec3(0));
+    std::vector<vec3> spheres(size_t(2 * kernel.harmonics + 1) * kTexels, vec3(0));
     int component = 0;
     const auto add = [&](int harmonic, int m) {
         const vec3* values = &kernel.values[size_t(component++) * kSphereRings * kSphereRings];
@@ -136,25 +143,38 @@ std::vector<vec3> litSphere(const SphereKernel& kernel, const std::vector<vec3>&
                 for (int channel = 0; channel < 3; channel++)
                     light[ring][size_t(channel)] += double(polar[ring * kSphereAzimuths + azimuth][channel]) *
                                                     phase(-double(m) * azimuth / kSphereAzimuths);
+        vec3* const real = &spheres[size_t(harmonic == 0 ? 0 : 2 * harmonic - 1) * kTexels];
         for (uint32_t row = 0; row < kSphereRings; row++) {
             std::array<Complex, 3> sum{};
             for (uint32_t ring = 0; ring < kSphereRings; ring++)
                 for (int channel = 0; channel < 3; channel++)
                     sum[size_t(channel)] +=
                         double(values[row * kSphereRings + ring][channel]) * light[ring][size_t(channel)];
-            for (uint32_t azimuth = 0; azimuth < kSphereAzimuths; azimuth++) {
-                const double turns = double(m) * azimuth / kSphereAzimuths +
-                                     (harmonic == 0 ? 0 : 2 * harmonic * viewTurn(row, azimuth));
-                for (int channel = 0; channel < 3; channel++)
-                    sphere[row * kSphereAzimuths + azimuth][channel] +=
-                        float((phase(turns) * sum[size_t(channel)]).real());
-            }
+            for (uint32_t azimuth = 0; azimuth < kSphereAzimuths; azimuth++)
+                for (int channel = 0; channel < 3; channel++) {
+                    const Complex value = phase(double(m) * azimuth / kSphereAzimuths) * sum[size_t(channel)];
+                    const size_t texel = row * kSphereAzimuths + azimuth;
+                    real[texel][channel] += float(value.real());
+                    if (harmonic > 0) real[kTexels + texel][channel] += float(value.imag());
+                }
         }
     };
     for (int m = 0; m <= kernel.frequencies; m++) add(0, m);
     for (int harmonic = 1; harmonic <= kernel.harmonics; harmonic++)
         for (int m = -kernel.frequencies; m <= kernel.frequencies; m++) add(harmonic, m);
-    return sphere;
+    return spheres;
+}
+
+vec3 litSphereRadiance(const SphereKernel& kernel, const std::vector<vec3>& spheres, size_t texel,
+                       float azimuth) {
+    constexpr size_t kTexels = size_t(kSphereRings) * kSphereAzimuths;
+    vec3 sum = spheres[texel];
+    for (int harmonic = 1; harmonic <= kernel.harmonics; harmonic++) {
+        const vec3* const real = &spheres[size_t(2 * harmonic - 1) * kTexels];
+        sum += std::cos(2 * float(harmonic) * azimuth) * real[texel] -
+               std::sin(2 * float(harmonic) * azimuth) * real[kTexels + texel];
+    }
+    return sum;
 }
 
 } // namespace relume

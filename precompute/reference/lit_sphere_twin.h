@@ -17,14 +17,20 @@ struct CellLight {
 };
 std::vector<CellLight> cellLights(const LightCube& light);
 
-// kTupleRings × kTupleAzimuths × terms, of normals about +Y: unshadowed_tuples.comp.
-std::vector<vec3> unshadowedTuples(const std::vector<CellLight>& lights, const FactoredBrdf& factors);
+// kTupleRings × kTupleAzimuths × terms, of normals about +Y, in the frames that follow from them; or
+// kTurnedRows × kTupleAzimuths × terms, in frames turned from these: unshadowed_tuples.comp.
+std::vector<vec3> unshadowedTuples(const std::vector<CellLight>& lights, const FactoredBrdf& factors,
+                                   bool isTurned = false);
 
 // kSphereRings × kSphereAzimuths of radiance · solid angle about a direction: sphere_light.comp.
 std::vector<vec3> polarLight(const std::vector<vec3>& cube, vec3 direction);
 
-// kSphereRings × kSphereAzimuths of unshadowed radiance towards that direction: the other passes, as one sum
-// over the light's rings and azimuths.
-std::vector<vec3> litSphere(const SphereKernel& kernel, const std::vector<vec3>& polarLight, vec3 direction);
+// 2 H + 1 spheres of kSphereRings × kSphereAzimuths, as LitSpheres::image() has them: the other passes, as
+// one sum over the light's rings and azimuths.
+std::vector<vec3> litSpheres(const SphereKernel& kernel, const std::vector<vec3>& polarLight);
+
+// Their sum, unshadowed radiance, where the view has azimuth `azimuth` in the frame of `texel`, ring by ring.
+vec3 litSphereRadiance(const SphereKernel& kernel, const std::vector<vec3>& spheres, size_t texel,
+                       float azimuth);
 
 } // namespace relume

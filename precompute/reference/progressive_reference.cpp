@@ -1,6 +1,7 @@
 #include "precompute/reference/progressive_reference.h"
 
 #include "engine/base/check.h"
+#include "precompute/reference/pixel_hits.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/reference/sampled_reflection.h"
 
@@ -24,16 +25,17 @@ ProgressiveReference::ProgressiveReference(const Asset& asset, ReferenceBrdf brd
       mShadowOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {}
 
 void ProgressiveReference::restart(const Camera& camera, const LightCube& light, const Appearance& appearance,
-                                   int width, int height) {
+                                   int width, int height, int samples) {
     RELUME_CHECK(width > 0 && height > 0);
+    expectSamples(samples);
     const size_t pixels = size_t(width) * size_t(height);
     mPasses = 0;
     mDressed.reset();
     mLight.emplace(light);
-    if (width != mWidth || height != mHeight || !isSame(camera, mCamera)) {
-        mCamera = camera, mWidth = width, mHeight = height;
+    if (width != mWidth || height != mHeight || size_t(samples) != mSamples || !isSame(camera, mCamera)) {
+        mCamera = camera, mWidth = width, mHeight = height, mSamples = size_t(samples);
         mRowsSeen.assign(size_t(height), false);
-        mSurfaces.assign(pixels, std::nullopt);
+        mSurfaces.assign(pixels * mSamples, std::nullopt);
     }
     for (auto& half : mHalves) half.assign(pixels, glm::dvec3(0));
     mSample.resize(pixels);
@@ -43,18 +45,35 @@ void ProgressiveReference::restart(const Camera& camera, const LightCube& light,
 void ProgressiveReference::findSurfaces(int y) {
     if (mRowsSeen[size_t(y)]) return;
     for (int x = 0; x < mWidth; x++)
-        mSurfaces[size_t(y) * size_t(mWidth) + size_t(x)] =
-            mTracer.intersect(mCamera.eye, mCamera.pixelDirection(x, y, mWidth, mHeight));
+        findPixelHits(
+            mTracer, mCamera, {x, y}, {mWidth, mHeight},
+            std::span(mSurfaces).subspan((size_t(y) * size_t(mWidth) + size_t(x)) * mSamples, mSamples));
     mRowsSeen[size_t(y)] = true;
+}
+
+// The even passes of a pixel go through its samples in turn, and so do the odd ones, each from a random
+// start: no half's mean favors some samples before all have had their turn.
+size_t ProgressiveReference::sampleOf(size_t pixel) const {
+    if (mSamples == 1) return 0;
+    HashedNumbers random{uint32_t(pixel), ~uint32_t(mPasses % 2)};
+    return (size_t(random.next() * float(mSamples)) + size_t(mPasses / 2)) % mSamples;
+}
+
+float ProgressiveReference::coverageOf(size_t pixel) const {
+    const auto surfaces = surfacesOf(pixel);
+    const auto covered = std::ranges::count_if(surfaces, [](const auto& hit) { return hit.has_value(); });
+    return float(covered) / float(mSamples);
 }
 
 void ProgressiveReference::sampleRow(int y) {
     const size_t first = size_t(y) * size_t(mWidth);
     for (size_t pixel = first; pixel < first + size_t(mWidth); pixel++) {
-        if (!mSurfaces[pixel]) continue;
+        mSample[pixel] = vec3(0);
+        const std::optional<RayHit>& hit = surfacesOf(pixel)[sampleOf(pixel)];
+        if (!hit) continue;
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
-        mSample[pixel] = sampleReflection(mDressed->pointAt(*mSurfaces[pixel], mCamera.eye), *mLight, mTracer,
-                                          mShadowOffset, random);
+        mSample[pixel] =
+            sampleReflection(mDressed->pointAt(*hit, mCamera.eye), *mLight, mTracer, mShadowOffset, random);
     }
 }
 
@@ -69,8 +88,7 @@ bool ProgressiveReference::addPass(std::stop_token stop) {
     });
     if (isStopped) return false;
     std::vector<glm::dvec3>& half = mHalves[size_t(mPasses % 2)];
-    for (size_t pixel = 0; pixel < half.size(); pixel++)
-        if (mSurfaces[pixel]) half[pixel] += mSample[pixel];
+    for (size_t pixel = 0; pixel < half.size(); pixel++) half[pixel] += mSample[pixel];
     mPasses++;
     return true;
 }
@@ -79,9 +97,9 @@ Image ProgressiveReference::mean() const {
     Image image(mWidth, mHeight);
     if (mPasses == 0) return image;
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++)
-        if (mSurfaces[pixel]) {
+        if (const float coverage = coverageOf(pixel); coverage > 0) {
             const glm::dvec3 mean = (mHalves[0][pixel] + mHalves[1][pixel]) / double(mPasses);
-            image.pixels[pixel] = vec4(glm::max(vec3(mean), vec3(0)), 1);
+            image.pixels[pixel] = vec4(glm::max(vec3(mean), vec3(0)), coverage);
         }
     return image;
 }
@@ -93,7 +111,7 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     if (odd == 0) return std::nullopt;
     double errors = 0, squares = 0, differences = 0, variance = 0, count = 0;
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++) {
-        if (!mSurfaces[pixel]) continue;
+        if (coverageOf(pixel) == 0) continue;
         const glm::dvec3 a = glm::max(mHalves[0][pixel] / even, 0.0);
         const glm::dvec3 b = glm::max(mHalves[1][pixel] / odd, 0.0);
         const glm::dvec3 found = glm::dvec3(vec3(image.pixels[pixel]));

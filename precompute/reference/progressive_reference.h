@@ -7,6 +7,7 @@
 #include "precompute/reference/light_distribution.h"
 
 #include <array>
+#include <span>
 #include <stop_token>
 
 namespace relume {
@@ -30,26 +31,28 @@ struct ReferenceError {
 };
 
 // Converges to renderReference() under a light cube, full mesh as occluder, as raysPerTexelSide grows: light
-// constant over each texel, the same surfaces, frames and shadow offset, pixel centres. One caller at a time.
+// constant over each texel, the same surfaces, frames and shadow offset. One caller at a time.
 class ProgressiveReference {
   public:
     // Builds the scene for rays. Refers to `asset`. Throws Error when Embree fails.
     explicit ProgressiveReference(const Asset& asset, ReferenceBrdf brdf = ReferenceBrdf::Exact);
 
     // Forgets what was summed. What is needed anew is made anew: surfaces stay as long as camera and size do,
-    // BRDFs always. Throws as makeBrdf() does; no pass may follow then until a restart succeeds.
+    // BRDFs always. `samples`: of a pixel, as the view pass has them, 1, 2, 4 or 8. Throws as makeBrdf()
+    // does; no pass may follow then until a restart succeeds.
     void restart(const Camera& camera, const LightCube& light, const Appearance& appearance, int width,
-                 int height);
+                 int height, int samples);
 
-    // One more sample of every pixel, on all cores; what it gives depends on its number alone. The first pass
-    // finds the surfaces, too. False if stopped: between rows, and then the pass counts for nothing.
+    // One more ray of every pixel, through one of its samples, on all cores; what it gives depends on its
+    // number alone. The first pass finds the surfaces, too. False if stopped: between rows, and then the pass
+    // counts for nothing.
     bool addPass(std::stop_token stop = {});
 
     // Since the restart.
     int passes() const { return mPasses; }
 
-    // Linear radiance, alpha 1 where a surface is seen; all zero before the first pass. Factors can be
-    // negative, the mean is not.
+    // Linear radiance, premultiplied by alpha: the share of a pixel's samples that see a surface. All zero
+    // before the first pass. Factors can be negative, the mean is not.
     Image mean() const;
 
     // Of an image of this size; its alpha does not count. None before the second pass, or if nothing is seen.
@@ -58,6 +61,12 @@ class ProgressiveReference {
   private:
     void findSurfaces(int y);
     void sampleRow(int y);
+    // The sample of a pixel that the current pass takes.
+    size_t sampleOf(size_t pixel) const;
+    std::span<const std::optional<RayHit>> surfacesOf(size_t pixel) const {
+        return std::span(mSurfaces).subspan(pixel * mSamples, mSamples);
+    }
+    float coverageOf(size_t pixel) const;
 
     const Asset& mAsset;
     ReferenceBrdf mKind;
@@ -67,11 +76,12 @@ class ProgressiveReference {
 
     Camera mCamera;
     int mWidth = 0, mHeight = 0;
+    size_t mSamples = 1; // a pixel
     std::optional<DressedAsset> mDressed;
     std::optional<LightDistribution> mLight;
     int mPasses = 0;
     std::vector<uint8_t> mRowsSeen;                 // per row: whether its surfaces are found
-    std::vector<std::optional<RayHit>> mSurfaces;   // per pixel
+    std::vector<std::optional<RayHit>> mSurfaces;   // per sample of each pixel
     std::vector<vec3> mSample;                      // per pixel: of the pass under way
     std::array<std::vector<glm::dvec3>, 2> mHalves; // per pixel: sums of the even and of the odd passes
 };

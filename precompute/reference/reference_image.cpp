@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/math/cubemap.h"
 #include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/pixel_hits.h"
 #include "precompute/reference/residual_twin.h"
 
 #include <algorithm>
@@ -27,22 +28,43 @@ struct Renderer {
     const ReferenceOptions& options;
     std::vector<LightSample> lights;
     DressedAsset asset;
-    std::optional<DressedAsset> terms; // with ReferenceBrdf::Residual: the asset in its K terms
-    RayTracer surfaces;                // one mesh per part
+    std::optional<DressedAsset> terms;     // with ReferenceBrdf::Residual: the asset in its K terms
+    std::vector<bool> hasNonnegativeTerms; // per part, of the set that it wears
+    RayTracer surfaces;                    // one mesh per part
     RayTracer occluder;
     float shadowOffset;
 
-    std::optional<vec3> radianceAt(int x, int y) const;
+    vec4 pixelAt(int x, int y) const;
+    vec3 radianceAt(const RayHit& hit) const;
+    // The share of the surface that is there.
+    float coverageAt(const RayHit& hit) const;
     vec3 reflectedRadiance(const SurfacePoint& point) const;
-    vec3 estimatedRadiance(const SurfacePoint& point, const SurfacePoint& ofTerms) const;
+    vec3 estimateRadiance(const RayHit& hit) const;
 };
 
-std::optional<vec3> Renderer::radianceAt(int x, int y) const {
-    const auto hit =
-        surfaces.intersect(camera.eye, camera.pixelDirection(x, y, options.width, options.height));
-    if (!hit) return std::nullopt;
-    const SurfacePoint point = asset.pointAt(*hit, camera.eye);
-    return terms ? estimatedRadiance(point, terms->pointAt(*hit, camera.eye)) : reflectedRadiance(point);
+vec3 Renderer::radianceAt(const RayHit& hit) const {
+    return terms ? estimateRadiance(hit) : reflectedRadiance(asset.pointAt(hit, camera.eye));
+}
+
+float Renderer::coverageAt(const RayHit& hit) const {
+    if (!options.groundFade || options.groundFade->part != hit.mesh) return 1;
+    return groundCoverage(*options.groundFade, asset.pointAt(hit, camera.eye).position);
+}
+
+vec4 Renderer::pixelAt(int x, int y) const {
+    std::array<std::optional<RayHit>, kMostSamples> samples;
+    const std::span hits(samples.data(), size_t(options.samples));
+    findPixelHits(surfaces, camera, {x, y}, {options.width, options.height}, hits);
+    vec4 sum(0);
+    for (auto hit = hits.begin(); hit != hits.end(); ++hit) {
+        const auto isSame = [&](const auto& other) { return isSameTriangle(*hit, other); };
+        if (!*hit || std::any_of(hits.begin(), hit, isSame)) continue;
+        const float covered = float(std::ranges::count_if(hits, isSame)) / float(options.samples);
+        const float share = covered * coverageAt(**hit);
+        // A factored BRDF can go negative.
+        if (share > 0) sum += share * vec4(glm::max(radianceAt(**hit), vec3(0)), 1);
+    }
+    return sum;
 }
 
 // Sums over the lights above the horizon that nothing blocks, a batch of shadow rays at a time.
@@ -71,15 +93,14 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
 }
 
 // The sums that a residual's estimate is made of, each exact.
-vec3 Renderer::estimatedRadiance(const SurfacePoint& point, const SurfacePoint& ofTerms) const {
+vec3 Renderer::estimateRadiance(const RayHit& hit) const {
+    const SurfacePoint point = asset.pointAt(hit, camera.eye), ofTerms = terms->pointAt(hit, camera.eye);
     glm::dvec3 exact(0), unshadowed(0), shadowed(0), irradiance(0), lit(0);
-    bool isPositive = true;
     const vec3 origin = point.position + shadowOffset * point.frame.n;
     for (const LightSample& light : lights) {
         const vec3 incoming = point.frame.toLocal(light.direction);
         if (!(incoming.z > 0)) continue;
         const vec3 energy = light.energy * incoming.z, f = ofTerms.reflected(incoming);
-        isPositive &= f.x >= 0 && f.y >= 0 && f.z >= 0;
         exact += energy * point.reflected(incoming);
         unshadowed += energy * f;
         irradiance += energy;
@@ -88,8 +109,8 @@ vec3 Renderer::estimatedRadiance(const SurfacePoint& point, const SurfacePoint& 
         lit += energy;
     }
     const ResidualSums sums{vec3(shadowed), vec3(exact), vec3(unshadowed)};
-    return isPositive ? ratioEstimate(sums, vec3(lit), vec3(irradiance))
-                      : differenceEstimate(sums, litShare(vec3(lit), vec3(irradiance)));
+    return hasNonnegativeTerms[hit.mesh] ? ratioEstimate(sums, vec3(lit), vec3(irradiance))
+                                         : differenceEstimate(sums, litShare(vec3(lit), vec3(irradiance)));
 }
 
 Image render(const Renderer& renderer, const std::function<void(int)>& progress) {
@@ -98,10 +119,7 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
     std::mutex mutex;
     int finished = 0;
     tbb::parallel_for(0, options.height, [&](int y) {
-        for (int x = 0; x < options.width; x++)
-            // A factored BRDF can go negative.
-            if (const auto radiance = renderer.radianceAt(x, y))
-                image.at(x, y) = vec4(glm::max(*radiance, vec3(0)), 1);
+        for (int x = 0; x < options.width; x++) image.at(x, y) = renderer.pixelAt(x, y);
         if (!progress) return;
         const std::lock_guard lock(mutex);
         progress(++finished);
@@ -116,6 +134,7 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
         options.height > kLargestSide)
         throw UsageError("a reference image of {} x {} pixels: each side must be 1 to {}", options.width,
                          options.height, kLargestSide);
+    expectSamples(options.samples);
     const std::vector<const Mesh*> meshes = partMeshes(asset);
     const std::vector<const Mesh*> occluders =
         options.bakedOccluder ? std::vector<const Mesh*>{&asset.occluder} : meshes;
@@ -126,13 +145,19 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
     MaterialBrdfs brdfs;
     const bool isEstimate = options.brdf == ReferenceBrdf::Residual;
     std::optional<DressedAsset> terms;
-    if (isEstimate) terms.emplace(asset, appearance, ReferenceBrdf::Factored, brdfs);
+    std::vector<bool> hasNonnegativeTerms;
+    if (isEstimate) {
+        terms.emplace(asset, appearance, ReferenceBrdf::Factored, brdfs);
+        for (size_t i = 0; i < asset.parts.size(); i++)
+            hasNonnegativeTerms.push_back(isNonnegative(asset.parts[i].sets[appearance[i].set].brdf));
+    }
     const Renderer renderer{
         camera,
         options,
         std::move(lights),
         DressedAsset(asset, appearance, isEstimate ? ReferenceBrdf::Exact : options.brdf, brdfs),
         std::move(terms),
+        std::move(hasNonnegativeTerms),
         RayTracer(meshes),
         RayTracer(occluders),
         offset};

@@ -3,6 +3,8 @@
 
 #include "engine/image/image.h"
 #include "engine/light/light_cube.h"
+#include "engine/render/ground_fade.h"
+#include "engine/render/pixel_samples.h"
 #include "engine/scene/camera.h"
 #include "precompute/reference/worn_brdf.h"
 
@@ -12,9 +14,11 @@ namespace relume {
 
 struct ReferenceOptions {
     int width = 640, height = 480;
+    int samples = kDefaultSamples; // a pixel, where the view pass has them: 1, 2, 4 or 8
     ReferenceBrdf brdf = ReferenceBrdf::Exact;
     int raysPerTexelSide = 2;   // shadow rays through each lighting texel: this squared; 4 is the 256² grid
     Appearance appearance = {}; // what parts wear; empty: the default appearance
+    std::optional<GroundFade> groundFade = std::nullopt;
     bool bakedOccluder = false; // cast shadows with the asset's simplified occluder, not the full mesh
 };
 
@@ -24,10 +28,11 @@ constexpr float kFullMeshShadowOffset = 1e-4f;
 
 // Shades every pixel that sees the asset by summing over all texels of `light` above its horizon: radiance ·
 // BRDF · cosine · solid angle, with BRDF and visibility taken anew for each of the texel's shadow rays.
-// Normals and positions are interpolated as in the view pass, the frame is tangentFrame of the interpolated
-// normal; the eye sees the asset only where its pixel centre does. Several threads; the same input gives the
-// same image. Facets are real: a ray above the interpolated horizon but below its triangle's plane meets the
-// mesh. `progress` is called with the number of finished rows, from one thread at a time.
+// Normals and positions are interpolated as in the view pass, the frame is of the interpolated normal and
+// tangent; the eye sees what a pixel's samples see, each triangle shaded once, at the mean of where they meet
+// it. Radiance is premultiplied by alpha, the share of samples that see the asset. Several threads; the same
+// input gives the same image. Facets are real: a ray above the interpolated horizon but below its triangle's
+// plane meets the mesh. `progress` is called with the number of finished rows, from one thread at a time.
 Image renderReference(const Asset& asset, const Camera& camera, const LightCube& light,
                       const ReferenceOptions& options, const std::function<void(int)>& progress = {});
 

@@ -6,8 +6,9 @@ namespace relume {
 
 namespace {
 
-constexpr float kLeastShare = 0.25f; // of r E, that an estimate has at least
-constexpr float kLeastView = 1e-4f;  // of every view map, in ratios
+constexpr float kLeastShare = 0.25f;                      // of r E, that an estimate has at least
+constexpr float kLeastView = 1e-4f;                       // of every view map, in ratios
+constexpr float kLeastOfGrey = 0.8f, kMostOfGrey = 1.25f; // of a channel's ratio, of that of luminance
 
 } // namespace
 
@@ -23,9 +24,11 @@ vec3 differenceEstimate(const ResidualSums& sums, float share) {
 }
 
 vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples) {
-    const vec3 all = sums.terms + kLeastView * unshadowedTuples;
-    return sums.exact *
-           glm::clamp((sums.shadowed + kLeastView * tuples) / glm::max(all, vec3(1e-30f)), vec3(0), vec3(1));
+    const vec3 all = sums.terms + kLeastView * unshadowedTuples, lit = sums.shadowed + kLeastView * tuples;
+    const float grey = std::max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
+    const vec3 ratio =
+        glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGrey * grey), vec3(kMostOfGrey * grey));
+    return sums.exact * glm::min(ratio, vec3(1));
 }
 
 } // namespace relume

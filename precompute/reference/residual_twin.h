@@ -8,17 +8,20 @@ namespace relume {
 // The share of irradiance that reaches a point, by luminance, in [0, 1]; 1 of no light.
 float litShare(vec3 irradiance, vec3 unshadowed);
 
-// Of a point and view: by K terms and shadows (T), by the exact BRDF without shadows (E), by K terms without
-// (S).
+// The sums that an estimate of a point and view is made of: the shadowed K terms (T), the unshadowed exact
+// BRDF (E) and the unshadowed K terms (S).
 struct ResidualSums {
     vec3 shadowed, exact, terms;
 };
 
-// Of terms that can be negative: the control variate T + r (E - S), between r E / 4 and E. `share`: r.
+// Returns the estimate for signed terms: the control variate T + r (E - S), clamped to [r E / 4, E]; `share`
+// is r.
 vec3 differenceEstimate(const ResidualSums& sums, float share);
 
-// Of terms that cannot: the ratio E T / S. Where no term sees anything, the shares of the tuples' sums
-// decide.
+// Returns the estimate for nonnegative terms: the ratio E T / S. Where all terms vanish in the view, the sums
+// of the tuples give the ratio. Each channel's ratio is clamped to [0.8, 1.25] of the luminance's, and that
+// to at least a quarter of the irradiance's: errors of storage would color and blacken what little light
+// reaches.
 vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples);
 
 } // namespace relume

@@ -127,7 +127,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
     }
     for (int term = 0; term < set.brdf.terms; term++) {
         std::vector<vec3> expected = transportVector(visibility, size, asset.faceSize, asset.transportSamples,
-                                                     set.brdf, term, tangentFrame(normal));
+                                                     set.brdf, term, frameOf(part.mesh, vertex));
         haarFaces(expected, asset.faceSize);
         const std::vector<vec3>& found = device.coefficients(point, size_t(term));
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);

@@ -18,7 +18,7 @@ VertexReference recomputeVertex(const Asset& asset, size_t part, size_t set, siz
     for (int k = 0; k < brdf.terms; k++) {
         TermReference term;
         term.transport = transportVector(reference.visibility, asset.visibilitySize, asset.faceSize,
-                                         asset.transportSamples, brdf, k, tangentFrame(normal));
+                                         asset.transportSamples, brdf, k, frameOf(mesh, vertex));
         term.coefficients = term.transport;
         haarFaces(term.coefficients, asset.faceSize);
         term.selected = selectLargest(term.coefficients, asset.coefficients);

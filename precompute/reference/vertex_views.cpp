@@ -18,8 +18,8 @@ std::vector<vec3> pointViews(const FactoredBrdf& brdf, std::span<const WornLayer
 std::vector<vec3> vertexViews(const AssetPart& part, const PartAppearance& appearance, uint32_t vertex,
                               vec3 eye) {
     const Mesh& mesh = part.mesh;
-    const vec3 outgoing = liftAboveHorizon(
-        tangentFrame(mesh.normals[vertex]).toLocal(glm::normalize(eye - mesh.positions[vertex])));
+    const vec3 outgoing =
+        liftAboveHorizon(frameOf(mesh, vertex).toLocal(glm::normalize(eye - mesh.positions[vertex])));
     const std::vector<WornLayer> layers = wornLayers(part, appearance);
     const std::vector<vec3> weights =
         layerWeights(part, appearance.set, layers, mesh.uvs.empty() ? vec2(0) : mesh.uvs[vertex],

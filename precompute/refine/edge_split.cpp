@@ -60,8 +60,15 @@ EdgeMiddle middleOf(const Mesh& mesh, Edge edge) {
     const vec3 sum = mesh.normals[edge.first] + mesh.normals[edge.second];
     const float length = glm::length(sum);
     constexpr float kOpposite = 1e-3f; // of unit normals, whose sum points nowhere
-    return {0.5f * (mesh.positions[edge.first] + mesh.positions[edge.second]),
-            length > kOpposite ? sum / length : mesh.normals[edge.first]};
+    EdgeMiddle middle{0.5f * (mesh.positions[edge.first] + mesh.positions[edge.second]),
+                      length > kOpposite ? sum / length : mesh.normals[edge.first]};
+    if (!mesh.tangents.empty()) {
+        // Opposite tangents, too, have a sum that points nowhere.
+        const vec3 tangents = mesh.tangents[edge.first] + mesh.tangents[edge.second];
+        const bool isAny = glm::length(glm::cross(tangents, middle.normal)) > kOpposite;
+        middle.tangent = tangentFrame(middle.normal, isAny ? tangents : mesh.tangents[edge.first]).s;
+    }
+    return middle;
 }
 
 void splitEdges(Mesh& mesh, std::span<const Edge> edges) {
@@ -73,6 +80,7 @@ void splitEdges(Mesh& mesh, std::span<const Edge> edges) {
         const EdgeMiddle middle = middleOf(mesh, edge);
         mesh.positions.push_back(middle.position);
         mesh.normals.push_back(middle.normal);
+        if (!mesh.tangents.empty()) mesh.tangents.push_back(middle.tangent);
         if (!mesh.uvs.empty()) mesh.uvs.push_back(0.5f * (mesh.uvs[edge.first] + mesh.uvs[edge.second]));
         if (!mesh.colors.empty())
             mesh.colors.push_back(0.5f * (mesh.colors[edge.first] + mesh.colors[edge.second]));

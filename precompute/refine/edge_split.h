@@ -17,14 +17,17 @@ struct Edge {
 };
 
 // Adds a vertex in the middle of edges[i], as vertex vertexCount() + i: position, uv and colour are the mean
-// of the ends', the normal is their normalised sum. Triangles with one, two or three of `edges` become two,
-// three or four, so that all stay joined and the surface is what it was. `edges` are distinct edges of the
-// mesh, which has normals.
+// of the ends', normal and tangent are their normalised sums. Triangles with one, two or three of `edges`
+// become two, three or four, so that all stay joined and the surface is what it was. `edges` are distinct
+// edges of the mesh, which has normals.
 void splitEdges(Mesh& mesh, std::span<const Edge> edges);
 
 // The vertex that splitEdges() adds: what a bake would see there.
 struct EdgeMiddle {
     vec3 position, normal;
+    vec3 tangent{0}; // 0 if the mesh has none
+
+    TangentFrame frame() const { return tangentFrame(normal, tangent); }
 };
 EdgeMiddle middleOf(const Mesh& mesh, Edge edge);
 

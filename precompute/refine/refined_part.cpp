@@ -49,7 +49,8 @@ void RefinedPart::probe(const std::function<void(size_t, size_t)>& report) {
     std::vector<EdgeMiddle> points;
     if (mOfVertices.empty()) { // others were middles
         for (size_t i = 0; i < mesh.vertexCount(); i++)
-            points.push_back({mesh.positions[i], mesh.normals[i]});
+            points.push_back(
+                {mesh.positions[i], mesh.normals[i], mesh.tangents.empty() ? vec3(0) : mesh.tangents[i]});
         mOfVertices.resize(mesh.vertexCount());
         std::iota(mOfVertices.begin(), mOfVertices.end(), 0u);
     }
@@ -80,7 +81,7 @@ void RefinedPart::probe(std::span<const EdgeMiddle> points,
         report(first, points.size());
         tbb::parallel_for(first, std::min(points.size(), first + kProbesAtOnce), [&](size_t i) {
             const vec3 lifted = points[i].position + mOffset * points[i].normal;
-            mAnswers[start + i] = mProbe.answers(lifted, points[i].normal, workspaces.local());
+            mAnswers[start + i] = mProbe.answers(lifted, points[i].frame(), workspaces.local());
         });
     }
     report(points.size(), points.size());

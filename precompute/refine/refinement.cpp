@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 
 namespace relume {
 
@@ -26,13 +28,22 @@ constexpr float kShortestEdge = 8;
 class Places {
   public:
     uint32_t number(vec3 position) {
-        const auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); }; // -0 is 0
-        const std::array key = {bits(position.x), bits(position.y), bits(position.z)};
-        return mNumbers.try_emplace(key, uint32_t(mNumbers.size())).first->second;
+        return mNumbers.try_emplace(keyOf(position), uint32_t(mNumbers.size())).first->second;
+    }
+    // None: no position there was numbered.
+    std::optional<uint32_t> find(vec3 position) const {
+        const auto found = mNumbers.find(keyOf(position));
+        return found == mNumbers.end() ? std::nullopt : std::optional(found->second);
     }
 
   private:
-    std::map<std::array<uint32_t, 3>, uint32_t> mNumbers;
+    using Key = std::array<uint32_t, 3>;
+    static Key keyOf(vec3 position) {
+        const auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); }; // -0 is 0
+        return {bits(position.x), bits(position.y), bits(position.z)};
+    }
+
+    std::map<Key, uint32_t> mNumbers;
 };
 
 // Edges that lie on each other, and what they add up to. Errors are squared and times area.
@@ -44,14 +55,18 @@ struct EdgeGain {
 
 class Refiner {
   public:
-    Refiner(std::vector<AssetPart>& parts, const Mesh& occluder, float offset, BakeObserver& observer)
+    Refiner(const std::vector<AssetPart*>& parts, const std::vector<const Mesh*>& others,
+            const Mesh& occluder, float offset, BakeObserver& observer)
         : mVisibility(occluder, TransportProbe::kVisibilitySize), mOffset(offset), mObserver(observer) {
         mParts.reserve(parts.size());
-        for (AssetPart& part : parts) mParts.emplace_back(part, mVisibility, mLights, offset);
+        for (AssetPart* part : parts) mParts.emplace_back(*part, mVisibility, mLights, offset);
         mPlaces.resize(parts.size());
+        numberPlaces();
+        for (const Mesh* mesh : others) keepEdges(*mesh);
     }
 
-    RefinementRecord run(double wanted) {
+    RefinementRecord run(double wanted, uint64_t mostVertices) {
+        mMostVertices = mostVertices;
         RefinementRecord record{.wanted = wanted, .startVertices = vertices()};
         mObserver.stage(BakeStage::Refinement, "");
         for (bool isFirst = true;; isFirst = false) {
@@ -87,11 +102,26 @@ class Refiner {
                                     .verticesPerSecond = rate,
                                     .secondsLeft = double(count - done) / rate});
             });
-            const std::vector<vec3>& positions = part.mesh().positions;
+        }
+        numberPlaces();
+    }
+
+    void numberPlaces() {
+        for (size_t number = 0; number < mParts.size(); number++) {
+            const std::vector<vec3>& positions = mParts[number].mesh().positions;
             std::vector<uint32_t>& places = mPlaces[number];
             for (size_t i = places.size(); i < positions.size(); i++)
                 places.push_back(mNumbers.number(positions[i]));
         }
+    }
+
+    // Keeps the edges of a mesh that is not refined whole, where edges of refined parts lie on them.
+    void keepEdges(const Mesh& mesh) {
+        std::vector<std::optional<uint32_t>> places;
+        for (const vec3& position : mesh.positions) places.push_back(mNumbers.find(position));
+        for (const uvec3& t : mesh.triangles)
+            for (const auto& [a, b] : {std::pair(t.x, t.y), std::pair(t.y, t.z), std::pair(t.z, t.x)})
+                if (places[a] && places[b]) mKept.insert({*places[a], *places[b]});
     }
 
     Edge placesOf(size_t part, Edge edge) const {
@@ -101,7 +131,7 @@ class Refiner {
     bool isSplittable(size_t part, Edge edge) const {
         const Mesh& mesh = mParts[part].mesh();
         const Edge places = placesOf(part, edge);
-        return places.first != places.second &&
+        return places.first != places.second && !mKept.contains(places) &&
                glm::distance(mesh.positions[edge.first], mesh.positions[edge.second]) >=
                    kShortestEdge * mOffset;
     }
@@ -131,7 +161,7 @@ class Refiner {
         for (const EdgeGain& gain : mGains) within += gain.error;
         if (within < kLeastShare * wanted) return false;
         const double share = std::min(kRoundShare * mError, mError - kAim * wanted);
-        uint64_t room = kMostRefinedVertices - vertices();
+        uint64_t room = mMostVertices - std::min(mMostVertices, vertices());
         std::vector<Edge> chosen;
         for (const EdgeGain& gain : mGains) {
             if (sum >= share || !(gain.error > 0) || gain.sides > room) break;
@@ -157,21 +187,38 @@ class Refiner {
     std::vector<RefinedPart> mParts;
     Places mNumbers;
     std::vector<std::vector<uint32_t>> mPlaces; // per part and vertex
-    double mError = 0, mEnergy = 0;             // squared and times area
+    std::set<Edge> mKept;                       // places of edges that stay whole
+    uint64_t mMostVertices = 0;
+    double mError = 0, mEnergy = 0; // squared and times area
     std::vector<EdgeGain> mGains;
 };
 
 } // namespace
 
 RefinementRecord refine(std::vector<AssetPart>& parts, const Mesh& occluder, float visibilityOffset,
-                        double wanted, BakeObserver& observer) {
-    RELUME_CHECK(wanted > 0);
-    uint64_t given = 0;
-    for (const AssetPart& part : parts) given += part.mesh.vertexCount();
+                        const RefinementGoal& goal, BakeObserver& observer) {
+    RELUME_CHECK(goal.wanted > 0);
+    std::vector<AssetPart*> refined;
+    std::vector<const Mesh*> others;
+    uint64_t given = 0, kept = 0;
+    for (size_t number = 0; number < parts.size(); number++) {
+        AssetPart& part = parts[number];
+        if (goal.isRefined.empty() || goal.isRefined[number]) {
+            refined.push_back(&part);
+            given += part.mesh.vertexCount();
+        } else {
+            others.push_back(&part.mesh);
+            kept += part.mesh.vertexCount();
+        }
+    }
     if (given > kMostRefinedVertices)
-        throw Error("--refine: expected at most {} vertices to begin with, found {}; bake without it",
+        throw Error("--refine: expected at most {} vertices to begin with, found {}; bake with --refine off",
                     kMostRefinedVertices, given);
-    return Refiner(parts, occluder, visibilityOffset, observer).run(wanted);
+    RefinementRecord record =
+        Refiner(refined, others, occluder, visibilityOffset, observer).run(goal.wanted, goal.mostVertices);
+    record.startVertices += kept;
+    record.vertices += kept;
+    return record;
 }
 
 } // namespace relume

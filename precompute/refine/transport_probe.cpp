@@ -72,11 +72,11 @@ TransportProbe::Workspace TransportProbe::makeWorkspace() const {
     return workspace;
 }
 
-ProbeAnswers TransportProbe::answers(vec3 origin, vec3 normal, Workspace& workspace) const {
+ProbeAnswers TransportProbe::answers(vec3 origin, const TangentFrame& frame, Workspace& workspace) const {
     constexpr size_t kBlock = CpuCoefficients::kBlock;
-    mVisibility.trace(origin, normal, workspace.bits);
+    mVisibility.trace(origin, frame.n, workspace.bits);
     CpuCoefficients& texels = workspace.texels;
-    mTransport.evaluate(normal, workspace.bits, texels);
+    mTransport.evaluate(frame, workspace.bits, texels);
     const auto stride = size_t(texels.stride);
     ProbeAnswers answers{};
     std::mt19937_64 random; // a sign for every term and channel of every light: they must not add up

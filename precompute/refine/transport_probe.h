@@ -48,7 +48,7 @@ class TransportProbe {
     Workspace makeWorkspace() const;
 
     // At a point already lifted off the surface. Thread-safe; the same on any thread.
-    ProbeAnswers answers(vec3 origin, vec3 normal, Workspace& workspace) const;
+    ProbeAnswers answers(vec3 origin, const TangentFrame& frame, Workspace& workspace) const;
 
   private:
     const CpuVisibility& mVisibility;

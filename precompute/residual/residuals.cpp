@@ -14,21 +14,32 @@ namespace {
 
 constexpr double kExactTerms = 1e-5; // of the squared sum, that terms may miss and be exact
 
-// A layer of the set's view maps: f, or without and then with what a base color texture multiplies.
-std::vector<Reflectance> layersOf(const MaterialSet& set, MaterialBrdfs& brdfs) {
-    std::vector<Reflectance> layers(static_cast<size_t>(set.brdf.layers));
+// A layer of a set's view maps.
+struct Layer {
+    Reflectance exact;
+    bool isIsotropic;
+};
+
+// They are f of a material, or f without and then with what a base color texture multiplies.
+std::vector<Layer> layersOf(const MaterialSet& set, MaterialBrdfs& brdfs) {
+    std::vector<Layer> layers(static_cast<size_t>(set.brdf.layers));
     for (const AssetMaterial& material : set.materials) {
         const std::shared_ptr<const Brdf> brdf = brdfs.of(material);
-        auto* const layer = &layers[size_t(material.layer)];
+        Layer* const layer = &layers[size_t(material.layer)];
+        for (int i = 0; i < material.layers(); i++) layer[i].isIsotropic = brdf->isIsotropic();
         if (!material.hasBase) {
-            *layer = [brdf](vec3 incoming, vec3 outgoing) { return brdf->evaluate(incoming, outgoing); };
+            layer->exact = [brdf](vec3 incoming, vec3 outgoing) {
+                return brdf->evaluate(incoming, outgoing);
+            };
             continue;
         }
-        layer[0] = [brdf](vec3 incoming, vec3 outgoing) {
+        layer[0].exact = [brdf](vec3 incoming, vec3 outgoing) {
             return glm::max(brdf->evaluate(incoming, outgoing) - brdf->evaluateBase(incoming, outgoing),
                             vec3(0));
         };
-        layer[1] = [brdf](vec3 incoming, vec3 outgoing) { return brdf->evaluateBase(incoming, outgoing); };
+        layer[1].exact = [brdf](vec3 incoming, vec3 outgoing) {
+            return brdf->evaluateBase(incoming, outgoing);
+        };
     }
     return layers;
 }
@@ -55,17 +66,15 @@ bool isExact(const Reflectance& exact, const FactoredBrdf& factors, int layer) {
 }
 
 std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, MaterialBrdfs& brdfs) {
-    const std::vector<Reflectance> layers = layersOf(set, brdfs);
+    const std::vector<Layer> layers = layersOf(set, brdfs);
     bool allExact = true;
     for (size_t layer = 0; layer < layers.size(); layer++)
-        allExact &= isExact(layers[layer], set.brdf, int(layer));
+        allExact &= isExact(layers[layer].exact, set.brdf, int(layer));
     if (allExact) return nullptr;
     auto residual = std::make_shared<ResidualSet>();
-    for (const Reflectance& layer : layers) residual->layers.push_back(makeSphereKernel(layer));
-    const auto isPositive = [](const std::vector<vec3>& maps) {
-        return std::ranges::all_of(maps, [](const vec3& v) { return v.x >= 0 && v.y >= 0 && v.z >= 0; });
-    };
-    residual->isPositive = isPositive(set.brdf.lightMaps) && isPositive(set.brdf.viewMaps);
+    for (const Layer& layer : layers)
+        residual->layers.push_back(makeSphereKernel(layer.exact, layer.isIsotropic));
+    residual->hasNonnegativeTerms = isNonnegative(set.brdf);
     residual->irradianceWeights = irradianceWeights(set.brdf);
     return residual;
 }
@@ -84,8 +93,10 @@ bool isSame(const MaterialSet& a, const MaterialSet& b) {
 Residuals makeResiduals(const Asset& asset) {
     MaterialBrdfs brdfs;
     Residuals residuals;
-    std::vector<std::pair<const MaterialSet*, std::shared_ptr<const ResidualSet>>> known;
+    using Known = std::vector<std::pair<const MaterialSet*, std::shared_ptr<const ResidualSet>>>;
+    Known ofTangents, ofNormals; // of parts whose frames follow these
     for (const AssetPart& part : asset.parts) {
+        Known& known = part.mesh.tangents.empty() ? ofNormals : ofTangents;
         auto& sets = residuals.emplace_back();
         for (const MaterialSet& set : part.sets) {
             const auto same =

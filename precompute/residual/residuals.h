@@ -7,8 +7,9 @@
 
 namespace relume {
 
-// Of every part and set. Null where K terms are the BRDF, as for what is diffuse; and where a BRDF cannot be
-// had any more, with a warning in the log. Parts of the same materials share their sets.
+// Makes the residual of every part and set. It is null where the K terms are the BRDF, as of diffuse
+// materials, and where the BRDF's data is gone, with a warning in the log. Parts of the same materials share
+// their residual.
 Residuals makeResiduals(const Asset& asset);
 
 } // namespace relume

@@ -59,32 +59,14 @@ vec3 cellMean(const Geometry& geometry, int ring, int azimuth, float viewAzimuth
     return sum / weights;
 }
 
-// Whether a turn of both directions about the normal changes nothing, where a few pairs are tried.
-bool isIsotropic(const Reflectance& exact) {
-    for (const auto& [incoming, outgoing] : {std::pair(vec3(0.5f, 0.1f, 0.8f), vec3(-0.4f, 0.2f, 0.9f)),
-                                             {vec3(0.2f, -0.6f, 0.6f), vec3(0.1f, 0.7f, 0.5f)},
-                                             {vec3(-0.1f, 0.3f, 0.9f), vec3(0.3f, 0.1f, 0.8f)}}) {
-        const vec3 first = exact(glm::normalize(incoming), glm::normalize(outgoing));
-        for (const float angle : {0.4f, 1.1f, 1.6f}) {
-            const auto turned = [&](vec3 v) {
-                return glm::normalize(vec3(v.x * std::cos(angle) - v.y * std::sin(angle),
-                                           v.x * std::sin(angle) + v.y * std::cos(angle), v.z));
-            };
-            const vec3 other = exact(turned(incoming), turned(outgoing));
-            if (glm::length(other - first) > 1e-3f * (glm::length(first) + 1e-6f)) return false;
-        }
-    }
-    return true;
-}
-
 // All components that the azimuths can tell apart, before the small ones are dropped.
 class WholeKernel {
   public:
-    explicit WholeKernel(const Reflectance& exact)
+    WholeKernel(const Reflectance& exact, bool isIsotropic)
         : mValues(kHarmonics + 1, std::vector<std::vector<vec3>>(2 * kFrequencies + 1)) {
         for (auto& harmonic : mValues)
             for (auto& component : harmonic) component.resize(size_t(kRings) * kRings);
-        const int views = isIsotropic(exact) ? 1 : kViewAzimuths;
+        const int views = isIsotropic ? 1 : kViewAzimuths;
         tbb::parallel_for(0, kRings, [&](int row) { fill(exact, views, row); });
     }
 
@@ -161,8 +143,8 @@ double energyOf(const std::vector<vec3>& component) {
 
 } // namespace
 
-std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact) {
-    const WholeKernel whole(exact);
+std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact, bool isIsotropic) {
+    const WholeKernel whole(exact, isIsotropic);
     double all = 0;
     std::vector<double> byHarmonic(kHarmonics + 1, 0), byFrequency(kFrequencies + 1, 0);
     for (int harmonic = 0; harmonic <= kHarmonics; harmonic++)

@@ -10,9 +10,9 @@ namespace relume {
 // f(ωi, ωo) without the cosine, of directions above the horizon in the local frame.
 using Reflectance = std::function<vec3(vec3 incoming, vec3 outgoing)>;
 
-// Frequencies and harmonics are as many as hold all but kLostEnergy of the squared sum. On all cores,
-// deterministic.
-std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact);
-constexpr double kLostEnergy = 3e-4;
+// `isIsotropic`: as Brdf. Frequencies and harmonics are as many as hold all but kLostEnergy of the squared
+// sum. On all cores, deterministic.
+std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact, bool isIsotropic);
+constexpr double kLostEnergy = 1e-3;
 
 } // namespace relume

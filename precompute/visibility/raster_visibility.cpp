@@ -59,8 +59,11 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
                "visibility layers"};
     mBlocked = {device, 6ull * capacity * size * size, vk::BufferUse::Device, "visibility blocked"};
     mTarget = {device,
-               {VK_FORMAT_R8_UINT, size, size, 6 * capacity,
-                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+               {.format = VK_FORMAT_R8_UINT,
+                .width = size,
+                .height = size,
+                .layers = 6 * capacity,
+                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
                "visibility target"};
     mReset = {device, visibility_cull_reset_comp_spirv, {}, "visibility cull reset"};
     mCull = {device, visibility_cull_comp_spirv, {culling == Culling::On}, "visibility cull"};

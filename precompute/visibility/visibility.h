@@ -18,7 +18,8 @@ inline float visibilityNearDistance(float offset) { return 1e-3f * offset; }
 
 // A mesh's vertex as the bake sees it, lifted by `offset` along its normal.
 inline shared::BakePoint bakePoint(const Mesh& mesh, size_t vertex, float offset) {
-    return {mesh.positions[vertex] + offset * mesh.normals[vertex], mesh.normals[vertex]};
+    return {mesh.positions[vertex] + offset * mesh.normals[vertex], mesh.normals[vertex],
+            mesh.tangents.empty() ? vec3(0) : mesh.tangents[vertex]};
 }
 
 // Bytes of one point's bits, for faces of size² texels.

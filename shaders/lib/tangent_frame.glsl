@@ -1,4 +1,4 @@
-// Tangent frames from normals. C++ twin: engine/math/tangent_frame.h.
+// Tangent frames from normals and tangents. C++ twin: engine/math/tangent_frame.h.
 #ifndef RELUME_LIB_TANGENT_FRAME_GLSL
 #define RELUME_LIB_TANGENT_FRAME_GLSL
 
@@ -10,6 +10,21 @@ mat3 tangentFrame(vec3 n) {
     vec3 s = squared > 1e-10 ? tangent / sqrt(squared) : vec3(1, 0, 0);
     s = normalize(s - dot(s, n) * n);
     return transpose(mat3(s, cross(n, s), n));
+}
+
+// The frame whose s is the part of `tangent` that is orthogonal to the normal; where there is none, that of the normal.
+mat3 tangentFrame(vec3 n, vec3 tangent) {
+    const vec3 along = tangent - dot(tangent, n) * n;
+    const float squared = dot(along, along);
+    if (!(squared > 1e-10)) return tangentFrame(n);
+    const vec3 s = along / sqrt(squared);
+    return transpose(mat3(s, cross(n, s), n));
+}
+
+// The mirror image of the normal's frame in the plane y = 0: smooth over the sphere but at n = (0, 1, 0).
+mat3 lowerTangentFrame(vec3 n) {
+    const vec3 mirror = vec3(1, -1, 1);
+    return tangentFrame(n, mirror * (vec3(1, 0, 0) * tangentFrame(mirror * n)));
 }
 
 #endif

@@ -1,39 +1,78 @@
-// What a surface reflects that nothing shadows, from lit spheres, and the estimates of what is shadowed that are made
-// of it. C++ twins: mixedSpheres() in precompute/reference/lit_sphere_twin.h, residual_twin.h.
+// Unshadowed radiance from lit spheres, and the estimates of shadowed radiance that use it. C++ twin of the estimates:
+// precompute/reference/residual_twin.h.
 #ifndef RELUME_LIB_UNSHADOWED_GLSL
 #define RELUME_LIB_UNSHADOWED_GLSL
 #include "shaders/lib/polar_map.glsl"
+#include "shaders/lib/tangent_frame.glsl"
 #include "shaders/lib/view_grid.glsl"
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
-// Where the spheres around a view direction have a mirror direction.
+// The spheres around a view direction, with the place of a mirror direction in each, and e^(2ia) of the azimuth a of
+// the sphere's own view direction in the tangent frame.
 struct SpherePlaces {
     int nodes[4];
     vec2 places[4];
+    vec2 phases[4];
     vec4 weights;
 };
 
-SpherePlaces spherePlaces(samplerBuffer grid, vec3 view, vec3 mirror) {
+vec2 phaseOf(vec2 local) {
+    const float squared = dot(local, local);
+    return squared > 0 ? vec2(local.x * local.x - local.y * local.y, 2 * local.x * local.y) / squared : vec2(1, 0);
+}
+
+// The phase of a view direction other than the pixel's, which has the same mirror direction on another normal: in the
+// frame of that, nearest to the pixel's own.
+vec2 phaseAt(mat3 frame, vec3 view, vec3 mirror) {
+    const vec3 between = view + mirror, own = vec3(0, 0, 1) * frame;
+    const vec3 normal = dot(between, between) > 1e-6 ? normalize(between) : own;
+    return phaseOf((tangentFrame(normal, vec3(1, 0, 0) * frame) * view).xy);
+}
+
+// `frame`: of the pixel. Phases are found where spheres have harmonics.
+SpherePlaces spherePlaces(samplerBuffer grid, vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics) {
     const GridCell cell = gridCell(view);
     SpherePlaces at;
     at.weights = vec4(1 - cell.place.x, cell.place.x, 1 - cell.place.x, cell.place.x) *
                  vec4(vec2(1 - cell.place.y), vec2(cell.place.y));
     for (int i = 0; i < 4; i++) {
         at.nodes[i] = int(cell.first) + (i / 2) * int(kGridSide) + i % 2;
-        const vec2 place = polarPlace(texelFetch(grid, 2 * at.nodes[i]).xyz, texelFetch(grid, 2 * at.nodes[i] + 1).xyz,
-                                      mirror);
+        const vec3 axis = texelFetch(grid, 2 * at.nodes[i]).xyz;
+        const vec2 place = polarPlace(axis, texelFetch(grid, 2 * at.nodes[i] + 1).xyz, mirror);
         at.places[i] = vec2(place.y + 0.5 / kSphereAzimuths, place.x);
+        at.phases[i] = hasHarmonics ? phaseAt(frame, axis, mirror) : vec2(1, 0);
     }
     return at;
 }
 
-// Unshadowed radiance of the layer whose spheres begin at `firstSlot`.
-vec3 unshadowedRadiance(sampler2DArray spheres, usamplerBuffer slots, uint firstSlot, SpherePlaces at) {
+// Returns the place of a column, in [0, 1], and a row of a map in an image of maps of `rows` rows below each other.
+// Between the maps nothing is mixed.
+vec2 placeInBand(sampler2DArray maps, float column, float row, uint rows, uint band) {
+    return vec2(column, (float(band * rows) + clamp(row, 0.5, float(rows) - 0.5)) / float(textureSize(maps, 0).y));
+}
+
+vec3 sphereAt(sampler2DArray spheres, vec2 place, uint band, uint layer) {
+    const vec2 inBand = placeInBand(spheres, place.x, place.y * kSphereRings, kSphereRings, band);
+    return textureLod(spheres, vec3(inBand, layer), 0).rgb;
+}
+
+// Returns the unshadowed radiance of the layer whose spheres begin at `firstSlot`: harmonic 0, then the real and the
+// imaginary part of each other.
+vec3 unshadowedRadiance(sampler2DArray spheres, usamplerBuffer slots, uint firstSlot, uint harmonics, SpherePlaces at) {
     vec3 sum = vec3(0);
-    for (int i = 0; i < 4; i++)
-        sum += at.weights[i] *
-               textureLod(spheres, vec3(at.places[i], texelFetch(slots, int(firstSlot) + at.nodes[i]).x), 0).rgb;
+    for (int i = 0; i < 4; i++) {
+        const uint layer = texelFetch(slots, int(firstSlot) + at.nodes[i]).x;
+        vec3 sphere = sphereAt(spheres, at.places[i], 0, layer);
+        vec2 phase = vec2(1, 0);
+        for (uint harmonic = 1; harmonic <= harmonics; harmonic++) {
+            const vec2 step = at.phases[i];
+            phase = vec2(phase.x * step.x - phase.y * step.y, phase.x * step.y + phase.y * step.x);
+            sphere += phase.x * sphereAt(spheres, at.places[i], 2 * harmonic - 1, layer) -
+                      phase.y * sphereAt(spheres, at.places[i], 2 * harmonic, layer);
+        }
+        sum += at.weights[i] * sphere;
+    }
     return max(sum, 0); // a kernel without its highest frequencies can ring below zero
 }
 
@@ -43,18 +82,21 @@ float litShare(vec3 irradiance, vec3 unshadowed) {
     return all > 0 ? clamp(luminance(irradiance) / all, 0, 1) : 1;
 }
 
-// Terms that can be negative: the control variate T + r (E - S), between a part of r E and E. `shadowed` is T, by terms
-// that know of shadows, `share` r, `exact` and `terms` E and S, what nothing shadows.
+// Estimates with signed terms: the control variate T + r (E - S), between a part of r E and E. `shadowed` is T, `share`
+// r; `exact` and `terms` are the unshadowed E and S.
 const float kLeastShare = 0.25;
 vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms) {
     return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, exact);
 }
 
-// Terms that cannot: the ratio E T / S. Where no term sees anything, the shares of the tuples' sums decide.
-const float kLeastView = 1e-4;
+// Estimates with nonnegative terms: the ratio E T / S. Where all terms vanish in the view, the sums of the tuples give
+// the ratio. Each channel's is clamped to a range around the luminance's, and that to a part of the irradiance's:
+// errors of storage would color and blacken what little light reaches.
+const float kLeastView = 1e-4, kLeastOfGrey = 0.8, kMostOfGrey = 1.25;
 vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples) {
-    const vec3 all = terms + kLeastView * unshadowedTuples;
-    return exact * clamp((shadowed + kLeastView * tuples) / max(all, vec3(1e-30)), 0, 1);
+    const vec3 all = terms + kLeastView * unshadowedTuples, lit = shadowed + kLeastView * tuples;
+    const float grey = max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
+    return exact * min(clamp(lit / max(all, vec3(1e-30)), kLeastOfGrey * grey, kMostOfGrey * grey), 1);
 }
 
 #endif

@@ -7,10 +7,11 @@ RELUME_SHARED_BEGIN
 
 // A vertex as the bake sees it.
 struct BakePoint {
-    vec3 origin; // Where visibility is taken: the position, lifted along the normal
-    vec3 normal; // Unit length
+    vec3 origin;  // Where visibility is taken: the position, lifted along the normal
+    vec3 normal;  // Unit length
+    vec3 tangent; // s of its frame; 0: the frame follows from the normal
 };
-RELUME_SHARED_SIZE(BakePoint, 24)
+RELUME_SHARED_SIZE(BakePoint, 36)
 
 // A few neighbouring triangles of the occluder: one indirect draw, instanced over the layers it touches.
 struct TriangleCluster {

@@ -115,11 +115,14 @@ RELUME_SHARED_SIZE(RelightCombinePush, 16)
 
 struct ViewVertex {
     vec3 position;
-    vec3 normal; // Unit length
-    vec2 uv;     // of the part's textures, if it has any
-    vec4 color;  // as paint, if the part is painted by colours
+    vec3 normal;  // Unit length
+    vec2 uv;      // of the part's textures, if it has any
+    vec4 color;   // as paint, if the part is painted by colours
+    vec3 tangent; // Unit length if the part has tangents
+    float unused;
 };
-RELUME_SHARED_SIZE(ViewVertex, 48)
+RELUME_SHARED_SIZE(ViewVertex, 64)
+const uint kVertexTexels = 4; // of a ViewVertex
 
 // Layers of view maps that a part shows: engine/render/appearance.h.
 struct ViewLayer {
@@ -128,8 +131,9 @@ struct ViewLayer {
     uint isTextured; // 1: the base colour texture multiplies it
     float weight;
     uint firstSlot; // of its lit spheres, by node
+    uint harmonics; // of their view's azimuth
 };
-RELUME_SHARED_SIZE(ViewLayer, 20)
+RELUME_SHARED_SIZE(ViewLayer, 24)
 
 // What a draw's fragments look at, the least that serves what a part wears.
 const uint kSingleLook = 0;  // one layer and a constant
@@ -147,6 +151,11 @@ struct ViewSurfacePush {
     uint firstSurface; // the number of the part's first triangle
 };
 RELUME_SHARED_SIZE(ViewSurfacePush, 68)
+
+// Positions of a pixel's samples, Vulkan's standard ones: in sixteenths of the pixel, four bits a sample.
+const uint kSampleX2 = 0x4cu, kSampleY2 = 0x4cu;
+const uint kSampleX4 = 0xa2e6u, kSampleY4 = 0xea62u;
+const uint kSampleX8 = 0xfb135d79u, kSampleY8 = 0x1f7d39b5u;
 
 // The pixels that a part may cover, and where they look.
 struct ViewRays {
@@ -166,12 +175,19 @@ struct ViewShadePush {
     uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
     uint materials; // of the worn set: no more than these share the paint
     uint terms;     // that are summed, the first ones: 1 to K
-    // With the residual:
+    // Used by the residual alone:
     uint firstSlot;   // kSingleLook: of the layer
     uint firstTuples; // of the set: images of its unshadowed tuples
     uint firstWeight; // of the set: texels of what weighs tuples to irradiance
+    vec4 groundFade;  // of GroundFade: center, inner and outer; outer 0: all of the part is there
 };
-RELUME_SHARED_SIZE(ViewShadePush, 112)
+RELUME_SHARED_SIZE(ViewShadePush, 128)
+
+struct ViewEdgesPush {
+    ViewRays rays;
+    uint firstSurface, surfaces; // at least one
+};
+RELUME_SHARED_SIZE(ViewEdgesPush, 72)
 
 // What view_inspect.frag shows, in the order of Inspect.
 const uint kInspectWireframe = 1, kInspectNormals = 2, kInspectDensity = 3;

@@ -12,14 +12,17 @@ const uint kSphereRings = 48, kSphereAzimuths = 96;
 const uint kMostFrequencies = kSphereAzimuths / 2, kMostHarmonics = 5;
 
 // View directions that spheres are made for: corners of cells of equal angle on the faces of a cube.
-const uint kGridCells = 8, kGridSide = kGridCells + 1, kGridNodes = 6 * kGridSide * kGridSide;
+const uint kGridCells = 6, kGridSide = kGridCells + 1, kGridNodes = 6 * kGridSide * kGridSide;
 
 // The light that spheres are lit by: faces of kSphereCube² texels with a border of one from their neighbors.
 const uint kSphereCube = 32, kSphereCubeBordered = kSphereCube + 2;
 // Cells of a face that unshadowed tuples are summed over, a light each.
 const uint kTupleCells = 8, kTupleLights = 6 * kTupleCells * kTupleCells;
-// Unshadowed tuples are polar maps about +Y, of normals.
-const uint kTupleRings = 24, kTupleAzimuths = 48;
+// Unshadowed tuples are polar maps about +Y, of normals. Where frames do not follow from these, there is one
+// for each of equal turns about the normal, from the frame of tangentFrame() above the horizon and of
+// lowerTangentFrame() below: of kTupleSideRings either, one of them beyond it.
+const uint kTupleRings = 16, kTupleAzimuths = 32, kTupleTurns = 24, kTupleSideRings = kTupleRings / 2 + 1;
+const uint kTurnedRows = 2 * kTupleTurns * kTupleSideRings; // of an image: [side][turn][ring]
 
 struct SphereCubePush {
     uint faceSize; // F, of the light cube
@@ -31,8 +34,10 @@ struct UnshadowedTuplesPush {
     uint terms;      // K
     uint isGrey;     // ViewMapTexture::isGrey
     uint firstImage; // of the set's, three for each four terms
+    uint rows;       // of an image: kTupleRings or, if any set is turned, kTurnedRows
+    uint isTurned;   // 1: for each of kTupleTurns
 };
-RELUME_SHARED_SIZE(UnshadowedTuplesPush, 16)
+RELUME_SHARED_SIZE(UnshadowedTuplesPush, 24)
 
 // How a kernel's spheres lie in the buffers between passes.
 struct SpherePush {

@@ -5,7 +5,7 @@
 
 using namespace relume::test;
 
-TEST_CASE("cli: bench view prints view changes and frames of every bake") {
+TEST_CASE("cli: bench view prints changes of view and of light of every bake") {
     const TemporaryFolder folder;
     const auto bake = [&](const std::string& terms, const std::string& layout, const std::string& file) {
         const std::string scene = "bake sphere --ground --ground-tessellation 4 -N 8 --visibility-size 64 "
@@ -35,14 +35,15 @@ TEST_CASE("cli: bench view prints view changes and frames of every bake") {
         CHECK_GT(file["covered_pixels"], 80 * 60 / 10);
         CHECK_LT(file["covered_pixels"], 80 * 60);
         CHECK_GT(file["view_ms"], 0);
-        CHECK_GT(file["frame_ms"], file["frame_passes_ms"]["view"]);
+        CHECK_GT(file["light_ms"], file["light_passes_ms"]["view"]);
         CHECK_EQ(file["view_passes_ms"].size(), 1u);
         CHECK_GT(file["view_passes_ms"]["view"], 0);
-        CHECK_GT(file["frame_passes_ms"]["relight"], 0);
+        CHECK_GT(file["light_passes_ms"]["relight"], 0);
         CHECK_EQ(file["view_fps"].get<double>(), doctest::Approx(1000 / file["view_ms"].get<double>()));
     }
-    const Outcome table = runRelume(folder, "bench view four.relume --size 80x60 --repeats 1");
+    const Outcome table = runRelume(folder, "bench view four.relume --size 80x60 --repeats 1 --samples 4,1");
     CHECK_EQ(table.exitCode, 0);
+    CHECK(says(table.out, "1 samples: a change of light"));
     CHECK(says(table.out, "4+1"));
     CHECK(says(table.out, "80 x 60"));
     const Outcome misplaced = runRelume(folder, "bench --repeats 3 view four.relume");

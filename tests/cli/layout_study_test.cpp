@@ -36,7 +36,7 @@ TEST_CASE("cli: the layout study measures every layout, each bake against a refe
                               "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
     const auto bake = [&](const std::string& options) {
         const Outcome outcome =
-            runRelume(folder, "bake solid.obj -K 2 -N 32 --layout rows --visibility-size 64 "
+            runRelume(folder, "bake solid.obj --refine off -K 2 -N 32 --layout rows --visibility-size 64 "
                               "--map-size 16 -q " +
                                   options);
         CAPTURE(outcome.err);

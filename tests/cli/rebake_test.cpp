@@ -29,12 +29,12 @@ struct RebakeFolder : TemporaryFolder {
 
     Outcome bake(const std::string& arguments, const std::string& output,
                  const std::string& environment = kNoThreads) const {
-        return runRelume(
-            *this,
-            "bake scene.json --ground --ground-tessellation 12 --visibility-size 64 --face-size 32 "
-            "--map-size 8 -q " +
-                arguments + " -o " + output,
-            environment);
+        return runRelume(*this,
+                         "bake scene.json --ground --ground-tessellation 12 --refine off --visibility-size "
+                         "64 --face-size 32 "
+                         "--map-size 8 -q " +
+                             arguments + " -o " + output,
+                         environment);
     }
     Outcome rebake(const std::string& arguments, const std::string& output,
                    const std::string& environment = kNoThreads) const {
@@ -56,6 +56,20 @@ constexpr const char* kKept = "-K 2 -N 8 --layout rows --keep-visibility";
 
 } // namespace
 
+TEST_CASE("rebake: what is no longer brushed has no tangents, and what stays so keeps its own") {
+    const RebakeFolder folder;
+    folder.describe("\"brushed-steel\", \"brush_rotation\": 30", "\"gold\"");
+    REQUIRE_EQ(folder.bake(kKept, "kept.relume").exitCode, 0);
+    const Outcome again = folder.rebake("kept.relume -m a=brushed-steel", "again.relume");
+    REQUIRE_MESSAGE(again.exitCode == 0, again.err);
+    CHECK(folder.bytes("again.relume") == baked(folder, kRows));
+    const Outcome plain = folder.rebake("kept.relume -m a=clay", "plain.relume");
+    REQUIRE_MESSAGE(plain.exitCode == 0, plain.err);
+    const Outcome info = runRelume(folder, "info plain.relume --json");
+    CHECK(says(info.out, "brush_rotation"));
+    CHECK_FALSE(says(info.out, "tangents"));
+}
+
 TEST_CASE("rebake: the bytes are those of a bake of the new materials, terms and coefficients") {
     const RebakeFolder folder;
     REQUIRE_EQ(folder.bake(kKept, "kept.relume").exitCode, 0);
@@ -67,6 +81,7 @@ TEST_CASE("rebake: the bytes are those of a bake of the new materials, terms and
              {"\"clay\"", "\"gold\"", kKept, "--keep-visibility"},
              {"\"copper\"", "\"copper\"", kRows, "-m copper"},
              {"\"copper\"", "\"gold\"", kRows, "-m a=copper"},
+             {"\"brushed-steel\"", "\"gold\"", kRows, "-m a=brushed-steel"}, // which gets tangents
              {"\"copper\"", "\"clay\"", "-K 3 -N 40 --layout rows --ground-material gold",
               "-K 3 -N 40 -m copper -m b=2=clay -m ground=gold"},
              {"{\"set\": [\"clay\", \"gold\"]}", "\"gold\"", "-K 4 -N 8 --layout rows --keep-visibility",

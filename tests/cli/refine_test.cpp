@@ -87,6 +87,33 @@ TEST_CASE("refine: a ground whose tessellation is given starts with it") {
     }
 }
 
+TEST_CASE("refine: by itself a bake adds vertices to coarse parts alone") {
+    const BakeFolder folder;
+    const auto bake = [&](const std::string& input, const std::string& output) {
+        const Outcome outcome = runRelume(folder,
+                                          "bake " + input +
+                                              " -K 1 -N 8 --visibility-size 64 --face-size 32 --map-size 8 "
+                                              "--layout rows -q -o " +
+                                              output,
+                                          kNoThreads);
+        REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.err);
+    };
+    bake("mesh.obj --ground", "coarse.relume");
+    const json coarse = folder.info("coarse.relume");
+    CHECK_EQ(coarse["refinement"]["auto"], true);
+    CHECK_EQ(coarse["refinement"]["start_vertices"], 3 + 17 * 17);
+    CHECK(coarse["total"]["vertices"] > 3 + 17 * 17);
+    CHECK(coarse["total"]["vertices"] <= 20000);
+    // A ground as it was asked for: one that was not is the same without refinement.
+    bake("mesh.obj --ground --ground-tessellation 9", "given.relume");
+    CHECK_EQ(folder.info("given.relume")["parts"][1]["vertices"], 10 * 10);
+    // A mesh that is fine: to the byte what it is without.
+    bake("plane", "fine.relume");
+    bake("plane --refine off", "off.relume");
+    CHECK(folder.bytes("fine.relume") == folder.bytes("off.relume"));
+    CHECK_FALSE(folder.info("fine.relume").contains("refinement"));
+}
+
 TEST_CASE("refine: its event") {
     const BakeFolder folder;
     const Outcome bake = runRelume(folder,

@@ -36,17 +36,18 @@ Material makeMaterial(const char* name, int terms) {
 
 std::shared_ptr<ResidualSet> residualOf(const Material& material) {
     auto set = std::make_shared<ResidualSet>();
-    set->layers.push_back(makeSphereKernel(material.exact));
+    set->layers.push_back(makeSphereKernel(material.exact, material.brdf->isIsotropic()));
     set->irradianceWeights = irradianceWeights(material.factors);
     return set;
 }
 
-// Parts without a mesh, each of one material.
-Asset assetOf(std::initializer_list<const Material*> materials) {
+// Parts without a mesh but for a tangent, each of one material.
+Asset assetOf(std::initializer_list<const Material*> materials, bool hasTangents) {
     Asset asset;
     for (const Material* material : materials) {
         asset.parts.emplace_back();
         asset.parts.back().sets.push_back({{}, material->factors, {}});
+        if (hasTangents) asset.parts.back().mesh.tangents = {{1, 0, 0}};
     }
     return asset;
 }
@@ -90,29 +91,31 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
     CHECK(sets[1]->layers[0]->harmonics > 0);
     LightPass pass(device, 64);
     pass.setCube(light);
-    LitSpheres spheres(device, assetOf({&gold, &steel}), {{sets[0]}, {sets[1]}});
-    // More nodes than are made together.
-    std::set<uint32_t> nodes;
-    for (uint32_t node = 40; node < 80; node++) nodes.insert(node);
-    vk::Commands commands(device, "spheres");
-    commands.begin();
-    pass.record(commands);
-    spheres.recordLight(commands, pass);
-    const uint32_t both[] = {0, 1};
-    spheres.record(commands, both, nodes);
-    commands.submitAndWait();
+    for (const bool hasTangents : {false, true}) {
+        CAPTURE(hasTangents);
+        LitSpheres spheres(device, assetOf({&gold, &steel}, hasTangents), {{sets[0]}, {sets[1]}});
+        // More nodes than are made together.
+        std::set<uint32_t> nodes;
+        for (uint32_t node = 40; node < 80; node++) nodes.insert(node);
+        vk::Commands commands(device, "spheres");
+        commands.begin();
+        pass.record(commands);
+        spheres.recordLight(commands, pass);
+        const uint32_t both[] = {0, 1};
+        spheres.record(commands, both, nodes);
+        commands.submitAndWait();
 
-    const std::vector<vec3> cube = sphereCube(light);
-    const std::vector<CellLight> lights = cellLights(light);
-    for (uint32_t i = 0; i < 2; i++) {
-        const SphereKernel& kernel = *sets[i]->layers[0];
-        // Samplers round bilinear weights to 8 bits.
-        CHECK(relativeError(spheres.readTuples(sets[i].get()),
-                            unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors)) < 2e-3);
-        for (const uint32_t node : {40u, 79u}) {
-            const vec3 view = gridDirection(node);
-            CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node),
-                                litSphere(kernel, polarLight(cube, view), view)) < 2e-3);
+        const std::vector<vec3> cube = sphereCube(light);
+        const std::vector<CellLight> lights = cellLights(light);
+        for (uint32_t i = 0; i < 2; i++) {
+            const SphereKernel& kernel = *sets[i]->layers[0];
+            // Samplers round bilinear weights to 8 bits.
+            CHECK(relativeError(
+                      spheres.readTuples(sets[i].get()),
+                      unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors, hasTangents)) < 2e-3);
+            for (const uint32_t node : {40u, 79u})
+                CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node),
+                                    litSpheres(kernel, polarLight(cube, gridDirection(node)))) < 2e-3);
         }
     }
 }
@@ -125,14 +128,18 @@ TEST_CASE("lit spheres: are what the exact BRDF reflects") {
     for (const char* name : {"gold", "brushed-steel"}) {
         CAPTURE(std::string(name));
         const Material material = makeMaterial(name, 1);
-        const std::vector<vec3> sphere = litSphere(*makeSphereKernel(material.exact), polar, view);
+        const std::shared_ptr<const SphereKernel> kernel =
+            makeSphereKernel(material.exact, material.brdf->isIsotropic());
+        const std::vector<vec3> spheres = litSpheres(*kernel, polar);
         std::vector<vec3> made, exact;
         for (uint32_t ring = 2; ring < 44; ring += 4)
             for (uint32_t azimuth = 0; azimuth < shared::kSphereAzimuths; azimuth += 7) {
                 const vec3 mirror =
                     polarDirection(frame.n, frame.s, (float(ring) + 0.5f) * kPi / float(shared::kSphereRings),
                                    float(azimuth) * 2 * kPi / float(shared::kSphereAzimuths));
-                made.push_back(sphere[ring * shared::kSphereAzimuths + azimuth]);
+                const vec3 local = tangentFrame(glm::normalize(view + mirror)).toLocal(view);
+                made.push_back(litSphereRadiance(*kernel, spheres, ring * shared::kSphereAzimuths + azimuth,
+                                                 std::atan2(local.y, local.x)));
                 exact.push_back(exactRadiance(light, *material.brdf, view, mirror));
             }
         CHECK(relativeError(made, exact) < 0.02);

@@ -49,7 +49,8 @@ Samples makeSamples(int count, int size, float free = 0.6f) {
     Samples samples;
     for (int i = 0; i < count; i++) {
         const vec3 normal = direction(), blocker = direction();
-        samples.points.push_back({vec3(0), normal});
+        // Every other frame follows from the normal.
+        samples.points.push_back({vec3(0), normal, i % 2 ? tangentFrame(normal, direction()).s : vec3(0)});
         std::vector<uint8_t>& cube = samples.visibility.emplace_back();
         for (int texel = 0; texel < 6 * size * size; texel++) {
             const vec3 towards =
@@ -100,9 +101,9 @@ void checkCase(const vk::Device& device, const Case& c) {
     double dropped = 0, total = 0;
     for (size_t row = 0; row < 3 * size_t(c.terms); row++) {
         const size_t point = row / size_t(c.terms), term = row % size_t(c.terms);
-        std::vector<vec3> expected =
-            transportVector(samples.visibility[point], c.visibilitySize, c.faceSize, c.transportSamples, brdf,
-                            int(term), tangentFrame(samples.points[point].normal));
+        std::vector<vec3> expected = transportVector(
+            samples.visibility[point], c.visibilitySize, c.faceSize, c.transportSamples, brdf, int(term),
+            tangentFrame(samples.points[point].normal, samples.points[point].tangent));
         haarFaces(expected, c.faceSize);
         const std::vector<uint16_t> selected = selectLargest(expected, c.coefficients);
         const PackedRow packed = packRow(expected, selected);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -118,18 +119,76 @@ class HostView {
     HostPixel at(vec3 eye, vec3 direction) const {
         const auto hit = mTracer.intersect(eye, direction);
         if (!hit) return {false, false, vec3(0)};
+        return at(direction, *hit);
+    }
+
+    // A pixel of several samples, as the shaders group them. It is steady if its samples are.
+    std::pair<vec4, bool> at(const Camera& camera, ivec2 pixel, ivec2 size, int samples) const {
+        std::vector<std::optional<RayHit>> hits;
+        std::vector<uint32_t> seen;
+        bool isSteady = true;
+        for (int i = 0; i < samples; i++) {
+            const vec2 place = vec2(pixel) + samplePosition(samples, i);
+            const vec3 ray = camera.directionAt(place, size.x, size.y);
+            hits.push_back(mTracer.intersect(camera.eye, ray));
+            const auto& hit = hits.back();
+            isSteady = isSteady && hit && at(ray, *hit).steady;
+            seen.push_back(hit ? (hit->mesh << 24 | hit->triangle) + 1 : 0);
+        }
+        const auto hitOf = [&](uint32_t surface) {
+            return *hits[size_t(std::ranges::find(seen, surface) - seen.begin())];
+        };
+        const auto isOne = [&](uint32_t a, uint32_t b) {
+            const RayHit first = hitOf(a), second = hitOf(b);
+            if (first.mesh != second.mesh) return false;
+            const std::vector<uvec3>& triangles = mAsset.parts[first.mesh].mesh.triangles;
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    if (triangles[first.triangle][i] == triangles[second.triangle][j]) return true;
+            return false;
+        };
+        vec4 sum(0);
+        for (const uint32_t members : groupSamples(seen, isOne)) {
+            vec2 place(pixel);
+            const auto count = float(std::popcount(members));
+            for (int i = 0; i < samples; i++)
+                if (members >> i & 1) place += samplePosition(samples, i) / count;
+            RayHit hit = *hits[size_t(std::countr_zero(members))];
+            const vec3 ray = camera.directionAt(place, size.x, size.y);
+            hit.weights = weightsAt(hit, camera.eye, ray);
+            sum += count / float(samples) * vec4(at(ray, hit).radiance, 1);
+        }
+        return {sum, isSteady};
+    }
+
+  private:
+    // Where a ray meets the plane of the triangle that another has hit, moved to its nearest edge.
+    vec3 weightsAt(const RayHit& hit, vec3 eye, vec3 direction) const {
+        const Mesh& mesh = mAsset.parts[hit.mesh].mesh;
+        const uvec3 corners = mesh.triangles[hit.triangle];
+        const vec3 origin = mesh.positions[corners.x];
+        const mat3 axes(mesh.positions[corners.y] - origin, mesh.positions[corners.z] - origin, -direction);
+        const vec3 solved = glm::inverse(axes) * (eye - origin);
+        vec2 yz = glm::clamp(vec2(solved), 0.0f, 1.0f);
+        yz /= std::max(1.0f, yz.x + yz.y);
+        return {1 - yz.x - yz.y, yz};
+    }
+
+    // Of a surface that is looked at in a direction.
+    HostPixel at(vec3 direction, const RayHit& seen) const {
+        const RayHit* const hit = &seen;
         const AssetPart& part = mAsset.parts[hit->mesh];
         const uvec3 corners = part.mesh.triangles[hit->triangle];
-        vec3 normal(0), position(0);
+        vec3 normal(0), tangent(0);
         vec2 uv(0);
         vec4 color(0);
         for (int c = 0; c < 3; c++) {
             normal += hit->weights[c] * part.mesh.normals[corners[c]];
-            position += hit->weights[c] * part.mesh.positions[corners[c]];
+            if (!part.mesh.tangents.empty()) tangent += hit->weights[c] * part.mesh.tangents[corners[c]];
             if (!part.mesh.uvs.empty()) uv += hit->weights[c] * part.mesh.uvs[corners[c]];
             if (!part.mesh.colors.empty()) color += hit->weights[c] * part.mesh.colors[corners[c]];
         }
-        const vec3 toEye = tangentFrame(glm::normalize(normal)).toLocal(glm::normalize(eye - position));
+        const vec3 toEye = tangentFrame(glm::normalize(normal), tangent).toLocal(glm::normalize(-direction));
         const vec3 local = liftAboveHorizon(toEye);
         const FactoredBrdf& brdf = setOf(hit->mesh).brdf;
         const std::vector<vec3> weights = layerWeights(hit->mesh, uv, color);
@@ -145,7 +204,6 @@ class HostView {
         return {true, inside > 0.02f && toEye.z > 0.15f, glm::max(radiance, vec3(0))};
     }
 
-  private:
     const MaterialSet& setOf(size_t part) const { return mAsset.parts[part].sets[mAppearance[part].set]; }
 
     // How much of every layer of the worn set, worked out from the definitions in appearance.h.
@@ -202,7 +260,7 @@ void checkAgainstHost(const vk::Device& device, const Asset& asset, const Appear
     const TestScene scene(device, asset, appearance);
     const LightVector light = scene.light.readVector();
     constexpr int kWidth = 120, kHeight = 80;
-    ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
+    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
     view.setAppearance(appearance);
     const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, float(kWidth) / kHeight);
     const Image image = view.render(camera, scene.relighter);
@@ -311,6 +369,14 @@ TEST_CASE("view pass: grey view maps, four terms a lookup, agree with the CPU") 
     }
 }
 
+TEST_CASE("view pass: frames follow tangents") {
+    const TestDevice device;
+    Asset asset = makeAsset(4, 3);
+    Mesh& sphere = asset.parts[0].mesh;
+    for (const vec3& normal : sphere.normals) sphere.tangents.push_back(tangentFrame(normal, {1, 3, 2}).s);
+    checkPlain(device, asset);
+}
+
 TEST_CASE("view pass: many parts are told apart") {
     const TestDevice device;
     // As many as there are stencil values and one, so that the first and the last share one; they overlap.
@@ -326,17 +392,65 @@ TEST_CASE("view pass: many parts are told apart") {
     const TestScene manyScene(device, asset, defaultAppearance(asset));
     const TestScene twoScene(device, two, defaultAppearance(two));
     const Camera camera = orbitCamera(boundsOf(two), 0.5f, 0.6f, 0.7f, 0.8f, 1.5f);
-    ViewPass many(device, asset, {.width = 60, .height = 40}), few(device, two, {.width = 60, .height = 40});
-    const Image found = many.render(camera, manyScene.relighter),
-                expected = few.render(camera, twoScene.relighter);
-    float largest = 0, worst = 0;
-    for (size_t i = 0; i < found.pixels.size(); i++)
-        for (int c = 0; c < 3; c++) {
-            largest = std::max(largest, expected.pixels[i][c]);
-            worst = std::max(worst, std::abs(found.pixels[i][c] - expected.pixels[i][c]));
-        }
-    CHECK_LT(0.0f, largest);
-    CHECK_LT(worst, 1e-5f * largest);
+    for (const int samples : {1, 4}) {
+        const ViewOptions options{.width = 60, .height = 40, .samples = samples};
+        ViewPass many(device, asset, options), few(device, two, options);
+        const Image found = many.render(camera, manyScene.relighter),
+                    expected = few.render(camera, twoScene.relighter);
+        float largest = 0, worst = 0;
+        for (size_t i = 0; i < found.pixels.size(); i++)
+            for (int c = 0; c < 4; c++) {
+                largest = std::max(largest, expected.pixels[i][c]);
+                worst = std::max(worst, std::abs(found.pixels[i][c] - expected.pixels[i][c]));
+            }
+        CHECK_LT(0.0f, largest);
+        CHECK_LT(worst, 1e-5f * largest);
+    }
+}
+
+TEST_CASE("view pass: a pixel of several samples shows each surface by its share") {
+    const TestDevice device;
+    const Asset asset = makeAsset(4, 1);
+    const Appearance appearance = defaultAppearance(asset);
+    const TestScene scene(device, asset, appearance);
+    const LightVector light = scene.light.readVector();
+    const HostView host(asset, light, appearance);
+    constexpr ivec2 kSize(120, 80);
+    ViewPass view(device, asset, {.width = kSize.x, .height = kSize.y, .samples = 1});
+    const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, float(kSize.x) / kSize.y);
+    const Image centers = view.render(camera, scene.relighter);
+    for (const int asked : {2, 4, 8}) {
+        view.setSamples(asked);
+        const int samples = view.samples();
+        REQUIRE_LE(samples, asked);
+        if (samples == 1) continue; // the device has no more
+        const Image image = view.render(camera, scene.relighter);
+        float largest = 0, worst = 0;
+        int edges = 0, differ = 0, partly = 0;
+        for (int y = 0; y < kSize.y; y++)
+            for (int x = 0; x < kSize.x; x++) {
+                const auto [expected, isSteady] = host.at(camera, {x, y}, kSize, samples);
+                const vec4 pixel = image.at(x, y);
+                const float apart = glm::length(vec3(pixel) - vec3(expected));
+                largest = std::max(largest, glm::length(vec3(expected)));
+                if (isSteady) {
+                    CHECK_EQ(pixel.w, 1.0f);
+                    worst = std::max(worst, apart);
+                } else if (expected.w > 0) { // rounding may decide what a sample sees
+                    edges++;
+                    partly += expected.w < 1;
+                    differ += pixel.w != expected.w || apart > 0.01f * glm::length(vec3(expected));
+                }
+            }
+        CHECK_LT(worst, 1e-4f * largest);
+        CHECK_LT(300, edges);
+        CHECK_LT(100, partly);
+        CHECK_LT(differ, edges / 20);
+        MESSAGE(samples, " samples: ", differ, " of ", edges, " edge pixels differ, ", partly,
+                " half covered");
+    }
+    view.setSamples(1);
+    CHECK(view.render(camera, scene.relighter).pixels == centers.pixels);
 }
 
 TEST_CASE("view pass: backs are seen from inside, and through holes") {
@@ -405,6 +519,35 @@ TEST_CASE("view pass: another size is another image") {
     resized.render(camera, scene.relighter);
     resized.resize(60, 40);
     CHECK(resized.render(camera, scene.relighter).pixels == made.render(camera, scene.relighter).pixels);
+}
+
+TEST_CASE("view pass: what is seen is kept while the camera stays, and drawn again when it does not") {
+    const TestDevice device;
+    const Asset asset = makeAsset(4, 1);
+    const TestScene scene(device, asset, defaultAppearance(asset));
+    const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, 1.5f),
+                 other = orbitCamera(boundsOf(asset), 0.9f, 0.6f, 0.7f, 0.8f, 1.5f);
+    for (const int samples : {1, 4}) {
+        CAPTURE(samples);
+        const auto anew = [&](const Camera& from, int terms) {
+            ViewPass view(device, asset, {.width = 60, .height = 40, .samples = samples});
+            view.setTerms(terms);
+            return view.render(from, scene.relighter).pixels;
+        };
+        ViewPass view(device, asset, {.width = 60, .height = 40, .samples = samples});
+        view.setInspect(Inspect::Normals); // marks no edges
+        view.render(camera, scene.relighter);
+        view.setInspect(Inspect::Off);
+        for (const int terms : {4, 2, 4}) {
+            view.setTerms(terms);
+            CHECK(view.render(camera, scene.relighter).pixels == anew(camera, terms));
+        }
+        CHECK(view.render(other, scene.relighter).pixels == anew(other, 4));
+        view.resize(20, 90);
+        view.render(other, scene.relighter);
+        view.resize(60, 40);
+        CHECK(view.render(other, scene.relighter).pixels == anew(other, 4));
+    }
 }
 
 TEST_CASE("view pass: a diffuse plane seen from above is its tuple") {
@@ -482,23 +625,26 @@ TEST_CASE("view pass: inspected, a plane shows its edges, its normal, and that i
     asset.parts.push_back(makePart(makePlane(2, 2), 1, DiskMapping::Orthographic, 4));
     const TestScene scene(device, asset, defaultAppearance(asset));
     ViewPass view(device, asset, {.width = 64, .height = 64});
-    const auto shown = [&](Inspect inspect) {
-        view.setInspect(inspect);
-        return view.render({{0, 3, 0}, {0, 0, 0}, 0.5f}, scene.relighter); // within the plane
-    };
-    const Image normals = shown(Inspect::Normals), density = shown(Inspect::Density),
-                wires = shown(Inspect::Wireframe);
-    const float half = std::pow(0.5f, 2.2f);
-    size_t edges = 0;
-    for (size_t i = 0; i < normals.pixels.size(); i++) {
-        CHECK_LT(glm::distance(normals.pixels[i], vec4(half, 1, half, 1)), 1e-3f);
-        const vec4 d = density.pixels[i];
-        CHECK(d.x == d.z);
-        CHECK_GT(d.x, 0.8f);
-        edges += wires.pixels[i].x > 0.4f;
+    for (const int samples : {1, 4}) {
+        view.setSamples(samples);
+        const auto shown = [&](Inspect inspect) {
+            view.setInspect(inspect);
+            return view.render({{0, 3, 0}, {0, 0, 0}, 0.5f}, scene.relighter); // within the plane
+        };
+        const Image normals = shown(Inspect::Normals), density = shown(Inspect::Density),
+                    wires = shown(Inspect::Wireframe);
+        const float half = std::pow(0.5f, 2.2f);
+        size_t edges = 0;
+        for (size_t i = 0; i < normals.pixels.size(); i++) {
+            CHECK_LT(glm::distance(normals.pixels[i], vec4(half, 1, half, 1)), 1e-3f);
+            const vec4 d = density.pixels[i];
+            CHECK(d.x == d.z);
+            CHECK_GT(d.x, 0.8f);
+            edges += wires.pixels[i].x > 0.4f;
+        }
+        // A cross of two pixels' width, and two diagonals.
+        CHECK_GT(edges, 64u * 2);
+        CHECK_LT(edges, 64u * 64 / 4);
+        CHECK(shown(Inspect::Off).pixels != normals.pixels);
     }
-    // A cross of two pixels' width, and two diagonals.
-    CHECK_GT(edges, 64u * 2);
-    CHECK_LT(edges, 64u * 64 / 4);
-    CHECK(shown(Inspect::Off).pixels != normals.pixels);
 }

@@ -6,6 +6,8 @@
 #include "engine/scene/builtin_mesh.h"
 #include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
+#include "precompute/brdf/brdf.h"
+#include "precompute/brdf/factorization.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/residual/residuals.h"
 #include "tests/support/test_device.h"
@@ -36,7 +38,7 @@ Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
     Relighter relighter(device, asset, {.residuals = residuals});
-    ViewPass view(device, asset, {.width = kWidth, .height = kHeight});
+    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
     view.setResidual(isAdded);
     vk::Commands commands(device, "residual test");
     commands.begin();
@@ -51,6 +53,7 @@ Image reference(const Asset& asset, const LightCube& cube, ReferenceBrdf brdf) {
     ReferenceOptions options;
     options.width = kWidth;
     options.height = kHeight;
+    options.samples = 1;
     options.raysPerTexelSide = 1;
     options.brdf = brdf;
     return renderReference(asset, viewOf(asset), cube, options);
@@ -65,7 +68,7 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         const Asset asset = bakeKnot(device, "gold", method);
         const Residuals residuals = makeResiduals(asset);
         REQUIRE(residuals[0][0]);
-        CHECK(residuals[0][0]->isPositive == (method == Factorization::NonNegative));
+        CHECK(residuals[0][0]->hasNonnegativeTerms == (method == Factorization::NonNegative));
         const Image exact = reference(asset, sky, ReferenceBrdf::Exact);
         const Image drawn = relit(device, asset, sky, residuals), terms = relit(device, asset, sky, {});
         const double error = compareImages(drawn, exact).relativeRmse,
@@ -79,6 +82,46 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         // Switched off, not a bit of it is left.
         CHECK(relit(device, asset, sky, residuals, false).pixels == terms.pixels);
     }
+}
+
+TEST_CASE("image: parts with tangents share no residual with parts without") {
+    Asset asset;
+    asset.parts.resize(3);
+    for (AssetPart& part : asset.parts) {
+        part.sets.resize(1);
+        part.sets[0].materials = {{"gold", R"({"model": "ggx", "roughness_u": 0.2, "roughness_v": 0.2})"}};
+        part.sets[0].brdf =
+            factorize(tabulate(*makeBrdf("gold"), 8, DiskMapping::EqualArea, TexelValue::Mean), {.terms = 2});
+    }
+    asset.parts[1].mesh.tangents = {{1, 0, 0}};
+    const Residuals residuals = makeResiduals(asset);
+    REQUIRE(residuals[0][0]);
+    CHECK(residuals[0][0] == residuals[2][0]);
+    CHECK(residuals[0][0] != residuals[1][0]);
+}
+
+TEST_CASE("image: brushed metal follows its tangents, however they are turned") {
+    const TestDevice device;
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    std::vector<Image> images;
+    for (const float degrees : {0.0f, 60.0f}) {
+        CAPTURE(degrees);
+        Scene scene;
+        scene.parts.push_back({"sphere", makeSphere(4), "brushed-steel", "built-in sphere", ""});
+        scene.parts.back().brushRotation = degrees;
+        BakeOptions options;
+        options.factorization.method = Factorization::NonNegative;
+        const Asset asset = bake(device, std::move(scene), options);
+        REQUIRE(asset.parts[0].mesh.tangents.size() == asset.parts[0].mesh.vertexCount());
+        const Image drawn = relit(device, asset, sky, makeResiduals(asset)),
+                    exact = reference(asset, sky, ReferenceBrdf::Exact);
+        const double error = compareImages(drawn, exact).relativeRmse;
+        MESSAGE("turned by ", degrees, " degrees: ", error);
+        CHECK_LE(error, 0.05);
+        images.push_back(drawn);
+    }
+    // The turn is seen.
+    CHECK_GT(compareImages(images[0], images[1]).relativeRmse, 0.1);
 }
 
 TEST_CASE("image: a diffuse material has no residual, and light that is none gives none") {

@@ -148,6 +148,8 @@ inline Asset sampleAsset(uint32_t seed = 1) {
     rich.materialMap = Texture{1, 1, {0x12345678}, false};
     // The second is painted by its colours.
     for (uint32_t i = 0; i < 11; i++) asset.parts[1].mesh.colors.push_back(vec4(float(i) / 10));
+    for (const vec3& normal : asset.parts[1].mesh.normals)
+        asset.parts[1].mesh.tangents.push_back(tangentFrame(normal, {1, 2, 3}).s);
     asset.parts[1].paintedByColors = true;
     asset.occluder.positions = asset.parts[0].mesh.positions;
     asset.occluder.triangles = asset.parts[0].mesh.triangles;

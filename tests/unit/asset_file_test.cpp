@@ -87,6 +87,7 @@ void checkSamePart(const AssetPart& a, const AssetPart& b) {
     checkSameMesh(a.mesh, b.mesh);
     CHECK(a.mesh.uvs == b.mesh.uvs);
     CHECK(a.mesh.colors == b.mesh.colors);
+    CHECK(a.mesh.tangents == b.mesh.tangents);
     checkSameTexture(a.baseColor, b.baseColor);
     checkSameTexture(a.materialMap, b.materialMap);
     CHECK(a.paintedByColors == b.paintedByColors);
@@ -413,6 +414,7 @@ TEST_CASE("asset file: absurd settings and counts are refused") {
     refuses("\"layer\":1,\"base\":true", "\"layer\":1,\"base\":1");
     refuses("\"uvs\":true", "\"uvs\":false");
     refuses("\"colors\":false", "\"colors\":true");
+    refuses("\"tangents\":true", "\"tangents\":false");
     refuses("\"paintedByColors\":false", "\"paintedByColors\":true");
     for (const char* width : {"0", "3", "8193", "-1"})
         refuses("\"width\":2", fmt::format("\"width\":{}", width).c_str());
@@ -517,6 +519,10 @@ TEST_CASE("asset file: an asset that could not be read back is not written") {
     refuses([&](Asset& a) { a.parts[0].mesh.uvs[3].x = nan; });
     refuses([](Asset& a) { a.parts[0].mesh.uvs.pop_back(); });
     refuses([](Asset& a) { a.parts[1].mesh.colors[2].y = 1.5f; });
+    refuses([](Asset& a) { a.parts[1].mesh.tangents.pop_back(); });
+    refuses([](Asset& a) { a.parts[1].mesh.tangents[3] *= 1.01f; });
+    refuses([](Asset& a) { a.parts[1].mesh.tangents[3] = a.parts[1].mesh.normals[3]; });
+    refuses([&](Asset& a) { a.parts[1].mesh.tangents[3].x = nan; });
     refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).terms = 2; });
     refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).vertices = 18; });
     refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).rowStarts[1] = 1000000; });

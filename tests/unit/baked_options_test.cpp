@@ -40,7 +40,7 @@ TEST_CASE("baked options: they come back") {
     clusters.layout = {.layout = TransportLayout::Clusters, .bytesPerVertex = 123.5};
     options.layout.error = 0.03;
     rows.layout = {.layout = TransportLayout::Rows};
-    rows.refinement = {0.01, 0.25, 0.0098, 0, 0};
+    rows.refinement = {0.01, 0.25, 0.0098, 0, 0, true};
     for (const BakeOptions& each : {options, clusters, rows, BakeOptions()}) {
         const BakeOptions back = optionsOf(assetOf(each));
         CHECK_EQ(describeOptions(back), describeOptions(each));

@@ -125,6 +125,29 @@ TEST_CASE("brdf: brushed steel is wide along s") {
           5 * steel->evaluate(direction(0.6f, kPi / 2), kNormal).x);
 }
 
+TEST_CASE("brdf: a turn about the normal changes those alone that are not isotropic") {
+    for (const std::string& material : materials()) {
+        CAPTURE(material);
+        const auto brdf = makeBrdf(material);
+        float worst = 0;
+        // Near the mirror direction, where the narrowest lobes are.
+        for (const float tilt : {0.01f, 0.05f, 0.2f})
+            for (const float turn : {0.4f, 1.1f, 1.6f}) {
+                const auto reflected = [&](float azimuth) {
+                    const vec3 half =
+                        glm::normalize(vec3(tilt * std::cos(azimuth), tilt * std::sin(azimuth), 1));
+                    const vec3 out = direction(0.5f, azimuth + 2);
+                    return brdf->evaluate(2 * glm::dot(half, out) * half - out, out);
+                };
+                const vec3 first = reflected(0.3f), other = reflected(0.3f + turn);
+                worst = std::max(worst, glm::length(first - other) / glm::length(first));
+            }
+        CHECK((worst < 1e-3f) == brdf->isIsotropic());
+    }
+    CHECK_FALSE(makeBrdf(R"({"model": "ashikhmin-shirley", "nu": 500, "nv": 5000})")->isIsotropic());
+    CHECK(makeBrdf(R"({"model": "ashikhmin-shirley", "nu": 50, "nv": 50})")->isIsotropic());
+}
+
 TEST_CASE("brdf: every material is reciprocal, finite and never negative, down to the horizon") {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(0, 1);

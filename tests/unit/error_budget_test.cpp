@@ -24,7 +24,7 @@ std::vector<StageRadiance> randomStages(size_t points, std::span<const float> si
     return stages;
 }
 
-constexpr std::array<float, kErrorSources> kSizes = {0.5f, 0, 0.1f, 0.3f, 1, 0, 0, 0.2f, 0, 0.05f};
+constexpr std::array<float, kErrorSources> kSizes = {0, 0.5f, 0, 0.1f, 0.3f, 1, 0, 0, 0.2f, 0, 0.05f};
 
 } // namespace
 
@@ -39,7 +39,7 @@ TEST_CASE("error budget: shares sum to one, and independent sources to the total
     CHECK(shares == doctest::Approx(1).epsilon(1e-9));
     CHECK(budget.rootSumSquares == doctest::Approx(std::sqrt(squares)));
     CHECK(budget.total == doctest::Approx(budget.rootSumSquares).epsilon(0.03));
-    CHECK(budget.sources[4].share == doctest::Approx(1 / 1.3925).epsilon(0.05)); // of the sizes, squared
+    CHECK(budget.sources[5].share == doctest::Approx(1 / 1.3925).epsilon(0.05)); // of the sizes, squared
 }
 
 TEST_CASE("error budget: its uncertainty is that of samples") {

@@ -180,12 +180,15 @@ TEST_CASE("factorization: the same bytes every time, and equal channels equal") 
 }
 
 TEST_CASE("factorization: a black channel or BRDF is zero everywhere") {
-    const FactoredBrdf black = factorize(tableOf(R"({"model": "diffuse", "albedo": 0})", 8), {4});
-    CHECK(black.terms == 1);
-    for (const vec3& value : black.lightMaps) CHECK(value == vec3(0));
-    const FactoredBrdf red = factorize(tableOf(R"({"model": "diffuse", "albedo": [1, 0, 0]})", 8), {4});
-    CHECK(red.terms == 1);
-    for (const vec3& value : red.viewMaps) CHECK((value.x > 0 && value.y == 0 && value.z == 0));
+    for (const Factorization method : {Factorization::Environment, Factorization::NonNegative}) {
+        const FactoredBrdf black = factorize(tableOf(R"({"model": "diffuse", "albedo": 0})", 8), {4, method});
+        CHECK(black.terms == 1);
+        for (const vec3& value : black.lightMaps) CHECK(value == vec3(0));
+        const FactoredBrdf red =
+            factorize(tableOf(R"({"model": "diffuse", "albedo": [1, 0, 0]})", 8), {4, method});
+        CHECK(red.terms == 1);
+        for (const vec3& value : red.viewMaps) CHECK((value.x > 0 && value.y == 0 && value.z == 0));
+    }
 }
 
 TEST_CASE("factorization: term counts out of range are refused") {

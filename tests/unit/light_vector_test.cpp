@@ -99,7 +99,9 @@ TEST_CASE("light vector: a count keeps the largest, of equals the first") {
     coefficients[90] = coefficients[17] = coefficients[20] = vec3(2, 1, 0);
     coefficients[50] = vec3(0, 1, 0);
     const LightCube cube = cubeOfCoefficients(coefficients, 4);
-    const auto kept = [&](int count) { return makeLightVector(cube, {.count = count}).indices; };
+    const auto kept = [&](int count) {
+        return makeLightVector(cube, {.count = count, .areaWeighted = false}).indices;
+    };
     CHECK(kept(1) == std::vector<uint16_t>{3});
     CHECK(kept(2) == std::vector<uint16_t>{3, 40});
     CHECK(kept(4) == std::vector<uint16_t>{3, 17, 20, 40});
@@ -124,6 +126,9 @@ TEST_CASE("light vector: area weighting prefers coarse functions") {
     // By threshold as well, of the largest weight: 1.5.
     CHECK(makeLightVector(cube, {.threshold = 32767 / 2, .areaWeighted = true}).indices.size() == 4);
     CHECK(makeLightVector(cube, {.threshold = 31000, .areaWeighted = true}).indices.size() == 1);
+    // Unless it is said a count is weighted, and a threshold is not.
+    CHECK(makeLightVector(cube, {.count = 1}).indices == std::vector<uint16_t>{coarse});
+    CHECK(makeLightVector(cube, {.threshold = 31000}).indices == std::vector<uint16_t>{fine});
 }
 
 TEST_CASE("light vector: the error is what reconstruction misses") {

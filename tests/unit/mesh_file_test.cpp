@@ -332,6 +332,32 @@ TEST_CASE("glTF: vertex colours of any type, three channels leave the fourth wei
     CHECK(three[2] == vec4(1, 0, 0, 0));
 }
 
+TEST_CASE("glTF: tangents turn with their node, and broken ones give way to the normal's frame") {
+    const auto tangentsOf = [](std::initializer_list<float> tangents) {
+        std::string buffer;
+        for (const float value : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) put(buffer, value);
+        for (const float value : tangents) put(buffer, value);
+        // A turn by 90 degrees about Y takes X to -Z, and the triangle's normal Z to X.
+        const std::string json = fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0,"rotation":[0,0.70710678,0,0.70710678]}}],)"
+            R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TANGENT":1}}}}]}}],"accessors":[)"
+            R"({{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},)"
+            R"({{"bufferView":1,"componentType":5126,"count":3,"type":"VEC4"}}],"bufferViews":[)"
+            R"({{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":48}}],)"
+            R"("buffers":[{{"byteLength":{}}}]}})",
+            buffer.size());
+        return decode(glbOf(json, buffer), "a.glb", UpAxis::Y, {}).tangents;
+    };
+    // Of any length, not quite orthogonal to the normal, and none at all.
+    const std::vector<vec3> tangents = tangentsOf({2, 0, 0, 1, 0, 1, 1, -1, 0, 0, 0, 1});
+    REQUIRE(tangents.size() == 3);
+    CHECK(glm::distance(tangents[0], vec3(0, 0, -1)) < 1e-6f);
+    CHECK(glm::distance(tangents[1], vec3(0, 1, 0)) < 1e-6f);
+    CHECK(glm::distance(tangents[2], tangentFrame({1, 0, 0}).s) < 1e-6f);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(tangentsOf({0, 0, 0, 1, nan, 0, 0, 1, 0, 0, 0, 1}).empty());
+}
+
 TEST_CASE("glTF: buffers come from the file's own folder only") {
     const TemporaryFolder folder;
     const Mesh sphere = makeSphere(1);

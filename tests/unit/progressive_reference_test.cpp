@@ -6,6 +6,7 @@
 #include "precompute/reference/reference_image.h"
 #include "tests/support/diffuse_asset.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 #include <thread>
@@ -48,13 +49,14 @@ LightCube makeLamp() {
     return light;
 }
 
-Image truthOf(const Asset& asset, const LightCube& light, int raysPerTexelSide) {
-    return renderReference(asset, kCamera, light,
-                           {.width = kWidth, .height = kHeight, .raysPerTexelSide = raysPerTexelSide});
+Image truthOf(const Asset& asset, const LightCube& light, int raysPerTexelSide, int samples = 1) {
+    return renderReference(
+        asset, kCamera, light,
+        {.width = kWidth, .height = kHeight, .samples = samples, .raysPerTexelSide = raysPerTexelSide});
 }
 
-void start(ProgressiveReference& reference, const Asset& asset, const LightCube& light) {
-    reference.restart(kCamera, light, defaultAppearance(asset), kWidth, kHeight);
+void start(ProgressiveReference& reference, const Asset& asset, const LightCube& light, int samples = 1) {
+    reference.restart(kCamera, light, defaultAppearance(asset), kWidth, kHeight, samples);
 }
 
 void addPasses(ProgressiveReference& reference, int passes) {
@@ -102,6 +104,26 @@ TEST_CASE("progressive reference: converges to the exact one, as fast as it says
         }
 }
 
+TEST_CASE("progressive reference: pixels of several samples converge to those of the exact one") {
+    const Asset asset = makeScene(kDiffuse);
+    const LightCube light = makeSunnySky();
+    const Image truth = truthOf(asset, light, 6, 4);
+    CHECK(std::ranges::count_if(truth.pixels, [](const vec4& pixel) { return pixel.w > 0 && pixel.w < 1; }) >
+          20);
+    ProgressiveReference reference(asset);
+    start(reference, asset, light, 4);
+    addPasses(reference, 256);
+    const ReferenceError error = *reference.errorOf(truth);
+    const double found = rmse(reference.mean(), truth); // and alpha is the same
+    CHECK(found < 0.04 * error.level);
+    CHECK(found < 1.3 * error.noise);
+    CHECK(error.rmse < 0.6 * error.noise);
+    // Centers alone are another image.
+    start(reference, asset, light);
+    addPasses(reference, 256);
+    CHECK(reference.errorOf(truth)->rmse > 3 * error.noise);
+}
+
 TEST_CASE("progressive reference: an image's error is told without the reference's own noise") {
     const Asset asset = makeScene(kDiffuse);
     const LightCube light = makeSunnySky();
@@ -141,7 +163,7 @@ TEST_CASE("progressive reference: squared errors scatter as their standard error
     for (int view = 0; view < kViews; view++) {
         Camera camera = kCamera;
         camera.eye.x += 0.05f * float(view);
-        reference.restart(camera, light, defaultAppearance(asset), kWidth, kHeight);
+        reference.restart(camera, light, defaultAppearance(asset), kWidth, kHeight, 1);
         addPasses(reference, 4);
         const ReferenceError early = *reference.errorOf(grey);
         addPasses(reference, 252);
@@ -217,10 +239,10 @@ TEST_CASE("progressive reference: a restart takes nothing over") {
     Appearance half = defaultAppearance(asset);
     half[0].weights = {0.5f};
     const auto check = [&](const Camera& camera, const LightCube& light, const Appearance& appearance,
-                           int width, int height) {
+                           int width, int height, int samples = 1) {
         ProgressiveReference fresh(asset);
         for (ProgressiveReference* each : {&reference, &fresh}) {
-            each->restart(camera, light, appearance, width, height);
+            each->restart(camera, light, appearance, width, height, samples);
             addPasses(*each, 2);
         }
         CHECK(reference.mean().pixels == fresh.mean().pixels);
@@ -228,6 +250,8 @@ TEST_CASE("progressive reference: a restart takes nothing over") {
     check(kCamera, makeLamp(), defaultAppearance(asset), kWidth, kHeight);
     check(other, makeLamp(), defaultAppearance(asset), kWidth, kHeight);
     check(other, makeLamp(), half, kWidth, kHeight);
+    check(other, makeLamp(), half, kWidth, kHeight, 4);
+    check(other, makeLamp(), half, kWidth, kHeight, 2);
     check(other, makeLamp(), half, kHeight, kWidth);
     check(other, makeLamp(), half, 7, 5);
     check({{0, 9, 0}, {0, 10, 0}, 0.5f}, makeLamp(), half, 7, 5); // sees nothing
@@ -240,7 +264,7 @@ TEST_CASE("progressive reference: a stopped pass counts for nothing") {
     const Asset asset = makeScene(kGlossy);
     ProgressiveReference reference(asset), undisturbed(asset);
     for (ProgressiveReference* each : {&reference, &undisturbed}) {
-        each->restart(kCamera, makeSunnySky(), defaultAppearance(asset), 256, 192);
+        each->restart(kCamera, makeSunnySky(), defaultAppearance(asset), 256, 192, 4);
         addPasses(*each, 1);
     }
     const auto isUndisturbed = [&] {
@@ -270,9 +294,12 @@ TEST_CASE("progressive reference: factored, it is the factored image, and never 
     Asset asset = makeScene(kDiffuse);
     for (vec3& value : asset.parts[0].sets[0].brdf.viewMaps) value = vec3(-1, 1, 0);
     const LightCube light = makeSunnySky();
-    const Image truth = renderReference(
-        asset, kCamera, light,
-        {.width = kWidth, .height = kHeight, .brdf = ReferenceBrdf::Factored, .raysPerTexelSide = 6});
+    const Image truth = renderReference(asset, kCamera, light,
+                                        {.width = kWidth,
+                                         .height = kHeight,
+                                         .samples = 1,
+                                         .brdf = ReferenceBrdf::Factored,
+                                         .raysPerTexelSide = 6});
     ProgressiveReference reference(asset, ReferenceBrdf::Factored);
     start(reference, asset, light);
     addPasses(reference, 64);

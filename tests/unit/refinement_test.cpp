@@ -65,7 +65,7 @@ struct RoofedPlane {
 
     RefinementRecord refineTo(double wanted, float offset = 1e-3f) {
         BakeObserver silent;
-        return refine(parts, occluder, offset, wanted, silent);
+        return refine(parts, occluder, offset, {.wanted = wanted}, silent);
     }
 
     std::vector<AssetPart> parts;
@@ -79,7 +79,7 @@ double interpolationError(const RoofedPlane& scene) {
     const TransportProbe probe(scene.parts[0], visibility, lights);
     TransportProbe::Workspace workspace = probe.makeWorkspace();
     const auto answersAt = [&](vec3 position) {
-        return probe.answers(position + vec3(0, 1e-3f, 0), vec3(0, 1, 0), workspace);
+        return probe.answers(position + vec3(0, 1e-3f, 0), tangentFrame({0, 1, 0}), workspace);
     };
     const Mesh& plane = scene.parts[0].mesh;
     std::vector<ProbeAnswers> answers;
@@ -111,6 +111,7 @@ TEST_CASE("edge split: a closed surface stays closed, as large and as smooth, wh
         CAPTURE(oneIn);
         Mesh mesh = makeSphere(2, true);
         mesh.colors.assign(mesh.vertexCount(), vec4(0.25f));
+        for (const vec3& normal : mesh.normals) mesh.tangents.push_back(tangentFrame(normal, {1, 2, 3}).s);
         const Mesh before = mesh;
         std::vector<Edge> edges;
         std::map<std::array<float, 3>, bool> isChosen; // by the middle: along seams both or none
@@ -131,6 +132,9 @@ TEST_CASE("edge split: a closed surface stays closed, as large and as smooth, wh
             CHECK(mesh.positions[added] == 0.5f * (before.positions[a] + before.positions[b]));
             CHECK(mesh.uvs[added] == 0.5f * (before.uvs[a] + before.uvs[b]));
             CHECK(mesh.colors[added] == vec4(0.25f));
+            CHECK(glm::length(mesh.tangents[added]) == doctest::Approx(1));
+            CHECK(std::abs(glm::dot(mesh.tangents[added], mesh.normals[added])) < 1e-5f);
+            CHECK(glm::dot(mesh.tangents[added], before.tangents[a] + before.tangents[b]) > 0.5f);
             CHECK(glm::length(mesh.normals[added]) == doctest::Approx(1));
             CHECK(glm::dot(mesh.normals[added], mesh.positions[added]) > 0.9f);
         }
@@ -183,8 +187,8 @@ TEST_CASE("transport probe: answers differ as transport does that light weighs")
     for (const float x : {0.1f, 0.4f, 0.6f, 1.2f})
         for (const float step : {0.05f, 0.3f}) {
             const vec3 first(x, 1e-3f, 0.1f), other(x + step, 1e-3f, 0.2f);
-            const ProbeAnswers a = probe.answers(first, up, workspace),
-                               b = probe.answers(other, up, workspace);
+            const ProbeAnswers a = probe.answers(first, tangentFrame(up), workspace),
+                               b = probe.answers(other, tangentFrame(up), workspace);
             double between = 0, weighted = 0;
             for (size_t i = 0; i < a.size(); i++) between += double(a[i] - b[i]) * double(a[i] - b[i]);
             const std::vector<vec3> one = coefficients(first), two = coefficients(other);
@@ -204,7 +208,7 @@ TEST_CASE("refinement: a plane that nothing shadows stays as it is") {
     std::vector<AssetPart> parts = {makeDiffusePart(makePlane(4, 8), 0.8f)};
     const Mesh occluder = parts[0].mesh, before = occluder;
     BakeObserver silent;
-    const RefinementRecord record = refine(parts, occluder, 1e-3f, kLeastRefinementError, silent);
+    const RefinementRecord record = refine(parts, occluder, 1e-3f, {kLeastRefinementError}, silent);
     CHECK(parts[0].mesh.positions == before.positions);
     CHECK(parts[0].mesh.triangles == before.triangles);
     CHECK_EQ(record, RefinementRecord{kLeastRefinementError, 0, 0, 81, 81});
@@ -276,6 +280,27 @@ TEST_CASE("refinement: parts that touch stay joined, whatever they are made of")
     CHECK(borders[0] == borders[1]);
 }
 
+TEST_CASE("refinement: parts that are left out stay as they are, and nothing tears beside them") {
+    // A plane in two halves, the roof above their border.
+    RoofedPlane scene;
+    const Mesh left = makeQuad({-2, 0, -2}, {0, 0, 4}, {2, 0, 0}),
+               right = makeQuad({0, 0, -2}, {0, 0, 4}, {2, 0, 0});
+    scene.parts = {makeDiffusePart(left, 0.8f), makeDiffusePart(right, 0.8f)};
+    BakeObserver silent;
+    const RefinementRecord record =
+        refine(scene.parts, scene.occluder, 1e-3f,
+               {.wanted = 0.01, .mostVertices = 60, .isRefined = {true, false}}, silent);
+    const Mesh& refined = scene.parts[0].mesh;
+    CHECK(scene.parts[1].mesh.positions == right.positions);
+    CHECK(scene.parts[1].mesh.triangles == right.triangles);
+    CHECK_EQ(std::ranges::count(refined.positions, 0.0f, &vec3::x), 2);
+    CHECK(refined.vertexCount() > 50);
+    CHECK(refined.vertexCount() <= 60);
+    CHECK_EQ(record.startVertices, left.vertexCount() + right.vertexCount());
+    CHECK_EQ(record.vertices, refined.vertexCount() + right.vertexCount());
+    CHECK(record.error > 0.01);
+}
+
 TEST_CASE("refinement: it ends where edges are too short to split") {
     RoofedPlane scene(2);
     const RefinementRecord record = scene.refineTo(kLeastRefinementError, 0.05f);
@@ -294,7 +319,7 @@ TEST_CASE("refinement: meshes with nothing to interpolate") {
         makeDiffusePart(makePlane(1, 2), 0)};                                                 // black
     const Mesh occluder = makePlane(1, 2);
     BakeObserver silent;
-    const RefinementRecord record = refine(parts, occluder, 1e-4f, 0.01, silent);
+    const RefinementRecord record = refine(parts, occluder, 1e-4f, {0.01}, silent);
     CHECK_EQ(record.vertices, 16);
     CHECK_EQ(record.error, 0);
 }
@@ -304,7 +329,7 @@ TEST_CASE("refinement: more vertices than there may be, and a request to stop") 
         bool wantsStop() override { return true; }
     } stop;
     RoofedPlane scene;
-    CHECK_THROWS_AS(refine(scene.parts, scene.occluder, 1e-3f, 0.05, stop), BakeStopped);
+    CHECK_THROWS_AS(refine(scene.parts, scene.occluder, 1e-3f, {0.05}, stop), BakeStopped);
     Mesh& mesh = scene.parts[1].mesh;
     mesh.positions.resize(kMostRefinedVertices);
     mesh.normals.resize(kMostRefinedVertices, vec3(0, 1, 0));

@@ -34,7 +34,8 @@ TEST_CASE("scene: built-in meshes, files, transforms, ground") {
     const Scene scene = readScene(folder.write("scene.json", R"({
         "parts": [
             {"mesh": "ball.obj", "material": "clay", "scale": 2, "rotate": [0, 90, 0], "translate": [5, 2, 0]},
-            {"name": "floor lamp", "mesh": "torus", "up": "z", "material": {"model": "ashikhmin-shirley", "nu": 10}}
+            {"name": "floor lamp", "mesh": "torus", "up": "z", "material": {"model": "ashikhmin-shirley", "nu": 10},
+             "brush_rotation": 90}
         ],
         "ground": {"tessellation": 8, "extent": 2, "material": "grey"}
     })"));
@@ -50,6 +51,8 @@ TEST_CASE("scene: built-in meshes, files, transforms, ground") {
 
     CHECK(scene.parts[1].name == "floor lamp");
     CHECK(scene.parts[1].source == "built-in torus");
+    CHECK(scene.parts[0].brushRotation == 0);
+    CHECK(scene.parts[1].brushRotation == 90);
     CHECK(scene.parts[1].sourceHash.empty());
     CHECK(scene.parts[1].material == R"({"model":"ashikhmin-shirley","nu":10})");
     CHECK(boundsOf(scene.parts[1].mesh).extent().y ==

@@ -10,6 +10,7 @@
 #include "precompute/reference/reference_image.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"
+#include "precompute/residual/residuals.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <doctest/doctest.h>
@@ -26,7 +27,7 @@ Asset bakeCourt(int coefficients, const char* material = "clay") {
     AssetPart part = makeDiffusePart(makeQuad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), 0.5f);
     BakeOptions options;
     options.layout = {.layout = TransportLayout::Rows};
-    options.factorization.terms = kTerms;
+    options.factorization = {.terms = kTerms};
     options.mapSize = 16;
     options.faceSize = 32, options.visibilitySize = 64, options.coefficients = coefficients;
     part.sets =
@@ -81,7 +82,7 @@ TEST_CASE("stages: they start with what is drawn and end with the reference") {
     const auto stages =
         StageTracer(asset, appearance).trace(points.hits, camera.eye, std::span(&light, 1)).front();
 
-    const ReferenceOptions options{.width = 16, .height = 12, .raysPerTexelSide = 2};
+    const ReferenceOptions options{.width = 16, .height = 12, .samples = 1, .raysPerTexelSide = 2};
     const Image reference = renderReference(asset, camera, light.fine, options);
     double squares = 0, level = 0;
     for (size_t i = 0; i < points.pixels.size(); i++) {
@@ -144,13 +145,17 @@ TEST_CASE("error grid: it predicts the drawn image's error, whatever K and N") {
     const StageLight light = skyOf(32, {});
     const SeenPoints seen{camera.eye, points.hits};
     const std::vector<vec3> exact = exactRadiance(most, appearance, std::span(&seen, 1), light.fine);
-    const ErrorGrid grid = errorGrid(most, appearance, std::span(&seen, 1), exact, light.drawn);
+    const Residuals residuals = makeResiduals(most);
+    REQUIRE(residuals[0][0]);
+    const ErrorGrid grid =
+        errorGrid(most, appearance, residuals, std::span(&seen, 1), exact, {light.drawn, light.coarse});
     CHECK(grid.terms == kTerms);
     CHECK(grid.shares[0] == doctest::Approx(1));
     for (const size_t rung : {size_t(2), size_t(6), size_t(9)}) {
         const Asset asset = bakeCourt(kTriedCoefficients[rung]);
-        const auto stages =
-            StageTracer(asset, appearance).trace(points.hits, camera.eye, std::span(&light, 1)).front();
+        const auto stages = StageTracer(asset, appearance, residuals)
+                                .trace(points.hits, camera.eye, std::span(&light, 1))
+                                .front();
         // But for quantisation, and single rays towards the truth.
         CHECK(grid.errors[kTerms - 1][rung] == doctest::Approx(errorBudget(stages).total).epsilon(0.03));
         const SparseTransport& rows = rowsOf(asset.parts[0].sets[0].transport);

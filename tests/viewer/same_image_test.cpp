@@ -38,6 +38,8 @@ std::vector<Look> looks() {
             {"terms", terms},
             {"rotation", rotation},
             {"threshold", {{"threshold", 300}}},
+            {"centers", {{"samples", 1}}},
+            {"plate", {{"ground-fade", false}}},
             {"dark-room", merged({{"gain", 0}}, lamps)},
             {"all", painted},
             {"all-day", merged(painted, day)}};
@@ -51,7 +53,9 @@ json unchanged() {
             {"gain", 1},
             {"rotation", 0},
             {"terms", 0},
+            {"samples", 4},
             {"material", ""},
+            {"ground-fade", true},
             {"coefficients", 512}};
 }
 

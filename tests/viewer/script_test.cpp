@@ -36,16 +36,18 @@ TEST_CASE("viewer: a settled view has the bytes that `relume render` draws") {
     CHECK_EQ(pngSize(session.bytes("window.png")), std::pair(480, 360));
 }
 
-TEST_CASE("viewer: meshes, environments and what is no such thing are dropped onto it") {
+TEST_CASE("viewer: a scene to bake, and what cannot be opened, are dropped onto it") {
     Session session;
     std::ofstream(session.path("roof.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
+    std::ofstream(session.path("roof.json"))
+        << R"({"parts": [{"mesh": "roof.obj", "material": "white-diffuse"}]})";
     std::ofstream(session.path("broken.relume")) << "nothing";
     const Outcome outcome = session.replay({{{"wait", "settled"}},
                                             {{"screenshot", "ring.exr"}},
                                             {{"drop", {"notes.txt", "broken.relume"}}},
                                             {{"wait", "settled"}},
                                             {{"screenshot", "still.exr"}},
-                                            {{"drop", {"roof.obj"}}},
+                                            {{"drop", {"roof.json"}}},
                                             {{"frames", 2}},
                                             {{"wait", "settled"}},
                                             {{"screenshot", "roof.exr"}},
@@ -86,6 +88,8 @@ TEST_CASE("viewer: says what is wrong with a script, and that there is no displa
 
 TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
     Session session;
+    std::ofstream(session.path("roof.json"))
+        << R"({"parts": [{"mesh": "roof.obj", "material": "white-diffuse"}]})";
     std::ofstream(session.path("broken.relume")) << "nothing";
     const Outcome missing = session.replay(json::array(), "absent.relume");
     CHECK_EQ(missing.exitCode, 1);

@@ -37,10 +37,11 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_CASE("settings: what is kept is the same the next time") {
     SceneState state = freshState();
-    const json changed = {{"exposure", -1.5},    {"tone", "aces"},       {"panels", false},
-                          {"dark", false},       {"vsync", false},       {"coefficients", 77},
-                          {"model-panel", true}, {"light-panel", false}, {"material-panel", false},
-                          {"view-panel", true},  {"trust-panel", false}};
+    const json changed = {{"exposure", -1.5},       {"tone", "aces"},       {"panels", false},
+                          {"dark", false},          {"vsync", false},       {"coefficients", 77},
+                          {"model-panel", true},    {"light-panel", false}, {"material-panel", false},
+                          {"view-panel", true},     {"trust-panel", false}, {"background", "none"},
+                          {"background-blur", 2.5}, {"ground-fade", false}, {"samples", 8}};
     const json before = keptSettings(state);
     for (const auto& [name, value] : changed.items()) {
         CAPTURE(name);
@@ -62,6 +63,18 @@ TEST_CASE("settings: each changes what it is called after") {
     state.orbit = Orbit{};
     const Bounds model{vec3(-1), vec3(1)};
     const auto set = [&](const char* name, const json& value) { applySetting(state, name, value, &model); };
+    set("exposure", 2);
+    CHECK_EQ(state.exposure, 2);
+    CHECK_FALSE(state.exposesItself);
+    set("exposure", "auto");
+    CHECK(state.exposesItself);
+    CHECK(state.wantsExposure);
+    set("background", "none");
+    CHECK_EQ(state.background, Behind::None);
+    set("background-blur", 3);
+    CHECK_EQ(state.backgroundBlur, 3);
+    set("ground-fade", false);
+    CHECK_FALSE(state.fadesGround);
     set("rotation", 30);
     CHECK_EQ(state.light.rotation, 30);
     set("gain", 0.5);
@@ -121,6 +134,8 @@ TEST_CASE("settings: each changes what it is called after") {
 TEST_CASE("settings: say what they expected") {
     const std::tuple<const char*, json, const char*> wrong[] = {
         {"exposure", "dark", "\"exposure\": expected a number from -100 to 100, found \"dark\""},
+        {"background", "sky", "\"background\": expected environment or none, found \"sky\""},
+        {"background-blur", 91, "from 0 to 90, found 91"},
         {"exposure", 101, "from -100 to 100, found 101"},
         {"split", nullptr, "from 0 to 1, found null"},
         {"fov", 0, "from 1 to 170, found 0"},

@@ -1,0 +1,28 @@
+#include "engine/render/ground_fade.h"
+
+#include <algorithm>
+
+namespace relume {
+
+// Largest ratio of the inner to the outer radius: an object may be as large as its ground.
+static constexpr float kMostInner = 0.6f;
+
+std::optional<GroundFade> makeGroundFade(const Asset& asset) {
+    const auto ground = std::ranges::find(asset.parts, "ground", &AssetPart::name);
+    if (ground == asset.parts.end()) return std::nullopt;
+    const Bounds object = objectBounds(asset), edges = boundsOf(ground->mesh);
+    const vec2 center(object.centre().x, object.centre().z), reach(object.extent().x, object.extent().z);
+    const float outer = std::min(
+        {center.x - edges.low.x, edges.high.x - center.x, center.y - edges.low.z, edges.high.z - center.y});
+    if (!(outer > 0)) return std::nullopt;
+    return GroundFade{size_t(ground - asset.parts.begin()), center,
+                      std::min(0.5f * glm::length(reach), kMostInner * outer), outer};
+}
+
+float groundCoverage(const GroundFade& fade, vec3 position) {
+    const float away = glm::distance(vec2(position.x, position.z), fade.center);
+    const float share = 1 - glm::smoothstep(fade.inner, fade.outer, away);
+    return share * share; // a long tail: no rim is seen
+}
+
+} // namespace relume

@@ -1,0 +1,49 @@
+#include "precompute/error/unshadowed_light.h"
+
+#include "precompute/reference/residual_twin.h"
+
+namespace relume {
+
+std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, const SurfacePoint& point,
+                                           const FactoredBrdf& factors,
+                                           std::span<const std::span<const vec3>> lights) {
+    const std::vector<uint64_t> free(transport.visibilityWords(), ~uint64_t(0));
+    const std::vector<LitCell> lit = transport.lit(free, point.frame);
+    const std::vector<MapPlace> places = placesOf(lit, factors.size, factors.mapping);
+    const auto terms = size_t(factors.terms);
+    std::vector<glm::dvec3> exact(lights.size()), tuples(lights.size() * terms);
+    for (size_t i = 0; i < lit.size(); i++) {
+        const vec3 reflected = lit[i].weight * point.reflected(lit[i].local);
+        for (size_t light = 0; light < lights.size(); light++)
+            exact[light] += glm::dvec3(reflected * lights[light][lit[i].texel]);
+        for (size_t term = 0; term < terms; term++) {
+            const vec3 map = lit[i].weight * lookupMap(factors.lightMap(int(term)), places[i]);
+            for (size_t light = 0; light < lights.size(); light++)
+                tuples[light * terms + term] += glm::dvec3(map * lights[light][lit[i].texel]);
+        }
+    }
+    std::vector<UnshadowedLight> unshadowed;
+    for (size_t light = 0; light < lights.size(); light++) {
+        const auto first = tuples.begin() + std::ptrdiff_t(light * terms);
+        unshadowed.push_back({glm::max(vec3(exact[light]), vec3(0)), {first, first + std::ptrdiff_t(terms)}});
+    }
+    return unshadowed;
+}
+
+vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, std::span<const vec3> tuple,
+                      const UnshadowedLight& unshadowed) {
+    ResidualSums sums{vec3(0), unshadowed.exact, vec3(0)};
+    for (size_t term = 0; term < views.size(); term++) sums.shadowed += views[term] * tuple[term];
+    if (!residual) return glm::max(sums.shadowed, vec3(0));
+    vec3 lit(0), unlit(0);
+    for (size_t term = 0; term < views.size(); term++) {
+        const vec3 weight = residual->hasNonnegativeTerms ? vec3(1) : residual->irradianceWeights[term];
+        sums.terms += views[term] * unshadowed.tuple[term];
+        lit += weight * tuple[term];
+        unlit += weight * unshadowed.tuple[term];
+    }
+    return residual->hasNonnegativeTerms ? ratioEstimate(sums, lit, unlit)
+                                         : differenceEstimate(sums, litShare(lit, unlit));
+}
+
+} // namespace relume

@@ -1,0 +1,29 @@
+#version 460
+// Keeps the pixels that are to be shaded more than once, for the stencil to mark: those with a sample that is not
+// shaded together with the first, or not covered as it is.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/pixel_samples.glsl"
+
+layout(push_constant, scalar) uniform Push { ViewEdgesPush push; };
+layout(binding = 1) uniform usamplerBuffer triangles; // of the part: three corners and nothing
+
+bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
+
+uvec3 cornersOf(uint surface) {
+    return texelFetch(triangles, int(min(surface - push.firstSurface, push.surfaces - 1))).xyz;
+}
+
+void main() {
+    uint seen[kSamples];
+    readSamples(seen);
+    // The stencil tells most pixels of other parts before the shader runs.
+    if (seen[0] != 0 && !isOfPart(seen[0])) discard;
+    const uvec3 first = cornersOf(seen[0]);
+    bool isEdge = false;
+    for (uint i = 1; i < kSamples; i++) {
+        const bool isOne = isOfPart(seen[0]) && isOfPart(seen[i]) && shareVertex(first, cornersOf(seen[i]));
+        isEdge = isEdge || (seen[i] != seen[0] && !isOne);
+    }
+    if (!isEdge) discard;
+}
