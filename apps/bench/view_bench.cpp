@@ -14,6 +14,13 @@ namespace relume {
 
 namespace {
 
+template <typename Work>
+void submit(vk::Commands& commands, const Work& work) {
+    commands.begin();
+    work();
+    commands.submitAndWait();
+}
+
 // A bake on the device, lit once.
 struct Stage {
     Stage(const vk::Device& device, const Asset& source, const Light& sources, const ViewRounds& rounds,
@@ -24,10 +31,10 @@ struct Stage {
         light.setLight(sources);
         relighter.setMode(RelightMode::Full); // turning changes nothing of some light
         vk::Commands commands(device, "first light");
-        commands.begin();
-        light.record(commands, glm::radians(rounds.rotationDegrees), rounds.selection);
-        relighter.record(commands, light);
-        commands.submitAndWait();
+        submit(commands, [&] {
+            light.record(commands, glm::radians(rounds.rotationDegrees), rounds.selection);
+            relighter.record(commands, light);
+        });
     }
     const Asset& asset;
     LightPass light;
@@ -40,11 +47,7 @@ template <typename Work>
 double submission(vk::Commands& commands, std::map<std::string, std::vector<double>>& passes,
                   const Work& work) {
     commands.clearTimes();
-    const double ms = milliseconds([&] {
-        commands.begin();
-        work();
-        commands.submitAndWait();
-    });
+    const double ms = milliseconds([&] { submit(commands, work); });
     for (const auto& [name, seconds] : commands.times()) passes[name].push_back(1e3 * seconds);
     return ms;
 }
@@ -72,12 +75,14 @@ std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<As
             ViewSeries& own = series[i];
             if (round <= 1) own = {}; // the first round warmed up
             const Camera camera = rounds.camera(stage.asset, turn);
+            const Camera next = rounds.camera(stage.asset, turn + glm::radians(1.0f));
+            submit(commands, [&] { stage.view.record(commands, camera, stage.relighter); });
             own.viewMs.push_back(submission(commands, own.viewPasses,
-                                            [&] { stage.view.record(commands, camera, stage.relighter); }));
+                                            [&] { stage.view.record(commands, next, stage.relighter); }));
             own.lightMs.push_back(submission(commands, own.lightPasses, [&] {
                 stage.light.record(commands, rotation, rounds.selection);
                 stage.relighter.record(commands, stage.light);
-                stage.view.record(commands, camera, stage.relighter);
+                stage.view.record(commands, next, stage.relighter);
             }));
             own.coveredPixels.push_back(coveredPixels(stage.view.read()));
             own.lightCoefficients.push_back(double(stage.light.readStats().kept));

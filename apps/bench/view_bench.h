@@ -36,7 +36,7 @@ struct ViewSeries {
 };
 
 // Returns a series for each bake and, within it, each sample count. Every round turns the camera by 360
-// degrees over the number of rounds, then the light by one under it.
+// degrees over the number of rounds; what is timed is a further degree, and then one of the light.
 std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<Asset>& assets,
                                   const Light& light, const ViewRounds& rounds, bool quiet);
 

@@ -154,7 +154,7 @@ void addBenchViewCommand(CLI::App& bench) {
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
-        "view: record, submit and wait for a view, the camera turned.\n"
+        "view: record, submit and wait for a view, the camera turned by a degree.\n"
         "light: the same of a light turned by a degree, relighting in full and the view under the\n"
         "same camera, in one submission.\n"
         "on device: the view pass between its two timestamps.");

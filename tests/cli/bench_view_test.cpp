@@ -36,7 +36,7 @@ TEST_CASE("cli: bench view prints changes of view and of light of every bake") {
         CHECK_LT(file["covered_pixels"], 80 * 60);
         CHECK_GT(file["view_ms"], 0);
         CHECK_GT(file["light_ms"], file["light_passes_ms"]["view"]);
-        CHECK_EQ(file["view_passes_ms"].size(), 1u);
+        CHECK_FALSE(file["view_passes_ms"].contains("relight"));
         CHECK_GT(file["view_passes_ms"]["view"], 0);
         CHECK_GT(file["light_passes_ms"]["relight"], 0);
         CHECK_EQ(file["view_fps"].get<double>(), doctest::Approx(1000 / file["view_ms"].get<double>()));
