@@ -15,6 +15,8 @@ layout(push_constant, scalar) uniform Push { LightQuantisePush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; };
 layout(binding = 1, scalar) buffer Table { PackedLight table[]; }; // the light, then its changes
 layout(binding = 2, scalar) buffer Stats { LightStats stats; };
+// What entries are selected by, kept by the first pass; every lane reads those that it wrote.
+layout(binding = 3, scalar) buffer Weights { uint weights[]; };
 
 shared uvec3 partial[kGroup];
 shared vec2 energies[kGroup];
@@ -32,7 +34,6 @@ uvec3 magnitudesOf(uint index) {
     return magnitudes * uvec3(greaterThanEqual(magnitudes, uvec3(kLeastNormal)));
 }
 
-// What entries are selected by.
 uint weightOf(uint index, uint magnitude) {
     const uint side = (1u << push.sideBits) - 1;
     const uint x = index & side, y = (index >> push.sideBits) & side;
@@ -40,14 +41,13 @@ uint weightOf(uint index, uint magnitude) {
     return magnitude >= fall + kLeastNormal ? magnitude - fall : 0;
 }
 
-uint weightOf(uint index) { return weightOf(index, largest(magnitudesOf(index))); }
-
-// The largest |component| of all coefficients, and the largest weight.
+// The largest |component| of all coefficients, and the largest weight. Fills `weights`.
 uvec2 groupMaxima(uint lane) {
     uvec2 found = uvec2(0);
     for (uint i = lane; i < push.coefficients; i += kGroup) {
-        const uint magnitude = largest(magnitudesOf(i));
-        found = max(found, uvec2(magnitude, weightOf(i, magnitude)));
+        const uint magnitude = largest(magnitudesOf(i)), weight = weightOf(i, magnitude);
+        weights[i] = weight;
+        found = max(found, uvec2(magnitude, weight));
     }
     partial[lane] = uvec3(found, 0);
     barrier();
@@ -59,7 +59,7 @@ uvec2 groupMaxima(uint lane) {
 }
 
 // Entries in the order of selection: by weight, and of equals the one of lower index first.
-uvec2 rankOf(uint index) { return uvec2(weightOf(index), push.coefficients - 1 - index); }
+uvec2 rankOf(uint index) { return uvec2(weights[index], push.coefficients - 1 - index); }
 
 // The least rank that is kept.
 bool isKept(uvec2 rank, uvec2 least) {

@@ -8,9 +8,9 @@
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LightSamplePush push; };
-layout(binding = 0, scalar) readonly buffer Environment { vec3 environment[]; };
+layout(binding = 0) uniform samplerBuffer environment;
 layout(binding = 1, scalar) readonly buffer Starts { uint starts[]; };
-layout(binding = 2, scalar) readonly buffer Pixels { FootprintPixel pixels[]; };
+layout(binding = 2) uniform usamplerBuffer pixels; // FootprintPixel
 layout(binding = 3, scalar) buffer Radiance { vec3 radiance[]; };
 
 void main() {
@@ -19,12 +19,13 @@ void main() {
     vec3 sum = vec3(0);
     const uint end = starts[texel + 1];
     for (uint entry = starts[texel]; entry < end; entry++) {
-        const FootprintPixel pixel = pixels[entry];
-        const uint row = (pixel.place >> 16) * push.width;
-        uint left = (pixel.place & 0xffff) + push.shift;
+        const uvec2 pixel = texelFetch(pixels, int(entry)).xy; // place, weight
+        const uint row = (pixel.x >> 16) * push.width;
+        uint left = (pixel.x & 0xffff) + push.shift;
         if (left >= push.width) left -= push.width;
         const uint right = left + 1 < push.width ? left + 1 : 0;
-        sum += pixel.weight * mix(environment[row + left], environment[row + right], push.fraction);
+        sum += uintBitsToFloat(pixel.y) * mix(texelFetch(environment, int(row + left)).rgb,
+                                              texelFetch(environment, int(row + right)).rgb, push.fraction);
     }
     sum *= push.gain;
     if (push.isFirst == 0) sum += radiance[texel];

@@ -13,9 +13,9 @@ layout(binding = 0, scalar) readonly buffer Clusters { BasisVertices clusters[];
 layout(binding = 1, scalar) readonly buffer Terms { BasisTermKinds termKinds[]; };
 layout(binding = 2, scalar) readonly buffer Colors { vec3 colors[]; };          // of kinds
 layout(binding = 3, scalar) readonly buffer Weightings { BasisWeighting weightings[]; }; // by cluster and kind
-layout(binding = 4, std430) readonly buffer Weights { uvec2 weights[]; };       // of eight vertices
-layout(binding = 5, scalar) readonly buffer Scales { float scales[]; };
-layout(binding = 6, scalar) readonly buffer Projections { vec3 projections[]; };
+layout(binding = 4) uniform usamplerBuffer weights;      // two words: eight vertices
+layout(binding = 5) uniform samplerBuffer scales;
+layout(binding = 6) uniform samplerBuffer projections;
 layout(binding = 7, scalar) writeonly buffer Tuples { vec3 tuples[]; };
 layout(binding = 8, std430) readonly buffer Stamps { uint stamps[]; }; // of relight_project
 
@@ -42,10 +42,11 @@ void main() {
     for (uint kind = kinds.first; kind < kinds.first + kinds.count; kind++) {
         const BasisWeighting weighting = weightings[number * push.kinds + kind];
         precise vec4 kindRed[2] = vec4[](vec4(0), vec4(0)), kindGreen[2] = kindRed, kindBlue[2] = kindRed;
-        uint place = weighting.firstWeights + octet * weighting.components;
-        for (uint i = 0; i < weighting.components; i++) {
-            precise const vec3 projection = projections[cluster.firstComponent + i] * scales[weighting.firstScale + i];
-            const uvec2 words = weights[place + i];
+        const int place = int(weighting.firstWeights + octet * weighting.components);
+        for (int i = 0; i < int(weighting.components); i++) {
+            precise const vec3 projection = texelFetch(projections, int(cluster.firstComponent) + i).rgb *
+                                            texelFetch(scales, int(weighting.firstScale) + i).x;
+            const uvec2 words = texelFetch(weights, place + i).xy;
             const vec4 low = unpackWeights(words.x), high = unpackWeights(words.y);
             kindRed[0] += low * projection.r;
             kindRed[1] += high * projection.r;

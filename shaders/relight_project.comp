@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { RelightProjectPush push; };
 layout(binding = 3, scalar) readonly buffer Groups { BasisGroup groups[]; };
 layout(binding = 4, std430) readonly buffer Basis { uint basis[]; }; // column after column
 layout(binding = 5, scalar) buffer Sums { ivec3 componentSums[]; };
-layout(binding = 6, scalar) writeonly buffer Projections { vec3 projections[]; };
+layout(binding = 6, scalar) writeonly buffer Projections { vec4 projections[]; };
 layout(binding = 7, std430) writeonly buffer Stamps { uint stamps[]; }; // of clusters: when they last changed
 
 const uint kLanes = gl_WorkGroupSize.x;
@@ -32,7 +32,7 @@ shared ivec3 streamSums[kLanes * 8];
     for (uint i = 0; i < 4; i++) {                                                                                    \
         if (!replaces) sums[first + i] += componentSums[component + i];                                               \
         componentSums[component + i] = sums[first + i];                                                               \
-        projections[component + i] = vec3(sums[first + i]) * light.scale;                                             \
+        projections[component + i] = vec4(vec3(sums[first + i]) * light.scale, 0);                                    \
     }
 
 void main() {

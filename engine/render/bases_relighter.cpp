@@ -49,7 +49,7 @@ class BasesRelighter::ShardData {
         const uint64_t octets = roundUp(transport.verticesOf(cluster), kVerticesPerLane);
         return 4 * std::max({basis.size() + words * more.columns(), (indices.size() + more.columns() + 1) / 2,
                              (weightings.size() + transport.kinds.size()) * 3,
-                             weights.size() + octets * more.scales.size() * 2, (components + 4 * words) * 3});
+                             weights.size() + octets * more.scales.size() * 2, (components + 4 * words) * 4});
     }
 
     void add(const BasisTransport& transport, size_t number) {
@@ -109,6 +109,8 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
     mTermKinds = vk::upload<shared::BasisTermKinds>(device, termKinds, name + " kinds of terms");
     mColors = vk::upload<vec3>(device, colors, name + " colours of kinds");
 
+    // Of the texels that relight_combine reads the smallest have a word.
+    largestShard = std::min(largestShard, sizeof(float) * uint64_t(device.limits().maxTexelBufferElements));
     constexpr uint32_t kMostGroups = kMostBasisComponents / (4 * kWordsPerGroup); // of a cluster
     const size_t mostClusters =
         device.limits().maxComputeWorkGroupCount[0] / std::max(mTerms * mGroupsPerTerm, kMostGroups);
@@ -123,14 +125,14 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
 
 BasesRelighter::Shard BasesRelighter::upload(const vk::Device& device, const ShardData& data,
                                              uint32_t coefficients, const std::string& name) const {
-    const uint64_t componentBytes = std::max<uint64_t>(data.components, 1) * sizeof(vec3);
+    const uint64_t components = std::max<uint64_t>(data.components, 1);
     return {uint32_t(data.clusters.size()),
             uint32_t(data.groups.size()),
             vk::upload<shared::BasisGroup>(device, data.groups, name + " basis groups"),
             vk::upload<uint32_t>(device, inPairs(data.indices, coefficients), name + " column indices"),
             vk::upload<uint32_t>(device, data.basis, name + " basis"),
-            vk::Buffer(device, componentBytes, vk::BufferUse::Device, name + " projection sums"),
-            vk::Buffer(device, componentBytes, vk::BufferUse::Device, name + " projections"),
+            vk::Buffer(device, components * sizeof(ivec3), vk::BufferUse::Device, name + " projection sums"),
+            vk::Buffer(device, components * sizeof(vec4), vk::BufferUse::Device, name + " projections"),
             vk::upload<uint32_t>(device, std::vector<uint32_t>(data.clusters.size(), 0), name + " stamps"),
             vk::upload<shared::BasisVertices>(device, data.clusters, name + " clusters"),
             vk::upload<shared::BasisWeighting>(device, data.weightings, name + " weightings"),
@@ -151,8 +153,10 @@ void BasesRelighter::recordLayout(vk::Commands& commands, const LightPass& light
     for (const Shard& shard : mShards)
         commands.dispatch(
             mPrograms.combine,
-            {shard.clusterList, mTermKinds, mColors, shard.weightings, shard.weights, shard.scales,
-             shard.projections, tuples(), shard.stamps},
+            {shard.clusterList, mTermKinds, mColors, shard.weightings,
+             vk::Binding::texelsOf(shard.weights, VK_FORMAT_R32G32_UINT),
+             vk::Binding::texelsOf(shard.scales, VK_FORMAT_R32_SFLOAT),
+             vk::Binding::texelsOf(shard.projections, VK_FORMAT_R32G32B32A32_SFLOAT), tuples(), shard.stamps},
             shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, stamp},
             {shard.clusters * mTerms * mGroupsPerTerm * mPrograms.combine.groupSize()[0], 1, 1});
 }

@@ -29,6 +29,7 @@ LightPass::LightPass(const vk::Device& device, int faceSize)
     mTable = vk::Buffer(device, 2 * coefficients() * sizeof(shared::PackedLight), BufferUse::Device,
                         "light table");
     mStats = vk::Buffer(device, sizeof(shared::LightStats), BufferUse::Device, "light stats");
+    mWeights = vk::Buffer(device, coefficients() * sizeof(uint32_t), BufferUse::Device, "light weights");
 }
 
 void LightPass::setLight(Light light) {
@@ -70,7 +71,7 @@ void LightPass::record(vk::Commands& commands, float rotation, const LightSelect
         commands.barrier(Stage::Compute, Stage::Compute);
     });
     commands.pass("light quantise", [&] {
-        commands.dispatch(mQuantiseProgram, {mCoefficients, mTable, mStats}, quantise, {1, 1, 1});
+        commands.dispatch(mQuantiseProgram, {mCoefficients, mTable, mStats, mWeights}, quantise, {1, 1, 1});
         commands.barrier(Stage::Compute, Stage::Compute);
         commands.barrier(Stage::Compute, Stage::Draw);
     });

@@ -63,7 +63,7 @@ class LightPass {
     bool mHasCube = false;
     vk::Buffer mRadiance;     // 6 F² × vec3
     vk::Buffer mCoefficients; // 6 F² × vec3
-    vk::Buffer mTable, mStats;
+    vk::Buffer mTable, mStats, mWeights;
     uint64_t mRecording = 0, mRecordingBefore = 0;
 };
 

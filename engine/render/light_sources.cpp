@@ -78,8 +78,12 @@ LightSources::Map LightSources::upload(std::shared_ptr<const Environment> enviro
             size, vk::upload<uint32_t>(mDevice, footprints.starts, "light footprint starts"),
             vk::upload<shared::FootprintPixel>(mDevice, footprints.pixels, "light footprint pixels"));
     }
-    map.pixels = vk::upload<vec3>(mDevice, environment->radiance, "environment");
-    if (std::max(map.pixels.bytes(), map.footprints->pixels.bytes()) > mDevice.largestStorageBuffer())
+    std::vector<vec4> pixels;
+    pixels.reserve(environment->radiance.size());
+    for (const vec3& radiance : environment->radiance) pixels.emplace_back(radiance, 0);
+    map.pixels = vk::upload<vec4>(mDevice, pixels, "environment");
+    if (std::max(pixels.size(), size_t(map.footprints->pixels.bytes() / sizeof(shared::FootprintPixel))) >
+        mDevice.limits().maxTexelBufferElements)
         throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
                     size.x, size.y, mDevice.name());
     map.environment = std::move(environment);
@@ -114,8 +118,10 @@ void LightSources::sample(vk::Commands& commands, const EnvironmentLight& enviro
     const shared::LightSamplePush push{texels(),       uint32_t(width),  shift.whole,
                                        shift.fraction, environment.gain, isFirst};
     commands.dispatch(mSampleProgram,
-                      {map->pixels, map->footprints->starts, map->footprints->pixels, radiance}, push,
-                      {texels(), 1, 1});
+                      {vk::Binding::texelsOf(map->pixels, VK_FORMAT_R32G32B32A32_SFLOAT),
+                       map->footprints->starts,
+                       vk::Binding::texelsOf(map->footprints->pixels, VK_FORMAT_R32G32_UINT), radiance},
+                      push, {texels(), 1, 1});
     commands.barrier(Stage::Compute, Stage::Compute);
 }
 

@@ -11,7 +11,7 @@ class LightSources {
     LightSources(const vk::Device& device, int faceSize);
 
     // Uploads the maps of `light`'s environments, unless the last light had them; those are kept alive.
-    // Waits. Throws Error for a map that is more than a storage buffer can be.
+    // Waits. Throws Error for a map of more pixels than the device reads of a buffer.
     void prepare(const Light& light);
 
     // Writes 6 F² × vec3 of `radiance`. The environments' maps are among those prepared; all else travels
@@ -25,7 +25,7 @@ class LightSources {
     };
     struct Map {
         std::shared_ptr<const Environment> environment;
-        vk::Buffer pixels; // vec3 each
+        vk::Buffer pixels; // vec4 each
         std::shared_ptr<const Footprints> footprints;
     };
 

@@ -13,6 +13,19 @@ namespace {
 constexpr uint32_t kSetsPerPool = 256;
 constexpr uint32_t kMaxTimedPasses = 512;
 
+// Of a texel of a buffer.
+uint64_t texelBytes(VkFormat format) {
+    switch (format) {
+    case VK_FORMAT_R32_SFLOAT:
+    case VK_FORMAT_R32_UINT:
+        return sizeof(float);
+    case VK_FORMAT_R32G32_UINT:
+        return 2 * sizeof(float);
+    default:
+        return 4 * sizeof(float);
+    }
+}
+
 struct StageMasks {
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 reads, writes;
@@ -184,9 +197,7 @@ VkBufferView Commands::texelView(const Binding& binding) {
     create.buffer = binding.buffer->handle();
     create.format = binding.texelFormat;
     create.offset = binding.offset;
-    const bool isScalar =
-        binding.texelFormat == VK_FORMAT_R32_SFLOAT || binding.texelFormat == VK_FORMAT_R32_UINT;
-    const uint64_t texel = isScalar ? sizeof(float) : sizeof(vec4);
+    const uint64_t texel = texelBytes(binding.texelFormat);
     RELUME_CHECK_LE(binding.bytes / texel, uint64_t(mDevice.limits().maxTexelBufferElements));
     create.range = binding.bytes / texel * texel;
     VkBufferView view;

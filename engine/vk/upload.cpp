@@ -13,7 +13,7 @@ constexpr uint64_t kLargestStaging = uint64_t(32) << 20;
 } // namespace
 
 Buffer uploadBytes(const Device& device, std::span<const std::byte> bytes, std::string_view name) {
-    Buffer buffer(device, std::max<uint64_t>(bytes.size(), 4), BufferUse::Device, name);
+    Buffer buffer(device, std::max<uint64_t>(bytes.size(), 4 * sizeof(float)), BufferUse::Device, name);
     if (bytes.empty()) return buffer;
     const Buffer staging(device, std::min<uint64_t>(bytes.size(), kLargestStaging), BufferUse::Upload,
                          "staging");

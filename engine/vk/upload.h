@@ -8,8 +8,8 @@
 
 namespace relume::vk {
 
-// A device buffer, of at least one word, that holds a copy of `bytes`. Waits for the copy: not for every
-// frame. Throws OutOfMemory.
+// A device buffer, of at least one texel of four floats, that holds a copy of `bytes`. Waits for the copy:
+// not for every frame. Throws OutOfMemory.
 Buffer uploadBytes(const Device& device, std::span<const std::byte> bytes, std::string_view name);
 
 template <typename T>
