@@ -6,6 +6,7 @@
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
 #include "engine/transport/kept_visibility.h"
+#include "precompute/bake/bake_preset.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/visibility/occluder.h"
 
@@ -40,6 +41,7 @@ std::filesystem::path recordPath(std::filesystem::path bake) { return bake.repla
 void writeRecord(const std::filesystem::path& bake, const BakeRecord& record) {
     Json json = {{"vertices", record.vertices}, {"bytes", record.bytes}};
     if (record.msPerVertex) json["ms_per_vertex"] = *record.msPerVertex;
+    for (const auto& [stage, ms] : record.msByStage) json["stages"][stage] = ms;
     writeFileAtomically(recordPath(bake), json.dump() + "\n");
 }
 
@@ -50,8 +52,11 @@ std::optional<BakeRecord> readRecord(const std::filesystem::path& bake) {
         const std::vector<std::byte> bytes = readFile(recordPath(bake), 1 << 16);
         const auto* text = reinterpret_cast<const char*>(bytes.data());
         const Json json = Json::parse(text, text + bytes.size());
-        BakeRecord record{json.at("vertices"), json.at("bytes"), {}};
+        BakeRecord record{json.at("vertices"), json.at("bytes"), {}, {}};
         if (json.contains("ms_per_vertex")) record.msPerVertex = json.at("ms_per_vertex").get<double>();
+        if (json.contains("stages"))
+            for (const auto& [stage, ms] : json.at("stages").items())
+                record.msByStage.emplace_back(stage, ms.get<double>());
         return record;
     } catch (const Error&) {
         return std::nullopt;
@@ -95,15 +100,14 @@ Json BakeRecipe::visibilityKey() const {
     Json json = meshKey(*this);
     json["occluder"] = options.occluderTriangles;
     json["size"] = options.visibilitySize;
+    json["visibility"] = visibilityMethodName(*options.visibilityMethod);
     if (options.refinement) json["refined"] = key();
     return json;
 }
 
 BakeOptions paperOptions(int terms, int coefficients) {
-    BakeOptions options;
-    options.layout = {.layout = TransportLayout::Rows};
-    options.factorization = {.terms = terms, .method = Factorization::Paper};
-    options.mapping = DiskMapping::Orthographic;
+    BakeOptions options = presetOptions(BakePreset::Paper);
+    options.factorization.terms = terms;
     options.coefficients = coefficients;
     return options;
 }
@@ -150,7 +154,7 @@ BakeRecord BakeStore::make(const BakeRecipe& recipe) const {
     if (failure)
         spdlog::warn("{}: cannot be linked to ({}); visibility is found anew", path.string(),
                      failure.message());
-    const BakeRecord record{summary.vertices, summary.bytes, {}};
+    const BakeRecord record{summary.vertices, summary.bytes, {}, {}};
     writeRecord(path, record);
     return record;
 }
@@ -170,7 +174,9 @@ BakeRecord BakeStore::makeTimed(const BakeRecipe& recipe) const {
     // Where the checkpoint held nearly all, the time of the rest tells nothing: again, from the first vertex.
     if (10 * (summary.vertices - summary.resumed) < summary.vertices) summary = bake();
     const uint64_t baked = summary.vertices - summary.resumed;
-    const BakeRecord record{summary.vertices, summary.bytes, 1e3 * summary.times.total / double(baked)};
+    BakeRecord record{summary.vertices, summary.bytes, 1e3 * summary.times.total / double(baked), {}};
+    for (const auto& [name, seconds] : summary.times.device)
+        record.msByStage.emplace_back(name, 1e3 * seconds / double(baked));
     writeRecord(path, record);
     return record;
 }

@@ -23,7 +23,7 @@ struct BakeRecipe {
     nlohmann::ordered_json visibilityKey() const;
 };
 
-// The paper's: its factorisation, orthographic maps of 48, rows of `coefficients`.
+// BakePreset::Paper, of so many terms and coefficients.
 BakeOptions paperOptions(int terms, int coefficients = 96);
 
 Scene makeScene(const BakeRecipe& recipe);
@@ -34,6 +34,7 @@ struct BakeRecord {
     // Of wall-clock time, over the vertices of its last run: a tenth or more. None: of a bake that was not
     // timed.
     std::optional<double> msPerVertex;
+    std::vector<std::pair<std::string, double>> msByStage; // device's, of a vertex; of a timed bake
 };
 
 class BakeStore {

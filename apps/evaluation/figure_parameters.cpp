@@ -10,8 +10,8 @@ namespace {
 FigureSetup setupOf(const SectionInputs& inputs, const SceneInput& model, const SceneInput& light) {
     BakeOptions polar = paperOptions(1);
     polar.mapping = DiskMapping::Polar;
-    BakeOptions weighted = polar;
-    weighted.factorization.method = Factorization::Cosine;
+    BakeOptions normalized = polar;
+    normalized.factorization.method = Factorization::Normalized;
     const auto recipe = [&](const std::string& material, const BakeOptions& options) {
         return sceneRecipe(inputs, "lucy", model, material, options);
     };
@@ -26,7 +26,10 @@ FigureSetup setupOf(const SectionInputs& inputs, const SceneInput& model, const 
     setup.images = {
         {"diffuse", "grey diffuse", recipe("grey-diffuse", paperOptions(1)), {}, false},
         {"polar", "one term, polar map", recipe(kAshikhminShirley, polar), {}},
-        {"weighted", "one term, polar, weighted by cosines", recipe(kAshikhminShirley, weighted), {}},
+        {"normalized",
+         "one term, polar map, normalized decomposition",
+         recipe(kAshikhminShirley, normalized),
+         {.residual = false}},
         {"terms", "four terms", recipe(kAshikhminShirley, paperOptions(4)), {}},
         {"one", "one term, orthographic map", recipe(kAshikhminShirley, paperOptions(4)), {.terms = 1}}};
     setup.images.back().isShown = false;
@@ -57,10 +60,9 @@ Section parametersFigure(const SectionInputs& inputs) {
                 table.rows.push_back({image.title, textOf(errorOf(setup, results, image.name))});
         report.add(std::move(table));
         report.say(
-            "Factored as it is, the polar table's first term is that of grazing directions, where f grows "
-            "without bound and the outermost centres of the map lie at 89 degrees: nothing is left for "
-            "others. "
-            "Weighted by the cosines of both directions it is a broad highlight over the diffuse part.");
+            "The polar map has the azimuth along x and the sine of the angle from the normal along y, so "
+            "that its texels are alike in number at every angle: a single term is a highlight over the "
+            "diffuse part, and the orthographic map's, whose rim counts most, is grazing light.");
     };
     return section;
 }

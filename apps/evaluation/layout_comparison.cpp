@@ -26,19 +26,19 @@ FigureSetup setupOf(const SectionInputs& inputs, const PaperScene& scene, const 
                       .images = {},
                       .effort = referenceEffort(inputs.quick),
                       .seconds = inputs.quick ? 8.0 : 200.0};
-    const auto add = [&](const char* name, const std::string& title, const BakeOptions& options) {
+    const auto add = [&](const char* name, const std::string& title, const BakeOptions& options,
+                         const RelitOptions& relit = {}) {
         setup.images.push_back(
-            {name,
-             title,
-             sceneRecipe(inputs, scene.model->name, scene.input, kAshikhminShirley, options),
-             {}});
+            {name, title, sceneRecipe(inputs, scene.model->name, scene.input, kAshikhminShirley, options),
+             relit});
     };
     const auto bases = [](int terms) {
         BakeOptions options;
         options.factorization.terms = terms;
         return options;
     };
-    add("paper", "the paper's: K = 4, rows", paperOptions(4));
+    add("paper", "the paper's: K = 4, rows", paperOptions(4),
+        {.selection = {.threshold = kPaperLightThreshold}});
     BakeOptions rows;
     rows.layout = {.layout = TransportLayout::Rows};
     rows.coefficients = paperOptions(4).coefficients;

@@ -43,8 +43,10 @@ std::string shortened(const std::string& text) {
     return text.substr(0, end) + "…";
 }
 
+constexpr FactorizationOptions kStudied{.terms = 16};
+
 void run(Arguments& arguments) {
-    arguments.factorization.resolve();
+    arguments.factorization.resolve(kStudied);
     checkOutput("--maps", arguments.maps, ".png");
     checkOutput("--plot", arguments.plot, ".svg");
     checkOutput("--slice", arguments.slice, ".svg");
@@ -84,7 +86,7 @@ void addBrdfCommand(CLI::App& program) {
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("MATERIAL", arguments->material, "Preset, model, JSON object, or file of either")
         ->required();
-    arguments->factorization.add(*command, FactorizationOptions{.terms = 16});
+    arguments->factorization.add(*command, kStudied);
     command
         ->add_option("--size", arguments->size,
                      fmt::format("Side of a light or view map, {} to {}", kMinMapSize, kMaxMapSize))

@@ -21,59 +21,63 @@ int termsFrom(const std::string& text) {
     throw UsageError("--terms: expected 1 to {}, or auto:E for an error of E; found \"{}\"", kMaxTerms, text);
 }
 
-// The paper's tables are orthographic; errors that are weighted by area do best with texels of equal area.
+// Published tables are orthographic; errors that are weighted by area do best with texels of equal area.
 DiskMapping mappingFor(Factorization method) {
-    return method == Factorization::Paper ? DiskMapping::Orthographic : DiskMapping::EqualArea;
+    const bool isPublished = method == Factorization::Paper || method == Factorization::Normalized;
+    return isPublished ? DiskMapping::Orthographic : DiskMapping::EqualArea;
 }
 
 } // namespace
 
 void FactorizationArguments::add(CLI::App& command, const std::optional<FactorizationOptions>& defaults) {
-    if (defaults) {
-        mTerms = std::to_string(defaults->terms);
-        mMethod = factorizationName(defaults->method);
-    }
-    command
-        .add_option("-K,--terms", mTerms,
-                    "BRDF terms, 1 to 32; or auto:E, the fewest whose expected relative error of reflected "
-                    "radiance is at most E")
-        ->type_name("K")
-        ->capture_default_str();
-    mMethodOption =
+    CLI::Option* terms =
+        command
+            .add_option(
+                "-K,--terms", mTerms,
+                "BRDF terms, 1 to 32; or auto:E, the fewest whose expected relative error of reflected "
+                "radiance is at most E")
+            ->type_name("K");
+    CLI::Option* method =
         command
             .add_option(
                 "--factorization", mMethod,
                 "What the terms make least: errors of f cos cos without a negative map (nonnegative: the "
                 "best pictures with the residual), of radiance as it is seen (environment: the best "
-                "without), of f cos cos (cosine), of f (paper)")
+                "without), of f cos cos (cosine), of f (paper); or one term of norms (normalized)")
             ->type_name("METHOD")
-            ->check(CLI::IsMember({"nonnegative", "environment", "cosine", "paper"}))
-            ->capture_default_str();
+            ->check(CLI::IsMember({"nonnegative", "environment", "cosine", "paper", "normalized"}));
+    if (defaults) {
+        terms->default_str(std::to_string(defaults->terms));
+        method->default_str(std::string(factorizationName(defaults->method)));
+    }
     command
-        .add_option("--map", mMapping,
-                    "Layout of the maps: orthographic, polar or equal-area (default: orthographic for paper, "
-                    "else equal-area)")
+        .add_option(
+            "--map", mMapping,
+            "Layout of the maps: orthographic, polar-sine or equal-area (default: orthographic for paper and "
+            "normalized, else equal-area)")
         ->type_name("MAP")
-        ->check(CLI::IsMember({"orthographic", "polar", "equal-area"}));
+        ->check(CLI::IsMember({"orthographic", "polar-sine", "equal-area"}));
 }
 
 void FactorizationArguments::resolve(const FactorizationOptions& otherwise, DiskMapping map) {
     options = otherwise;
     mapping = map;
-    if (!mMethod.empty()) {
-        options.method = *factorizationFromName(mMethod);
+    if (mMethod) {
+        options.method = *factorizationFromName(*mMethod);
         mapping = mappingFor(options.method);
     }
-    if (!mMapping.empty()) mapping = *diskMappingFromName(mMapping);
-    if (mTerms.empty()) return;
-    const bool isAutomatic = mTerms.starts_with(kAuto);
-    options.terms = isAutomatic ? kMaxTerms : termsFrom(mTerms);
-    options.wantedError.reset();
+    if (mMapping) mapping = *diskMappingFromName(*mMapping);
+    const bool isAutomatic = mTerms && mTerms->starts_with(kAuto);
+    if (mTerms) {
+        options.terms = isAutomatic ? kMaxTerms : termsFrom(*mTerms);
+        options.wantedError.reset();
+    } else if (options.method == Factorization::Normalized) {
+        options.terms = 1;
+    }
     if (!isAutomatic) return;
-    options.wantedError = wantedErrorFrom(mTerms);
+    options.wantedError = wantedErrorFrom(*mTerms);
     // Nonnegative terms are not nested, so their number cannot be chosen by error.
-    if (options.method == Factorization::NonNegative && mMethodOption->count() == 0)
-        options.method = Factorization::Environment;
+    if (options.method == Factorization::NonNegative && !mMethod) options.method = Factorization::Environment;
 }
 
 } // namespace relume

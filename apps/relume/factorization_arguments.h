@@ -14,15 +14,14 @@ struct FactorizationArguments {
     FactorizationOptions options; // `terms` is the most that are allowed where an error is wanted
     DiskMapping mapping = DiskMapping::EqualArea;
 
-    // Without `defaults` nothing has a default but what resolve() is told.
+    // Help tells of `defaults`; without, what the bake has is kept.
     void add(CLI::App& command, const std::optional<FactorizationOptions>& defaults);
     // Fills the above from what was given, else from these; a method without --map brings its own map, and
     // terms that are to reach an error a method that can say how many do. Throws UsageError.
     void resolve(const FactorizationOptions& otherwise = {}, DiskMapping map = DiskMapping::EqualArea);
 
   private:
-    std::string mTerms, mMethod, mMapping;
-    CLI::Option* mMethodOption = nullptr;
+    std::optional<std::string> mTerms, mMethod, mMapping;
 };
 
 } // namespace relume

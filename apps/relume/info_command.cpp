@@ -1,7 +1,10 @@
 #include "apps/relume/commands.h"
+#include "engine/base/error.h"
 #include "engine/transport/asset.h"
 #include "engine/transport/asset_info.h"
 #include "engine/transport/kept_visibility.h"
+#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/baked_options.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -10,7 +13,7 @@
 namespace relume {
 
 // Prints nested JSON as indented "key: value" lines.
-static void printReadable(const nlohmann::json& value, int depth) {
+static void printReadable(const nlohmann::ordered_json& value, int depth) {
     for (const auto& [key, entry] : value.items()) {
         const std::string indent(size_t(2 * depth), ' ');
         const std::string name = value.is_array() ? "-" : key + ":";
@@ -21,6 +24,15 @@ static void printReadable(const nlohmann::json& value, int depth) {
             fmt::print("{}{} {}\n", indent, name,
                        entry.is_string() ? entry.get<std::string>() : entry.dump());
     }
+}
+
+// The preset of the asset's options; null where they are of none, or not this program's.
+static nlohmann::json presetOf(const Asset& asset) {
+    try {
+        if (const auto preset = presetOf(optionsOf(asset))) return presetName(*preset);
+    } catch (const Error&) {
+    }
+    return nullptr;
 }
 
 void addInfoCommand(CLI::App& program) {
@@ -36,10 +48,12 @@ void addInfoCommand(CLI::App& program) {
         const Asset asset = readAsset(arguments->file);
         const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file),
                                                    KeptVisibility(arguments->file).storedBytes());
+        auto info = nlohmann::ordered_json::parse(text);
+        info["preset"] = presetOf(asset);
         if (arguments->json)
-            fmt::print("{}", text);
+            fmt::print("{}\n", info.dump(2));
         else
-            printReadable(nlohmann::json::parse(text), 0);
+            printReadable(info, 0);
     });
 }
 

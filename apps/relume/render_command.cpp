@@ -1,6 +1,7 @@
 #include "apps/relume/appearance_arguments.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
+#include "apps/relume/scene_arguments.h"
 #include "apps/relume/selection_arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
@@ -8,6 +9,7 @@
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "engine/vk/timing_capture.h"
+#include "precompute/bake/bake_preset.h"
 #include "precompute/residual/residuals.h"
 
 #include <spdlog/spdlog.h>
@@ -25,13 +27,21 @@ struct Arguments {
     DeviceArguments device;
     SelectionArguments selection;
     int terms = 0; // 0: all
-    bool residual = true;
+    BakePreset preset = BakePreset::Default;
+    std::optional<bool> residual; // none: the preset's
     int samples = kDefaultSamples;
     int frames = 1;
     float rate = 24; // frames a second of light that moves
     std::string turn = "camera";
     RelightMode mode = RelightMode::Auto;
     std::filesystem::path timings;
+
+    bool isPaper() const { return preset == BakePreset::Paper; }
+    bool takesResidual() const { return residual.value_or(!isPaper()); }
+    LightSelection lightSelection() const {
+        return selection.selection(isPaper() ? LightSelection{.threshold = kPaperLightThreshold}
+                                             : LightSelection());
+    }
 };
 
 // image.png as it is, or image_0001.png and so on for several frames.
@@ -110,7 +120,7 @@ void run(const Arguments& arguments) {
     };
     setLight(moving.at(arguments.light.seconds));
     Relighter relighter(*device, asset,
-                        {.residuals = arguments.residual ? makeResiduals(asset) : Residuals()});
+                        {.residuals = arguments.takesResidual() ? makeResiduals(asset) : Residuals()});
     relighter.setMode(arguments.mode);
     ViewPass view(
         *device, asset,
@@ -139,7 +149,7 @@ void run(const Arguments& arguments) {
         commands.begin();
         const float rotation = radians(arguments.light.rotationDegrees) + (turnsLight ? angle : 0);
         if (lightChanges) {
-            light.record(commands, rotation, arguments.selection.selection());
+            light.record(commands, rotation, arguments.lightSelection());
             relighter.record(commands, light, appearance);
         }
         const Camera camera = arguments.camera.camera(asset, turnsCamera ? angle : 0);
@@ -186,11 +196,14 @@ void addRenderCommand(CLI::App& program) {
     command->add_option("--terms", arguments->terms, "Sum the first of the bake's K terms only")
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1024));
+    addPreset(*command, arguments->preset,
+              "Options that others are given beside: default, or paper, without residual and with light "
+              "coefficients by --threshold 1024 (docs/paper.md)");
     command
         ->add_option("--residual", arguments->residual,
                      "Add what the K terms leave of the BRDF, by the share of the light that reaches a point")
         ->check(CLI::IsMember({"on", "off"}))
-        ->default_str("on");
+        ->default_str("on, with --preset paper off");
     arguments->camera.add(*command);
     addSamples(*command, arguments->samples);
     command

@@ -112,13 +112,25 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
     }
 }
 
+void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
+    std::map<std::string, BakePreset> presets;
+    for (const BakePreset each : {BakePreset::Default, BakePreset::Paper})
+        presets.emplace(presetName(each), each);
+    command.add_option("--preset", preset, help)
+        ->transform(CLI::CheckedTransformer(presets))
+        ->type_name("default|paper")
+        ->default_str("default");
+}
+
 void BakeArguments::add(CLI::App& command, bool takesLayout) {
-    mFactorization.add(command, options.factorization);
+    const BakeOptions defaults = presetOptions(BakePreset::Default);
+    mTakesLayout = takesLayout;
+    addPreset(command, mPreset,
+              "Options that others are given beside: default, or paper, as the paper of 2004 has them "
+              "(docs/paper.md)");
+    mFactorization.add(command, defaults.factorization);
     const int ofRows = defaultCoefficients(TransportLayout::Rows);
-    if (takesLayout)
-        mLayout.add(command, true);
-    else
-        options.layout = {.layout = TransportLayout::Rows};
+    if (takesLayout) mLayout.add(command, true);
     command
         .add_option("-N,--coefficients", mCoefficients,
                     takesLayout
@@ -126,35 +138,30 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
                           "layouts are made from"
                         : "Wavelet coefficients kept per vertex and term")
         ->type_name("N")
-        ->default_str(takesLayout ? fmt::format("{}, of rows {}", options.coefficients, ofRows)
+        ->default_str(takesLayout ? fmt::format("{}, of rows {}", defaults.coefficients, ofRows)
                                   : fmt::format("{}", ofRows));
-    command.add_option("--map-size", options.mapSize, "Side of a light or view map")
-        ->type_name("S")
-        ->capture_default_str();
-    command.add_option("--face-size", options.faceSize, "Side of a face of the lighting cube: 32 or 64")
-        ->type_name("F")
-        ->capture_default_str();
-    command
-        .add_option("--visibility-size", options.visibilitySize,
-                    "Side of a face of the visibility cube: 64, 128 or 256")
-        ->type_name("V")
-        ->capture_default_str();
+    const auto addSize = [&](const char* name, std::optional<int>& size, const char* type, int standard,
+                             const char* help) {
+        command.add_option(name, size, help)->type_name(type)->default_str(fmt::format("{}", standard));
+    };
+    addSize("--map-size", mMapSize, "S", defaults.mapSize, "Side of a light or view map");
+    addSize("--face-size", mFaceSize, "F", defaults.faceSize,
+            "Side of a face of the lighting cube: 32 or 64");
+    addSize("--visibility-size", mVisibilitySize, "V", defaults.visibilitySize,
+            "Side of a face of the visibility cube: 64, 128 or 256");
     command
         .add_option("--visibility", mVisibility,
                     "How visibility is found: traced (by rays), raster (by drawing) or auto (the faster "
                     "here, measured; may differ from run to run)")
         ->type_name("METHOD")
         ->check(CLI::IsMember({"raster", "traced", "auto"}))
-        ->capture_default_str();
-    command
-        .add_option("--transport-samples", options.transportSamples,
-                    "BRDF evaluations per lighting texel: 1, 4 or 16")
-        ->type_name("COUNT")
-        ->capture_default_str();
+        ->default_str(std::string(visibilityMethodName(*defaults.visibilityMethod)));
+    addSize("--transport-samples", mTransportSamples, "COUNT", defaults.transportSamples,
+            "BRDF evaluations per lighting texel: 1, 4 or 16");
     command
         .add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
         ->type_name("TRIANGLES")
-        ->capture_default_str();
+        ->default_str("full");
     command
         .add_option("--refine", mRefine,
                     fmt::format("Add vertices where interpolation between them would be seen, until it is "
@@ -164,12 +171,12 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
                                 kLeastRefinementError, kMostRefinementError, kCoarseVertices,
                                 kAutoRefinementError))
         ->type_name("ERROR|auto|off")
-        ->capture_default_str();
+        ->default_str("auto");
 }
 
 static std::optional<RefinementRecord> refinementOf(const std::string& text) {
     if (text == "off") return std::nullopt;
-    if (text == "auto") return RefinementRecord{.wanted = kAutoRefinementError, .isAuto = true};
+    if (text == "auto") return presetOptions(BakePreset::Default).refinement;
     RefinementRecord record;
     if (!CLI::detail::lexical_cast(text, record.wanted))
         throw UsageError("--refine: expected auto, off or an error of {} to {}, found \"{}\"",
@@ -177,25 +184,35 @@ static std::optional<RefinementRecord> refinementOf(const std::string& text) {
     return record;
 }
 
+static size_t occluderFrom(const std::string& text) {
+    if (text == "full") return 0;
+    const bool number =
+        !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+    const size_t triangles = number ? std::stoul(text) : 0;
+    if (triangles < 4)
+        throw UsageError("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"", text);
+    return triangles;
+}
+
 void BakeArguments::resolve() {
-    mFactorization.resolve();
-    options.layout = mLayout.resolve(options.layout);
-    options.coefficients = mCoefficients.value_or(defaultCoefficients(options.layout.layout));
+    options = presetOptions(mPreset);
+    if (!mTakesLayout) options.layout = {.layout = TransportLayout::Rows};
+    mFactorization.resolve(options.factorization, options.mapping);
     options.factorization = mFactorization.options;
     options.mapping = mFactorization.mapping;
-    options.visibilityMethod.reset();
-    for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
-        if (mVisibility == visibilityMethodName(method)) options.visibilityMethod = method;
-    options.refinement = refinementOf(mRefine);
-    options.occluderTriangles = 0;
-    if (mOccluder != "full") {
-        const bool number = !mOccluder.empty() && mOccluder.size() < 10 &&
-                            mOccluder.find_first_not_of("0123456789") == std::string::npos;
-        if (number) options.occluderTriangles = std::stoul(mOccluder);
-        if (options.occluderTriangles < 4)
-            throw UsageError("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"",
-                             mOccluder);
+    options.layout = mLayout.resolve(options.layout);
+    options.coefficients = mCoefficients.value_or(defaultCoefficients(options.layout.layout));
+    options.mapSize = mMapSize.value_or(options.mapSize);
+    options.faceSize = mFaceSize.value_or(options.faceSize);
+    options.visibilitySize = mVisibilitySize.value_or(options.visibilitySize);
+    options.transportSamples = mTransportSamples.value_or(options.transportSamples);
+    if (mVisibility) {
+        options.visibilityMethod.reset();
+        for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
+            if (*mVisibility == visibilityMethodName(method)) options.visibilityMethod = method;
     }
+    if (mRefine) options.refinement = refinementOf(*mRefine);
+    if (mOccluder) options.occluderTriangles = occluderFrom(*mOccluder);
     options.validate();
 }
 

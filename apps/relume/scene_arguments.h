@@ -6,6 +6,7 @@
 #include "engine/scene/ground.h"
 #include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
+#include "precompute/bake/bake_preset.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -47,9 +48,9 @@ struct SceneArguments {
     GroundOptions mGroundOptions;
 };
 
-// --terms, --factorization, --coefficients, …: everything in BakeOptions.
+// --preset, and everything in BakeOptions that is given beside it: --terms, --factorization, …
 struct BakeArguments {
-    BakeOptions options;
+    BakeOptions options; // after resolve()
 
     // `takesLayout`: without, all is kept in rows.
     void add(CLI::App& command, bool takesLayout = true);
@@ -57,12 +58,17 @@ struct BakeArguments {
     void resolve();
 
   private:
+    // None: the preset's.
     FactorizationArguments mFactorization;
     LayoutArguments mLayout;
-    std::optional<int> mCoefficients;
-    std::string mOccluder = "full", mVisibility = "traced";
-    std::string mRefine = "auto";
+    std::optional<int> mCoefficients, mMapSize, mFaceSize, mVisibilitySize, mTransportSamples;
+    std::optional<std::string> mOccluder, mVisibility, mRefine;
+    BakePreset mPreset = BakePreset::Default;
+    bool mTakesLayout = true;
 };
+
+// --preset
+void addPreset(CLI::App& command, BakePreset& preset, const std::string& help);
 
 // Bakes in memory with progress on stderr.
 Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions& options, bool quiet,

@@ -2,6 +2,8 @@
 
 #include "engine/light/light_vector.h"
 
+#include <fmt/format.h>
+
 namespace relume {
 
 void SelectionArguments::add(CLI::App& command) {
@@ -16,7 +18,7 @@ void SelectionArguments::add(CLI::App& command) {
                     "Keep so many light coefficients, those that weigh most, instead")
         ->type_name("COUNT")
         ->check(CLI::Range(1, int(kMaximumLightEntries)))
-        ->capture_default_str()
+        ->default_str(fmt::format("{}", kDefaultLightCount))
         ->excludes(threshold);
     command.add_flag_function(
         "--area-weighted,!--no-area-weighted", [this](int64_t count) { mAreaWeighted = count > 0; },
@@ -24,6 +26,11 @@ void SelectionArguments::add(CLI::App& command) {
         "--threshold)");
 }
 
-LightSelection SelectionArguments::selection() const { return {mThreshold, mCount, mAreaWeighted}; }
+LightSelection SelectionArguments::selection(const LightSelection& otherwise) const {
+    LightSelection selection = otherwise;
+    if (mThreshold || mCount) selection = {mThreshold, mCount.value_or(kDefaultLightCount)};
+    if (mAreaWeighted) selection.areaWeighted = mAreaWeighted;
+    return selection;
+}
 
 } // namespace relume

@@ -11,11 +11,12 @@ namespace relume {
 class SelectionArguments {
   public:
     void add(CLI::App& command);
-    LightSelection selection() const;
+    // What was given of these, else `otherwise`.
+    LightSelection selection(const LightSelection& otherwise = {}) const;
 
   private:
     std::optional<int> mThreshold;
-    int mCount = kDefaultLightCount;
+    std::optional<int> mCount;
     std::optional<bool> mAreaWeighted;
 };
 

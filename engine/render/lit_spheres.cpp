@@ -196,10 +196,11 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
                           {6 * kSphereCubeBordered * kSphereCubeBordered, 1, 1});
         commands.barrier(Stage::Compute, Stage::Compute);
         for (const auto& [residual, set] : mSets) {
-            const bool isPolar = set.mapping == uint32_t(DiskMapping::Polar);
             commands.dispatch(
                 mUnshadowed,
-                {texels(mLights), {set.lightMaps.image, isPolar ? mPolarSampler : mSampler}, mTupleTexels},
+                {texels(mLights),
+                 {set.lightMaps.image, isPolar(DiskMapping(set.mapping)) ? mPolarSampler : mSampler},
+                 mTupleTexels},
                 UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGrey, set.firstImage, mTupleRows,
                                      set.isTurned},
                 {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});

@@ -9,7 +9,7 @@ MapPlace placeInMap(int size, DiskMapping mapping, vec3 local) {
     const vec2 place = diskMapCoordinates(mapping, local) * float(size) - 0.5f;
     const vec2 corner = glm::floor(place);
     const auto column = [&](int x) {
-        return mapping == DiskMapping::Polar ? (x + size) % size : std::clamp(x, 0, size - 1);
+        return isPolar(mapping) ? (x + size) % size : std::clamp(x, 0, size - 1);
     };
     const int x0 = column(int(corner.x)), x1 = column(int(corner.x) + 1);
     const int y0 = std::clamp(int(corner.y), 0, size - 1), y1 = std::clamp(int(corner.y) + 1, 0, size - 1);

@@ -86,8 +86,7 @@ void checkBrdf(const FactoredBrdf& brdf, const std::string& where) {
     expectRange(brdf.terms, 1, kLargestTerms, where, "BRDF terms");
     expectRange(brdf.size, kSmallestMap, kLargestMap, where, "a map size");
     expectRange(brdf.layers, 1, kLargestLayers, where, "layers of view maps");
-    expect(brdf.mapping <= DiskMapping::EqualArea, where,
-           "the orthographic, the polar or the equal-area map");
+    expect(brdf.mapping <= DiskMapping::Polar, where, "the orthographic, the polar or the equal-area map");
     const size_t texels = size_t(brdf.terms) * brdf.mapTexels();
     expectCount(brdf.lightMaps.size(), texels, where, "light map texels");
     expectCount(brdf.viewMaps.size(), texels * size_t(brdf.layers), where, "view map texels");

@@ -80,21 +80,21 @@ std::string describeLayout(const Transport& transport) {
     return "";
 }
 
-// What the options say of how meshes were refined; null if they were not.
-Json refinementOf(const Asset& asset) {
+// What the bake's options have under a key; null if they have nothing.
+Json optionOf(const Asset& asset, const char* key) {
     const Json options = jsonOrText(asset.provenance.options);
-    return options.is_object() && options.contains("refinement") ? options["refinement"] : Json();
+    return options.is_object() && options.contains(key) ? options[key] : Json();
 }
 
-// Empty for records that are none.
-std::string describeRefinement(const Json& record) {
+// Of a record of refinement, or none.
+std::string describeInterpolation(const Json& record) {
     const auto number = [&](const char* key) {
         return record.is_object() && record.contains(key) && record[key].is_number()
                    ? record[key].get<double>()
                    : -1;
     };
     const double error = number("error"), from = number("start_vertices"), to = number("vertices");
-    if (error < 0 || from < 0 || to < 0) return "";
+    if (error < 0 || from < 0 || to < 0) return "interpolation between vertices: linear, of unknown error";
     const bool isAuto = record.contains("auto") && record["auto"] == true;
     return fmt::format(
         "interpolation between vertices: {:.2f} % of reflected light{} as estimated, meshes refined "
@@ -102,11 +102,33 @@ std::string describeRefinement(const Json& record) {
         100 * error, isAuto ? " of the parts that came coarse" : "", from, to);
 }
 
+std::string describeVisibility(const Asset& asset) {
+    const Json triangles = optionOf(asset, "occluder_triangles");
+    const bool isSimplified = triangles.is_number() && triangles > 0;
+    return fmt::format(
+        "visibility: in 6 x {}² directions, taken {:g} above each vertex, {}", asset.visibilitySize,
+        asset.visibilityOffset,
+        isSimplified ? fmt::format("of a model simplified to {} triangles", asset.occluder.triangleCount())
+                     : "of all triangles");
+}
+
+// What the terms of all sets make least.
+std::string describeTerms(const Asset& asset) {
+    const Json method = optionOf(asset, "factorization");
+    if (!method.is_string()) return "BRDF terms: of an unknown factorization";
+    const auto name = method.get<std::string>();
+    const bool hasCentres = name == "paper" || name == "normalized";
+    return fmt::format("BRDF terms: of factorization {}, from values of f {}", name,
+                       hasCentres ? "at the maps' texel centres" : "averaged over the maps' texels");
+}
+
 Json describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
     Json list = Json::array();
-    if (const std::string refinement = describeRefinement(refinementOf(asset)); !refinement.empty())
-        list.push_back(refinement);
+    list.push_back(fmt::format("light: infinitely far away, direct alone, even over each of 6 x {}² texels",
+                               asset.faceSize));
+    list.push_back(describeVisibility(asset));
+    list.push_back(describeInterpolation(optionOf(asset, "refinement")));
     list.push_back("transport: " + describeSamples(asset.transportSamples));
     if (asset.coefficients < all)
         list.push_back(
@@ -122,6 +144,7 @@ Json describeApproximations(const Asset& asset) {
             asset.layout->wantedBytes
                 ? fmt::format("{:g} bytes a vertex being asked for", *asset.layout->wantedBytes)
                 : fmt::format("{:g} % being asked for", 100 * asset.layout->wantedError.value_or(0))));
+    list.push_back(describeTerms(asset));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             list.push_back(fmt::format(
@@ -132,8 +155,6 @@ Json describeApproximations(const Asset& asset) {
     if (asset.provenance.bakedShare)
         list.push_back(fmt::format("preview: {:.0f} % of the vertices are baked, the others interpolated",
                                    100 * *asset.provenance.bakedShare));
-    if (asset.visibilityOffset > 0)
-        list.push_back(fmt::format("visibility: taken {} above each vertex", asset.visibilityOffset));
     return list;
 }
 
@@ -186,7 +207,8 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t v
                    {"device", asset.provenance.device},
                    {"options", jsonOrText(asset.provenance.options)},
                    {"inputs", jsonOrText(asset.provenance.inputs)}}}};
-    if (const Json refinement = refinementOf(asset); !refinement.is_null()) info["refinement"] = refinement;
+    if (const Json refinement = optionOf(asset, "refinement"); !refinement.is_null())
+        info["refinement"] = refinement;
     if (asset.provenance.bakedShare) info["preview"] = {{"baked_share", *asset.provenance.bakedShare}};
     return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -23,7 +23,7 @@ namespace {
 constexpr float kReciprocalAsymmetry = 1e-3f; // rounding and tabulated fits stay below
 constexpr float kDroppedTerm = 1e-5f;         // relative to the first
 
-constexpr std::string_view kNames[] = {"paper", "cosine", "environment", "nonnegative"};
+constexpr std::string_view kNames[] = {"paper", "cosine", "environment", "nonnegative", "normalized"};
 
 // M_j ≈ Σk light_k view_jkᵀ of one channel.
 struct ChannelFactors {
@@ -121,6 +121,24 @@ ChannelFactors factorizeGeneral(const std::vector<const MatrixXf*>& matrices, co
     return factors;
 }
 
+ChannelFactors factorizeNormalized(const std::vector<const MatrixXf*>& matrices) {
+    ChannelFactors factors;
+    VectorXf profile = VectorXf::Zero(matrices[0]->rows());
+    Index directions = 0;
+    float squared = 0;
+    for (const MatrixXf* matrix : matrices) {
+        const VectorXf norms = matrix->colwise().norm().transpose();
+        for (Index o = 0; o < norms.size(); o++)
+            if (norms[o] > 0) profile += matrix->col(o) / norms[o];
+        directions += (norms.array() > 0).count();
+        squared += norms.squaredNorm();
+        factors.view.emplace_back(norms);
+    }
+    factors.light = profile / float(std::max<Index>(directions, 1));
+    factors.values = VectorXf::Constant(1, factors.light.norm() * std::sqrt(squared));
+    return factors;
+}
+
 void writeChannel(const ChannelFactors& factors, const std::vector<int>& nearest, int channel,
                   FactoredBrdf& brdf) {
     const auto write = [&](std::vector<vec3>& maps, int first, const MatrixXf& values, int term) {
@@ -160,8 +178,9 @@ std::array<ChannelFactors, 3> factorizeChannels(std::span<const BrdfTable> table
         if (first[c] != c) return;
         std::vector<const MatrixXf*> matrices;
         for (const BrdfTable& table : tables) matrices.push_back(&table.channels[c]);
-        factors[c] = isSymmetric ? factorizeSymmetric(*matrices[0], weights.view, terms)
-                                 : factorizeGeneral(matrices, weights, method, terms);
+        factors[c] = method == Factorization::Normalized ? factorizeNormalized(matrices)
+                     : isSymmetric ? factorizeSymmetric(*matrices[0], weights.view, terms)
+                                   : factorizeGeneral(matrices, weights, method, terms);
     });
     for (size_t c = 0; c < 3; c++)
         if (first[c] != c) factors[c] = factors[first[c]];
@@ -209,7 +228,8 @@ std::optional<Factorization> factorizationFromName(std::string_view name) {
 }
 
 TexelValue texelValueOf(Factorization method) {
-    return method == Factorization::Paper ? TexelValue::Centre : TexelValue::Mean;
+    const bool isPublished = method == Factorization::Paper || method == Factorization::Normalized;
+    return isPublished ? TexelValue::Centre : TexelValue::Mean;
 }
 
 FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {
@@ -219,11 +239,13 @@ FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOpt
         throw UsageError(
             "terms chosen by error need terms that are good one by one, which those of factorization "
             "\"nonnegative\" are not: give their number");
+    if (options.terms != 1 && options.method == Factorization::Normalized)
+        throw UsageError("factorization \"normalized\" has one term, not {}", options.terms);
     RELUME_CHECK(!tables.empty());
     for (const BrdfTable& table : tables) {
         RELUME_CHECK(!table.directions.empty());
         RELUME_CHECK(table.size == tables[0].size && table.mapping == tables[0].mapping);
-        if (table.asymmetry > kReciprocalAsymmetry)
+        if (table.asymmetry > kReciprocalAsymmetry && options.method != Factorization::Normalized)
             spdlog::warn(
                 "BRDF is not reciprocal (asymmetry {:.2g}): factored by SVD, with light and view maps "
                 "of their own",

@@ -20,17 +20,20 @@ enum class Factorization {
     Environment,
     // As Cosine, with maps that are nowhere negative: sums cannot undershoot, for a larger error.
     NonNegative,
+    // One term, the normalized decomposition (Kautz and McCool 1999): the view map is the norm of f over
+    // incoming directions, here of p = 2, the light map the mean over outgoing directions of f over it.
+    Normalized,
 };
 
-// "paper", "cosine", "environment" and "nonnegative".
+// "paper", "cosine", "environment", "nonnegative" and "normalized".
 std::string_view factorizationName(Factorization method);
 std::optional<Factorization> factorizationFromName(std::string_view name);
 
-// What tables to factor: the paper's hold f at texel centres, all others its means.
+// What tables to factor: Paper's and Normalized's hold f at texel centres, all others its means.
 TexelValue texelValueOf(Factorization method);
 
 struct FactorizationOptions {
-    int terms = 4; // K, 1 to kMaxTerms
+    int terms = 4; // K, 1 to kMaxTerms; 1 for Normalized
     Factorization method = Factorization::Environment;
     // Instead of `terms` the least number of them, up to `terms`, whose expectedErrors() of every layer are
     // at or below this; where all of them are not enough, all, and the log says so. Not for NonNegative,

@@ -39,7 +39,7 @@ struct Locals {
 
 // diskMapCoordinates and placeInMap, 16 at a time.
 void findPlaces(DiskMapping mapping, int size, const Locals& local, const float* weight, Lookups& lookups) {
-    if (mapping == DiskMapping::Polar) { // its arc tangents are not worth vectors
+    if (isPolar(mapping)) { // its arc tangents are not worth vectors
         for (int i = 0; i < kBlock; i++) {
             if (!(weight[i] > 0)) {
                 for (int corner = 0; corner < 4; corner++) lookups.weights[corner][i] = 0;

@@ -4,14 +4,18 @@
 #define RELUME_LIB_DISK_MAP_GLSL
 
 const uint kOrthographicMapping = 0;
-const uint kPolarMapping = 1;
+const uint kEqualAreaPolarMapping = 1;
 const uint kEqualAreaMapping = 2;
+const uint kPolarMapping = 3;
+
+bool isPolar(uint mapping) { return mapping == kPolarMapping || mapping == kEqualAreaPolarMapping; }
 
 vec2 diskMapCoordinates(uint mapping, vec3 local) {
     if (mapping == kOrthographicMapping) return 0.5 * local.xy + 0.5;
     if (mapping == kEqualAreaMapping) return local.xy * (0.5 / sqrt(1 + max(local.z, 0))) + 0.5;
     const float angle = dot(local.xy, local.xy) > 0 ? atan(local.y, local.x) : 0;
-    return vec2(angle / (2 * 3.14159265358979) + 0.5, sqrt(max(0, 1 - local.z)));
+    const float radius = mapping == kPolarMapping ? min(1, length(local.xy)) : sqrt(max(0, 1 - local.z));
+    return vec2(angle / (2 * 3.14159265358979) + 0.5, radius);
 }
 
 const float kGrazingCosine = 1e-3;
@@ -27,7 +31,7 @@ MapFootprint mapFootprint(uint mapping, int size, vec3 local) {
     const vec2 place = diskMapCoordinates(mapping, local) * float(size) - 0.5;
     const vec2 corner = floor(place);
     ivec2 low = ivec2(corner), high = low + 1;
-    if (mapping == kPolarMapping) {
+    if (isPolar(mapping)) {
         low.x = (low.x + size) % size;
         high.x = high.x % size;
     }

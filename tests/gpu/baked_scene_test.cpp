@@ -29,6 +29,7 @@ BakeRecipe recipeOf(const TemporaryFolder& folder, const char* material, int ter
     recipe.options.visibilitySize = 64;
     recipe.options.faceSize = 32;
     recipe.options.mapSize = 16;
+    recipe.options.transportSamples = 4;
     return recipe;
 }
 

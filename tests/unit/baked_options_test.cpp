@@ -1,5 +1,6 @@
 // What an asset says that it was baked with, and assets that do not say it.
 #include "engine/base/error.h"
+#include "precompute/bake/bake_preset.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_list.h"
@@ -48,6 +49,21 @@ TEST_CASE("baked options: they come back") {
         CHECK(back.layout == each.layout);
         CHECK(back.refinement == each.refinement);
     }
+}
+
+TEST_CASE("baked options: a preset is known by its options, and not where one of them differs") {
+    for (const BakePreset preset : {BakePreset::Default, BakePreset::Paper}) {
+        BakeOptions options = presetOptions(preset);
+        CHECK(presetFromName(presetName(preset)) == preset);
+        CHECK(presetOf(optionsOf(assetOf(options))) == preset);
+        options.refinement.reset(); // as where nothing was coarse
+        CHECK(presetOf(optionsOf(assetOf(options))) == preset);
+        options.mapSize /= 2;
+        CHECK(!presetOf(optionsOf(assetOf(options))));
+    }
+    BakeOptions refined = presetOptions(BakePreset::Paper);
+    refined.refinement = {0.01, 0.25, 0.0098, 0, 0, true};
+    CHECK(!presetOf(optionsOf(assetOf(refined))));
 }
 
 TEST_CASE("baked options: others are refused") {

@@ -91,7 +91,8 @@ TEST_CASE("eigenpairs: the component of largest magnitude is positive") {
 
 TEST_CASE("eigenpairs: of BRDFs agree with Eigen's full decomposition") {
     for (const char* material : {"ashikhmin-shirley", "skin", "red-plastic"})
-        for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar}) {
+        for (DiskMapping mapping :
+             {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar, DiskMapping::Polar}) {
             CAPTURE(material);
             const BrdfTable table = tabulate(*makeBrdf(material), 16, mapping);
             const MatrixXd matrix = table.channels[0].cast<double>();

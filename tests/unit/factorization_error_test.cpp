@@ -89,8 +89,8 @@ TEST_CASE("factorization errors: what is expected is what dense sums over lights
 }
 
 TEST_CASE("factorization errors: none where the BRDF is what its terms are") {
-    for (const DiskMapping mapping :
-         {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea}) {
+    for (const DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar,
+                                      DiskMapping::EqualArea, DiskMapping::Polar}) {
         const FactoredBrdf factored =
             factorize(tabulate(*makeBrdf("red-plastic"), 12, mapping), {4, Factorization::NonNegative});
         const Exact brdf(factored);

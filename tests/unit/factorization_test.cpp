@@ -45,7 +45,7 @@ BrdfTable tableWith(const MatrixXf& matrix) {
 } // namespace
 
 TEST_CASE("factorization: a diffuse BRDF has one term and no error, up to the rim") {
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar}) {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar, DiskMapping::Polar}) {
         const auto brdf = makeBrdf(R"({"model": "diffuse", "albedo": [0.2, 0.5, 0.8]})");
         const FactoredBrdf factored = factorize(tabulate(*brdf, 16, mapping), {32});
         CHECK(factored.terms == 1);
@@ -54,6 +54,31 @@ TEST_CASE("factorization: a diffuse BRDF has one term and no error, up to the ri
         const vec3 grazing = evaluate(factored, liftAboveHorizon({0.7f, 0.7f, 0}), {0, 0, 1});
         CHECK(glm::length(grazing * kPi - vec3(0.2f, 0.5f, 0.8f)) < 1e-5f);
     }
+}
+
+TEST_CASE("factorization: the normalized decomposition") {
+    BrdfTable table = tableOf("clay", 6);
+    const auto n = Eigen::Index(table.directions.size());
+    const Eigen::VectorXf light = Eigen::VectorXf::LinSpaced(n, 1, 2),
+                          view = Eigen::VectorXf::LinSpaced(n, 3, 0.5f);
+    for (MatrixXf& channel : table.channels) channel = light * view.transpose();
+    const FactoredBrdf product = factorize(table, {1, Factorization::Normalized});
+    CHECK(product.terms == 1);
+    CHECK((reconstruct(product, table, 0) - table.channels[0]).norm() < 1e-5f * table.channels[0].norm());
+
+    // Of two outgoing directions that reflect from one incoming direction each, and others that do not.
+    for (MatrixXf& channel : table.channels) {
+        channel.setZero();
+        channel(0, 0) = 3;
+        channel(1, 1) = 4;
+    }
+    const MatrixXf mean = reconstruct(factorize(table, {1, Factorization::Normalized}), table, 1);
+    CHECK(mean(0, 0) == doctest::Approx(1.5));
+    CHECK(mean(1, 0) == doctest::Approx(1.5));
+    CHECK(mean(0, 1) == doctest::Approx(2));
+    CHECK(mean(2, 2) == 0);
+    CHECK_THROWS_WITH_AS(factorize(table, {2, Factorization::Normalized}), doctest::Contains("one term"),
+                         UsageError);
 }
 
 TEST_CASE("factorization: all terms together are the table") {

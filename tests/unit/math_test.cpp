@@ -72,7 +72,8 @@ TEST_CASE("haar: a constant is one coefficient") {
 }
 
 TEST_CASE("disk maps: a direction's coordinates lead back to it") {
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea})
+    for (DiskMapping mapping :
+         {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar, DiskMapping::EqualArea, DiskMapping::Polar})
         for (int y = 0; y < 16; y++)
             for (int x = 0; x < 16; x++) {
                 const vec2 coordinates((float(x) + 0.5f) / 16, (float(y) + 0.5f) / 16);
@@ -84,7 +85,8 @@ TEST_CASE("disk maps: a direction's coordinates lead back to it") {
 }
 
 TEST_CASE("disk maps: solid angles sum to the hemisphere") {
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea}) {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar,
+                                DiskMapping::EqualArea, DiskMapping::Polar}) {
         constexpr int kSize = 256;
         double sum = 0;
         for (int y = 0; y < kSize; y++)
@@ -93,9 +95,16 @@ TEST_CASE("disk maps: solid angles sum to the hemisphere") {
                 if (diskMapDirection(mapping, coordinates))
                     sum += double(diskMapSolidAngle(mapping, coordinates)) / (kSize * kSize);
             }
-        // At the orthographic disk's rim texels are stretched without bound.
-        CHECK(sum == doctest::Approx(2 * kPi).epsilon(mapping == DiskMapping::Orthographic ? 0.02 : 1e-3));
+        // Where places go by the sine of the angle, texels at the rim are stretched without bound.
+        const bool isBySine = mapping == DiskMapping::Orthographic || mapping == DiskMapping::Polar;
+        CHECK(sum == doctest::Approx(2 * kPi).epsilon(isBySine ? 0.03 : 1e-3));
     }
+}
+
+TEST_CASE("disk maps: the polar map's radius is the sine of the angle") {
+    const vec2 place = diskMapCoordinates(DiskMapping::Polar, {0, std::sin(0.3f), std::cos(0.3f)});
+    CHECK(place.x == doctest::Approx(0.75));
+    CHECK(place.y == doctest::Approx(std::sin(0.3)));
 }
 
 TEST_CASE("disk maps: 48 x 48 orthographic texels hold 1804 directions") {

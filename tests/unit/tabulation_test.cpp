@@ -48,7 +48,7 @@ TEST_CASE("tabulation: the directions are the texel centres inside the map's dom
     const auto brdf = makeBrdf("grey-diffuse");
     CHECK(tabulate(*brdf, 48, DiskMapping::Orthographic).directions.size() == 1804);
     CHECK(tabulate(*brdf, 16, DiskMapping::Polar).directions.size() == 256);
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar}) {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar, DiskMapping::Polar}) {
         const BrdfTable table = tabulate(*brdf, 16, mapping);
         for (size_t i = 0; i < table.directions.size(); i++) {
             CHECK(table.directions[i].z > 0);
@@ -107,7 +107,8 @@ TEST_CASE("tabulation: sizes out of range are refused") {
 }
 
 TEST_CASE("tabulation: means keep a reciprocal BRDF symmetric, and are the values of a constant one") {
-    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::Polar, DiskMapping::EqualArea}) {
+    for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar,
+                                DiskMapping::EqualArea, DiskMapping::Polar}) {
         CHECK(tabulate(*makeBrdf("gold"), 12, mapping, TexelValue::Mean).asymmetry < 1e-5f);
         const auto brdf = makeBrdf("grey-diffuse");
         const BrdfTable means = tabulate(*brdf, 12, mapping, TexelValue::Mean),
