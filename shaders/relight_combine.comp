@@ -5,6 +5,7 @@
 // C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/render/bases_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/render.h"
 
 layout(local_size_x_id = 0) in;
@@ -13,9 +14,9 @@ layout(binding = 0, scalar) readonly buffer Clusters { BasisVertices clusters[];
 layout(binding = 1, scalar) readonly buffer Terms { BasisTermKinds termKinds[]; };
 layout(binding = 2, scalar) readonly buffer Colors { vec3 colors[]; };          // of kinds
 layout(binding = 3, scalar) readonly buffer Weightings { BasisWeighting weightings[]; }; // by cluster and kind
-layout(binding = 4) uniform usamplerBuffer weights;      // two words: eight vertices
-layout(binding = 5) uniform samplerBuffer scales;
-layout(binding = 6) uniform samplerBuffer projections;
+TEXELS(4, uvec2, usamplerBuffer, Weights, weights); // two words: eight vertices
+TEXELS(5, float, samplerBuffer, Scales, scales);
+TEXELS(6, vec4, samplerBuffer, Projections, projections);
 layout(binding = 7, scalar) writeonly buffer Tuples { vec3 tuples[]; };
 layout(binding = 8, std430) readonly buffer Stamps { uint stamps[]; }; // of relight_project
 
@@ -44,9 +45,9 @@ void main() {
         precise vec4 kindRed[2] = vec4[](vec4(0), vec4(0)), kindGreen[2] = kindRed, kindBlue[2] = kindRed;
         const int place = int(weighting.firstWeights + octet * weighting.components);
         for (int i = 0; i < int(weighting.components); i++) {
-            precise const vec3 projection = texelFetch(projections, int(cluster.firstComponent) + i).rgb *
-                                            texelFetch(scales, int(weighting.firstScale) + i).x;
-            const uvec2 words = texelFetch(weights, place + i).xy;
+            precise const vec3 projection = texelOf(projections, int(cluster.firstComponent) + i).rgb *
+                                            texelOf(scales, int(weighting.firstScale) + i).x;
+            const uvec2 words = texelOf(weights, place + i).xy;
             const vec4 low = unpackWeights(words.x), high = unpackWeights(words.y);
             kindRed[0] += low * projection.r;
             kindRed[1] += high * projection.r;

@@ -4,11 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lib/cubemap.glsl"
 #include "shaders/lib/polar_map.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/sphere.h"
 
 layout(local_size_x = 32) in;
 layout(binding = 0) uniform sampler2DArray cube; // kSphereCube² and a border
-layout(binding = 1) uniform samplerBuffer nodes; // axis and side, two texels a node
+TEXELS(1, vec4, samplerBuffer, Nodes, nodes); // axis and side, two texels a node
 layout(binding = 2, std430) writeonly buffer Polar { vec4 polar[]; };
 
 // Samples of a cell on either side: closer than texels, so that bilinear lookups sum to about the same wherever a light
@@ -18,7 +19,7 @@ const uint kSide = 2;
 void main() {
     const uint azimuth = gl_GlobalInvocationID.x, ring = gl_GlobalInvocationID.y, node = gl_GlobalInvocationID.z;
     if (azimuth >= kSphereAzimuths) return;
-    const vec3 axis = texelFetch(nodes, int(2 * node)).xyz, side = texelFetch(nodes, int(2 * node + 1)).xyz;
+    const vec3 axis = texelOf(nodes, int(2 * node)).xyz, side = texelOf(nodes, int(2 * node + 1)).xyz;
     const float ringWidth = 0.5 * kTurn / kSphereRings, width = kTurn / kSphereAzimuths;
     vec3 sides[kSide];
     for (uint i = 0; i < kSide; i++) {

@@ -4,12 +4,13 @@
 // C++ twin: litSpheres() in precompute/reference/lit_sphere_twin.h, which has these passes as one sum.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/sphere.h"
 
 layout(local_size_x = 8) in;
 layout(push_constant, scalar) uniform Push { SpherePush push; };
-layout(binding = 0) uniform samplerBuffer kernel;   // SphereKernel: [component][four rows][ring][channel]
-layout(binding = 1) uniform samplerBuffer spectrum; // [node][m][ring][real, imaginary]
+TEXELS(0, vec4, samplerBuffer, Kernel, kernel);       // SphereKernel: [component][four rows][ring][channel]
+TEXELS(1, vec4, samplerBuffer, Spectrum, spectrum); // [node][m][ring][real, imaginary]
 layout(binding = 2, std430) writeonly buffer Reflected { vec4 reflected[]; }; // [node][component][four rows][6]
 
 void main() {
@@ -26,9 +27,9 @@ void main() {
     vec4 a[6] = vec4[](vec4(0), vec4(0), vec4(0), vec4(0), vec4(0), vec4(0)); // real r, g, b, imaginary r, g, b
     vec4 b[6] = vec4[](vec4(0), vec4(0), vec4(0), vec4(0), vec4(0), vec4(0));
     for (uint ring = 0; ring < kSphereRings; ring++, weight += 3, light += 2) {
-        const vec4 red = texelFetch(kernel, weight), green = texelFetch(kernel, weight + 1),
-                   blue = texelFetch(kernel, weight + 2);
-        vec3 re = texelFetch(spectrum, light).rgb, im = texelFetch(spectrum, light + 1).rgb;
+        const vec4 red = texelOf(kernel, weight), green = texelOf(kernel, weight + 1),
+                   blue = texelOf(kernel, weight + 2);
+        vec3 re = texelOf(spectrum, light).rgb, im = texelOf(spectrum, light + 1).rgb;
         a[0] += re.r * red;
         a[1] += re.g * green;
         a[2] += re.b * blue;
@@ -36,8 +37,8 @@ void main() {
         a[4] += im.g * green;
         a[5] += im.b * blue;
         if (hasSecond) {
-            re = texelFetch(spectrum, light + lightStep).rgb;
-            im = texelFetch(spectrum, light + lightStep + 1).rgb;
+            re = texelOf(spectrum, light + lightStep).rgb;
+            im = texelOf(spectrum, light + lightStep + 1).rgb;
             b[0] += re.r * red;
             b[1] += re.g * green;
             b[2] += re.b * blue;

@@ -4,11 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/polar_map.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/sphere.h"
 
 layout(local_size_x = 16) in;
 layout(push_constant, scalar) uniform Push { SpherePush push; };
-layout(binding = 0) uniform samplerBuffer polar;
+TEXELS(0, vec4, samplerBuffer, Polar, polar);
 layout(binding = 1, std430) writeonly buffer Spectrum { vec4 spectrum[]; }; // [node][m][ring][real, imaginary]
 
 void main() {
@@ -22,7 +23,7 @@ void main() {
     vec4 im[6] = vec4[](vec4(0), vec4(0), vec4(0), vec4(0), vec4(0), vec4(0));
     const int start = int((node * kSphereRings + ring) * kSphereAzimuths);
     for (int azimuth = 0; azimuth < int(kSphereAzimuths); azimuth++) {
-        const vec3 light = texelFetch(polar, start + azimuth).rgb;
+        const vec3 light = texelOf(polar, start + azimuth).rgb;
         re[0] += light.r * lowRe;
         re[1] += light.g * lowRe;
         re[2] += light.b * lowRe;

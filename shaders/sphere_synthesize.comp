@@ -5,11 +5,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/polar_map.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/sphere.h"
 
 layout(local_size_x = 8) in;
 layout(push_constant, scalar) uniform Push { SpherePush push; };
-layout(binding = 0) uniform samplerBuffer reflected; // [node][component][four rows][6]
+TEXELS(0, vec4, samplerBuffer, Reflected, reflected); // [node][component][four rows][6]
 layout(binding = 1, std430) writeonly buffer Parts { vec4 parts[]; }; // [node][part][ring][azimuth]
 
 void main() {
@@ -29,7 +30,7 @@ void main() {
     for (int m = least; m <= most; m++, component++) {
         const int place = int(((node * components + component) * (kSphereRings / 4) + rows) * 6);
         for (int channel = 0; channel < 3; channel++) {
-            const vec4 x = texelFetch(reflected, place + channel), y = texelFetch(reflected, place + 3 + channel);
+            const vec4 x = texelOf(reflected, place + channel), y = texelOf(reflected, place + 3 + channel);
             for (int i = 0; i < 4; i++) {
                 re[4 * channel + i] += x * phaseRe[i] - y * phaseIm[i];
                 if (harmonic > 0) im[4 * channel + i] += x * phaseIm[i] + y * phaseRe[i];

@@ -12,6 +12,7 @@
 #include "shaders/lib/disk_map.glsl"
 #include "shaders/lib/haar_step.glsl"
 #include "shaders/lib/tangent_frame.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/bake.h"
 
 layout(constant_id = 0) const uint kFaceSize = 64;       // F, lighting texels a side
@@ -28,7 +29,7 @@ layout(binding = 1, scalar) readonly buffer Visible { uint visible[]; };
 // Texel ((y (S + 1) + x) K + term) 3 + channel: the four corners of a lookup between the map's texels x - 1 and x,
 // y - 1 and y. A buffer, not an image: software devices find the place in an image anew, level and layer and
 // all, for each fetch.
-layout(binding = 2) uniform samplerBuffer corners;
+TEXELS(2, vec4, samplerBuffer, Corners, corners);
 layout(binding = 3, std430) coherent buffer Coefficients { vec4 coefficients[]; }; // lib/haar_block.glsl
 layout(binding = 4, scalar) writeonly buffer Summaries { vec2 summaries[]; };      // of blocks
 
@@ -77,8 +78,8 @@ Place placeOf(uvec2 block, uvec2 cell, uint face, mat3 frame) {
 // Three fetches of four corners: samplers round weights to 8 bits on many devices, and CPU twins do not.
 vec3 weightedLookup(Place place, uint term) {
     const int texel = place.texel + 3 * int(term);
-    return vec3(dot(texelFetch(corners, texel), place.weights), dot(texelFetch(corners, texel + 1), place.weights),
-                dot(texelFetch(corners, texel + 2), place.weights));
+    return vec3(dot(texelOf(corners, texel), place.weights), dot(texelOf(corners, texel + 1), place.weights),
+                dot(texelOf(corners, texel + 2), place.weights));
 }
 
 void storeBlock(uint place, vec3 slots[16], vec2 summary) {

@@ -6,11 +6,12 @@
 #include "shaders/lib/disk_map.glsl"
 #include "shaders/lib/polar_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/sphere.h"
 
 layout(local_size_x = 16) in;
 layout(push_constant, scalar) uniform Push { UnshadowedTuplesPush push; };
-layout(binding = 0) uniform samplerBuffer lights;         // direction, and radiance · solid angle
+TEXELS(0, vec4, samplerBuffer, Lights, lights);           // direction, and radiance · solid angle
 layout(binding = 1) uniform sampler2DArray lightMaps;     // packed as ViewMapTexture is
 layout(binding = 2, std430) writeonly buffer Tuples { vec4 tuples[]; }; // [image][row][azimuth]
 
@@ -28,9 +29,9 @@ void main() {
     const uint images = push.isGrey != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
     vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples lie in memory
     for (int light = 0; light < int(kTupleLights); light++) {
-        const vec3 local = frame * texelFetch(lights, 2 * light).xyz;
+        const vec3 local = frame * texelOf(lights, 2 * light).xyz;
         if (local.z <= kGrazingCosine) continue;
-        const vec3 energy = local.z * texelFetch(lights, 2 * light + 1).rgb;
+        const vec3 energy = local.z * texelOf(lights, 2 * light + 1).rgb;
         const vec2 place = diskMapCoordinates(push.mapping, local);
         if (push.isGrey != 0) {
             const vec4 m = textureLod(lightMaps, vec3(place, quad), 0);

@@ -4,14 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/pixel_samples.glsl"
+#include "shaders/lib/texels.glsl"
 
 layout(push_constant, scalar) uniform Push { ViewEdgesPush push; };
-layout(binding = 1) uniform usamplerBuffer triangles; // of the part: three corners and nothing
+TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // of the part: three corners and nothing
 
 bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
 
 uvec3 cornersOf(uint surface) {
-    return texelFetch(triangles, int(min(surface - push.firstSurface, push.surfaces - 1))).xyz;
+    return texelOf(triangles, int(min(surface - push.firstSurface, push.surfaces - 1))).xyz;
 }
 
 void main() {

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/barycentric.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/shared/render.h"
 
 layout(push_constant, scalar) uniform Push { ViewInspectPush push; };
@@ -11,8 +12,8 @@ layout(push_constant, scalar) uniform Push { ViewInspectPush push; };
 #else
 layout(binding = 0) uniform usampler2DArray surfaces; // as view_shade.frag
 #endif
-layout(binding = 1) uniform usamplerBuffer triangles;
-layout(binding = 2) uniform samplerBuffer vertices;
+TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles);
+TEXELS(2, vec4, samplerBuffer, Vertices, vertices);
 
 layout(location = 0) out vec4 radiance;
 
@@ -38,12 +39,12 @@ vec3 densityColor(float area) {
 // Returns the color of a triangle where the ray through a place in the image meets it.
 vec3 colorAt(uint triangle, vec2 place) {
     const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
-    const uvec3 numbers = texelFetch(triangles, int(triangle)).xyz;
+    const uvec3 numbers = texelOf(triangles, int(triangle)).xyz;
     vec3 corners[3], normals[3];
     for (int c = 0; c < 3; c++) {
-        const vec4 low = texelFetch(vertices, int(numbers[c] * kVertexTexels));
+        const vec4 low = texelOf(vertices, int(numbers[c] * kVertexTexels));
         corners[c] = low.xyz;
-        normals[c] = vec3(low.w, texelFetch(vertices, int(numbers[c] * kVertexTexels + 1)).xy);
+        normals[c] = vec3(low.w, texelOf(vertices, int(numbers[c] * kVertexTexels + 1)).xy);
     }
     const vec3 weights = barycentricWeights(push.rays.eye, direction, corners);
     const vec3 normal = normalize(weights.x * normals[0] + weights.y * normals[1] + weights.z * normals[2]);

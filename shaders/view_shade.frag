@@ -9,6 +9,7 @@
 #include "shaders/lib/barycentric.glsl"
 #include "shaders/lib/disk_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/lib/unshadowed.glsl"
 #include "shaders/shared/render.h"
 
@@ -29,18 +30,23 @@ layout(constant_id = 6) const bool kEdges = false; // pixels that are shaded mor
 #else
 layout(binding = 0) uniform usampler2DArray surfaces; // 0: none
 #endif
-layout(binding = 1) uniform usamplerBuffer triangles;  // three corners and nothing
-layout(binding = 2) uniform samplerBuffer vertices;    // ViewVertex: kVertexTexels
+TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // three corners and nothing
+TEXELS(2, vec4, samplerBuffer, Vertices, vertices);     // ViewVertex: kVertexTexels
+#ifdef PORTABLE
+layout(binding = 3, std430) readonly buffer Tuples { float tuples[]; };
+float tupleOf(int i) { return tuples[i]; }
+vec4 fourOf(int i) { return vec4(tuples[4 * i], tuples[4 * i + 1], tuples[4 * i + 2], tuples[4 * i + 3]); }
+#else
 layout(binding = 3) uniform samplerBuffer tuples; // texels of four floats if kWholeQuads, else of one
+float tupleOf(int i) { return texelFetch(tuples, i).x; }
+vec4 fourOf(int i) { return texelFetch(tuples, i); }
+#endif
 layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
 layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
 layout(binding = 6) uniform sampler2DArray baseColor;
 layout(binding = 7) uniform sampler2DArray materialMap;
-layout(binding = 8) uniform sampler2DArray litSpheres;
-layout(binding = 9) uniform usamplerBuffer sphereSlots;
-layout(binding = 10) uniform samplerBuffer viewGrid;
 layout(binding = 11) uniform sampler2DArray unshadowedTuples; // three images for each four terms
-layout(binding = 12) uniform samplerBuffer irradianceWeights; // laid out as tuples of whole quads
+TEXELS(12, vec4, samplerBuffer, IrradianceWeights, irradianceWeights); // laid out as tuples of whole quads
 
 layout(location = 0) out vec4 radiance;
 
@@ -76,15 +82,15 @@ void keepTerms(inout Quad q, uint terms) {
 void addTuple(inout Quad sum, float weight, uint vertex, uint quad) {
     if (kWholeQuads) {
         const int first = int((vertex * kQuads + quad) * 3);
-        sum.a += weight * texelFetch(tuples, first);
-        sum.b += weight * texelFetch(tuples, first + 1);
-        sum.c += weight * texelFetch(tuples, first + 2);
+        sum.a += weight * fourOf(first);
+        sum.b += weight * fourOf(first + 1);
+        sum.c += weight * fourOf(first + 2);
     } else {
         const uint first = 3 * (vertex * kTerms + 4 * quad), channels = min(12, 3 * (kTerms - 4 * quad));
         for (uint i = 0; i < 4; i++) {
-            if (i < channels) sum.a[i] += weight * texelFetch(tuples, int(first + i)).x;
-            if (4 + i < channels) sum.b[i] += weight * texelFetch(tuples, int(first + 4 + i)).x;
-            if (8 + i < channels) sum.c[i] += weight * texelFetch(tuples, int(first + 8 + i)).x;
+            if (i < channels) sum.a[i] += weight * tupleOf(int(first + i));
+            if (4 + i < channels) sum.b[i] += weight * tupleOf(int(first + 4 + i));
+            if (8 + i < channels) sum.c[i] += weight * tupleOf(int(first + 8 + i));
         }
     }
 }
@@ -139,11 +145,11 @@ Quad unshadowedTuple(TuplePlace at, uint quad) {
 
 // Returns the reflected radiance, which is never negative.
 vec3 shade(uint triangle, vec3 direction) {
-    const uvec3 corners = texelFetch(triangles, int(triangle)).xyz;
+    const uvec3 corners = texelOf(triangles, int(triangle)).xyz;
     vec4 low[3], high[3];
     for (int c = 0; c < 3; c++) {
-        low[c] = texelFetch(vertices, int(corners[c] * kVertexTexels));
-        high[c] = texelFetch(vertices, int(corners[c] * kVertexTexels + 1));
+        low[c] = texelOf(vertices, int(corners[c] * kVertexTexels));
+        high[c] = texelOf(vertices, int(corners[c] * kVertexTexels + 1));
     }
     // Moved to the nearest edge if rounding puts them outside.
     vec3 weights = barycentricWeights(push.rays.eye, direction, vec3[3](low[0].xyz, low[1].xyz, low[2].xyz));
@@ -160,7 +166,7 @@ vec3 shade(uint triangle, vec3 direction) {
     if (kTangents) {
         vec3 tangent = vec3(0);
         for (int c = 0; c < 3; c++)
-            tangent += weights[c] * texelFetch(vertices, int(corners[c] * kVertexTexels + 3)).xyz;
+            tangent += weights[c] * texelOf(vertices, int(corners[c] * kVertexTexels + 3)).xyz;
         const mat3 own = tangentFrame(normal, tangent);
         const vec3 turned = (normal.y < 0 ? lowerTangentFrame(normal) : frame) * (vec3(1, 0, 0) * own);
         tuplePlace.turn = atan(turned.y, turned.x) / kTurn;
@@ -176,7 +182,7 @@ vec3 shade(uint triangle, vec3 direction) {
         vec4 color = vec4(0);
         for (int c = 0; c < 3; c++) {
             uv += weights[c] * high[c].zw;
-            color += weights[c] * texelFetch(vertices, int(corners[c] * kVertexTexels + 2));
+            color += weights[c] * texelOf(vertices, int(corners[c] * kVertexTexels + 2));
         }
         paint = paintWeights(uv, color);
         base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
@@ -184,14 +190,14 @@ vec3 shade(uint triangle, vec3 direction) {
     vec3 exact = vec3(0);
     if (kEstimate != kTermsAlone) {
         const SpherePlaces at =
-            spherePlaces(viewGrid, -direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
+            spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
         if (kLook == kSingleLook)
             exact = push.weight *
-                    unshadowedRadiance(litSpheres, sphereSlots, push.firstSlot, kHarmonics, at);
+                    unshadowedRadiance(push.firstSlot, kHarmonics, at);
         else
             for (uint i = 0; i < push.layers; i++)
                 exact += layerWeight(layers[i], paint, base) *
-                         unshadowedRadiance(litSpheres, sphereSlots, layers[i].firstSlot,
+                         unshadowedRadiance(layers[i].firstSlot,
                                             min(layers[i].harmonics, kHarmonics), at);
         tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
         // At -Y tangentFrame() has no direction of its own, and takes that of the frames at this azimuth.
@@ -226,9 +232,9 @@ vec3 shade(uint triangle, vec3 direction) {
             vec4 a = vec4(1), b = vec4(1), c = vec4(1);
             if (kEstimate == kResidualDifference) {
                 const int first = int(push.firstWeight + 3 * quad);
-                a = texelFetch(irradianceWeights, first);
-                b = texelFetch(irradianceWeights, first + 1);
-                c = texelFetch(irradianceWeights, first + 2);
+                a = texelOf(irradianceWeights, first);
+                b = texelOf(irradianceWeights, first + 1);
+                c = texelOf(irradianceWeights, first + 2);
             }
             lit = Quad(lit.a + a * tuple.a, lit.b + b * tuple.b, lit.c + c * tuple.c);
             unlit = Quad(unlit.a + a * unshadowed.a, unlit.b + b * unshadowed.b, unlit.c + c * unshadowed.c);
@@ -246,9 +252,9 @@ vec3 shade(uint triangle, vec3 direction) {
 // engine/render/ground_fade.h.
 float groundCoverage(uint triangle, vec3 direction) {
     if (push.groundFade.w == 0) return 1;
-    const uvec3 corners = texelFetch(triangles, int(triangle)).xyz;
+    const uvec3 corners = texelOf(triangles, int(triangle)).xyz;
     vec3 place[3];
-    for (int c = 0; c < 3; c++) place[c] = texelFetch(vertices, int(corners[c] * kVertexTexels)).xyz;
+    for (int c = 0; c < 3; c++) place[c] = texelOf(vertices, int(corners[c] * kVertexTexels)).xyz;
     const vec3 normal = cross(place[1] - place[0], place[2] - place[0]);
     const float depth = dot(place[0] - push.rays.eye, normal) / dot(direction, normal);
     const float away = distance((push.rays.eye + depth * direction).xz, push.groundFade.xy);
@@ -274,7 +280,7 @@ vec4 shadeEdge(uint seen[kSamples]) {
     uint left = 0;
     for (uint i = 0; i < kSamples; i++) {
         const bool isOwn = isOfPart(seen[i]);
-        corners[i] = texelFetch(triangles, isOwn ? int(seen[i] - push.firstSurface) : 0).xyz;
+        corners[i] = texelOf(triangles, isOwn ? int(seen[i] - push.firstSurface) : 0).xyz;
         left |= uint(isOwn) << i;
     }
     if (left == 0) discard;

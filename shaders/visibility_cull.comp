@@ -9,6 +9,9 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kCull = true; // false: every cluster is drawn into every face
+// All layers are drawn at once, a draw a cluster, an instance a layer that it shows in. False: one by one, a
+// draw a layer and cluster.
+layout(constant_id = 1) const bool kLayered = true;
 layout(push_constant, scalar) uniform Push { CullPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Clusters { TriangleCluster clusters[]; };
@@ -28,7 +31,11 @@ bool canShow(BakePoint point, TriangleCluster sphere, uint face) {
 void main() {
     const uint layer = gl_GlobalInvocationID.x, cluster = gl_GlobalInvocationID.y;
     if (layer >= push.layers) return;
-    if (kCull && !canShow(points[layer / 6], clusters[cluster], layer % 6)) return;
+    const bool isDrawn = !kCull || canShow(points[layer / 6], clusters[cluster], layer % 6);
+    if (!kLayered)
+        draws[layer * push.clusters + cluster] =
+            uint[5](clusters[cluster].indexCount, isDrawn ? 1 : 0, clusters[cluster].firstIndex, 0, 0);
+    if (!kLayered || !isDrawn) return;
     const uint slot = atomicAdd(draws[cluster][1], 1);
     instanceLayers[cluster * push.layers + slot] = layer;
 }

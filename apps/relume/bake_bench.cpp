@@ -212,7 +212,7 @@ struct RebakePath::Part {
 
 RebakePath::RebakePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options)
     : mSample(sample), mOptions(options) {
-    mOptions.visibilityMethod = VisibilityMethod::Traced;
+    mOptions.visibilityMethod = usableMethod(device, VisibilityMethod::Traced);
     mOptions.keepVisibility = true;
     const auto size = uint32_t(options.visibilitySize);
     for (size_t number = 0; number < sample.points.size(); number++) {
@@ -276,7 +276,7 @@ uint64_t countDrawnTriangles(const vk::Device& device, const BakeSample& sample,
             commands.begin();
             visibility.record(commands, points, uint32_t(count), bits);
             commands.submitAndWait();
-            triangles += visibility.drawnTriangles(device);
+            triangles += visibility.drawnTriangles(device, uint32_t(count));
         }
     return triangles;
 }

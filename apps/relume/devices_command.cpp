@@ -24,6 +24,7 @@ void printTable(const std::vector<vk::DeviceInfo>& devices) {
                    mebibytes(device.largestAllocation));
         fmt::print("   layers            {}\n", device.largestLayerCount);
         fmt::print("   shared memory     {} bytes\n", device.sharedMemory);
+        fmt::print("   layered drawing   {}\n", device.outputsLayers ? "yes" : "no: faces one by one");
         fmt::print("   subgroup size     {}\n", device.subgroupSize);
         fmt::print("   usable            {}\n",
                    device.unsuitable.empty() ? "yes" : "no: " + device.unsuitable);
@@ -44,6 +45,7 @@ void printJson(const std::vector<vk::DeviceInfo>& devices) {
                         {"largest_storage_buffer", device.largestStorageBuffer},
                         {"largest_layer_count", device.largestLayerCount},
                         {"shared_memory", device.sharedMemory},
+                        {"outputs_layers", device.outputsLayers},
                         {"subgroup_size", device.subgroupSize},
                         {"usable", device.unsuitable.empty()},
                         {"why_not", device.unsuitable}});

@@ -97,7 +97,8 @@ std::string errorsIn(const std::string& log) {
 
 } // namespace
 
-std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::string_view macro) {
+std::vector<uint32_t> compileShader(const std::filesystem::path& source,
+                                    std::span<const std::string_view> macros) {
     static const Glslang process;
     const EShLanguage stage = stageOf(source);
     const std::string text = readText(source), name = source.string();
@@ -108,7 +109,9 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::st
     // As shaders/CMakeLists.txt: glslangValidator -V --target-env vulkan1.3 -I…
     glslang::TShader shader(stage);
     shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
-    const std::string preamble = macro.empty() ? "" : "#define " + std::string(macro) + "\n";
+    std::string preamble;
+    for (const std::string_view macro : macros)
+        if (!macro.empty()) preamble += fmt::format("#define {}\n", macro);
     shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
@@ -127,7 +130,7 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::st
 
 #else
 
-std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::string_view) {
+std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::span<const std::string_view>) {
     throw Error("{}: cannot be compiled: this program was built without glslang (on Debian: glslang-dev)",
                 source.string());
 }
@@ -142,7 +145,9 @@ size_t reloadShaders(vk::Device& device, const std::filesystem::path& folder) {
     std::vector<vk::ShaderReplacement> replacements;
     for (const FrameShader& shader : kFrameShaders) {
         const std::filesystem::path source = folder / shader.file;
-        replacements.push_back({source.string(), shader.spirv, compileShader(source, shader.macro)});
+        const std::string_view macros[] = {shader.macro,
+                                           device.info().takesPortableShaders() ? "PORTABLE" : ""};
+        replacements.push_back({source.string(), shader.spirv, compileShader(source, macros)});
     }
     return device.replaceShaders(replacements);
 }

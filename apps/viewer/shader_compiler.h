@@ -12,7 +12,8 @@ std::filesystem::path shaderFolder();
 // SPIR-V of a shader with `macro` defined, if it is not empty: word for word what the build makes of it. Its
 // name ends in .comp, .vert or .frag, and its includes are found from the folder above its own. Throws Error
 // with the compiler's messages, file and line first.
-std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::string_view macro = "");
+std::vector<uint32_t> compileShader(const std::filesystem::path& source,
+                                    std::span<const std::string_view> macros = {});
 
 // Compiles the shaders of a frame (compare, display, light_*, relight_*, view_*) from `folder`, which is
 // called shaders as includes call it, and has programs that `device` makes from now on use them. Returns how

@@ -25,10 +25,8 @@ void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint
 } // namespace
 
 BasesRelighter::Programs::Programs(const vk::Device& device) {
-    const uint32_t lanes = listingLanes(device, TransportLayout::Bases);
-    project = {
-        device, relight_project_comp_spirv, {lanes}, "relight project", vk::ComputeProgram::Subgroups::Full};
-    combine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
+    project = makeListingProgram(device, relight_project_comp_spirv, "relight project");
+    combine = {device, relight_combine_comp_spirv, {listingLanes(device)}, "relight combine"};
 }
 
 // Clusters on their way to the device.
@@ -110,7 +108,7 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
     mColors = vk::upload<vec3>(device, colors, name + " colours of kinds");
 
     // Of the texels that relight_combine reads the smallest have a word.
-    largestShard = std::min(largestShard, sizeof(float) * uint64_t(device.limits().maxTexelBufferElements));
+    largestShard = std::min(largestShard, sizeof(float) * device.mostTexels(sizeof(float)));
     constexpr uint32_t kMostGroups = kMostBasisComponents / (4 * kWordsPerGroup); // of a cluster
     const size_t mostClusters =
         device.limits().maxComputeWorkGroupCount[0] / std::max(mTerms * mGroupsPerTerm, kMostGroups);

@@ -16,11 +16,7 @@ constexpr uint64_t kColumnBytes = kClusterVertices * sizeof(uint32_t);
 } // namespace
 
 vk::ComputeProgram ClustersRelighter::makeProgram(const vk::Device& device) {
-    return {device,
-            relight_clusters_comp_spirv,
-            {listingLanes(device, TransportLayout::Clusters)},
-            "relight clusters",
-            vk::ComputeProgram::Subgroups::Full};
+    return makeListingProgram(device, relight_clusters_comp_spirv, "relight clusters");
 }
 
 ClustersRelighter::ClustersRelighter(const vk::Device& device, const vk::ComputeProgram& program,

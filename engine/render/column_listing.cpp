@@ -5,20 +5,16 @@
 
 namespace relume {
 
-namespace {
+uint32_t listingLanes(const vk::Device& device) {
+    const vk::DeviceInfo& info = device.info();
+    if (!info.takesPortableShaders()) return info.subgroupSize;
+    return info.isSoftware ? 8 : 32;
+}
 
-constexpr uint32_t kLeastLanes = 8, kMostLanes = 64; // of the kernels
-
-} // namespace
-
-uint32_t listingLanes(const vk::Device& device, TransportLayout layout) {
-    const uint32_t lanes = device.info().subgroupSize;
-    if (!device.info().subgroupBallot || lanes % kLeastLanes != 0 || lanes > kMostLanes)
-        throw Error(
-            "{}: relighting {} needs subgroups of {} to {} invocations that can vote; convert the bake "
-            "to rows: `relume convert --layout rows`",
-            device.name(), layoutName(layout), kLeastLanes, kMostLanes);
-    return lanes;
+vk::ComputeProgram makeListingProgram(const vk::Device& device, std::span<const uint32_t> spirv,
+                                      std::string_view name) {
+    using enum vk::ComputeProgram::Subgroups;
+    return {device, spirv, {listingLanes(device)}, name, device.info().takesPortableShaders() ? Any : Full};
 }
 
 std::vector<uint32_t> inPairs(std::span<const uint16_t> indices, uint32_t coefficients) {

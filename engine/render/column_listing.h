@@ -9,9 +9,12 @@
 
 namespace relume {
 
-// Their group size on this device. Throws Error when it has no subgroups that suit; `layout` is the one
-// that cannot be relit.
-uint32_t listingLanes(const vk::Device& device, TransportLayout layout);
+// Their group size on this device: a subgroup, or 8 to 32 invocations that have portable shaders.
+uint32_t listingLanes(const vk::Device& device);
+
+// A program of such a kernel.
+vk::ComputeProgram makeListingProgram(const vk::Device& device, std::span<const uint32_t> spirv,
+                                      std::string_view name);
 
 // Column indices, all below `coefficients`, two a word.
 std::vector<uint32_t> inPairs(std::span<const uint16_t> indices, uint32_t coefficients);

@@ -82,8 +82,9 @@ LightSources::Map LightSources::upload(std::shared_ptr<const Environment> enviro
     pixels.reserve(environment->radiance.size());
     for (const vec3& radiance : environment->radiance) pixels.emplace_back(radiance, 0);
     map.pixels = vk::upload<vec4>(mDevice, pixels, "environment");
-    if (std::max(pixels.size(), size_t(map.footprints->pixels.bytes() / sizeof(shared::FootprintPixel))) >
-        mDevice.limits().maxTexelBufferElements)
+    const uint64_t entries = map.footprints->pixels.bytes() / sizeof(shared::FootprintPixel);
+    if (pixels.size() > mDevice.mostTexels(sizeof(vec4)) ||
+        entries > mDevice.mostTexels(sizeof(shared::FootprintPixel)))
         throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
                     size.x, size.y, mDevice.name());
     map.environment = std::move(environment);

@@ -37,12 +37,12 @@ float pixelFraction(const vk::Device& device) {
 }
 
 // `orElse`: what helps besides.
-void expectTexels(const vk::Device& device, uint64_t texels, const std::string& name,
+void expectTexels(const vk::Device& device, uint64_t texels, uint64_t texelBytes, const std::string& name,
                   const std::string& orElse = "") {
-    if (texels > device.limits().maxTexelBufferElements)
+    if (texels > device.mostTexels(texelBytes))
         throw Error("{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several "
                     "parts{}",
-                    name, texels, device.name(), device.limits().maxTexelBufferElements, orElse);
+                    name, texels, device.name(), device.mostTexels(texelBytes), orElse);
 }
 
 // Options of passes that shade pixels whose stencil equals the part's value in these bits.
@@ -195,8 +195,9 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
                     source.name, numbered.positions.size(), mDevice.name(), mostVertices);
     part.drawnPositions = vk::upload<vec3>(mDevice, numbered.positions, source.name + " drawn positions");
     part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
-    expectTexels(mDevice, shared::kVertexTexels * source.mesh.vertexCount(), source.name + " vertices");
-    expectTexels(mDevice, source.mesh.triangleCount(), source.name + " triangles");
+    expectTexels(mDevice, shared::kVertexTexels * source.mesh.vertexCount(), sizeof(vec4),
+                 source.name + " vertices");
+    expectTexels(mDevice, source.mesh.triangleCount(), sizeof(glm::u32vec4), source.name + " triangles");
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
     part.triangles = vk::upload<glm::u32vec4>(mDevice, cornersOf(source.mesh), source.name + " triangles");
     part.clusters = TriangleClusters(source.mesh);
@@ -228,7 +229,7 @@ ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& na
     RELUME_CHECK_EQ(set.terms, termsOf(source.transport));
     const uint64_t texels = 3 * uint64_t(verticesOf(source.transport)) * set.terms / set.floatsPerTexel();
     expectTexels(
-        mDevice, texels, name + " tuples",
+        mDevice, texels, set.floatsPerTexel() * sizeof(float), name + " tuples",
         set.floatsPerTexel() == 1
             ? fmt::format(", or bake a K that is a multiple of four (not {}): it takes a quarter", set.terms)
             : "");
@@ -457,7 +458,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
                    vk::Binding::texelsOf(tuples, set.floatsPerTexel() == 4 ? VK_FORMAT_R32G32B32A32_SFLOAT
                                                                            : VK_FORMAT_R32_SFLOAT),
-                   {set.viewMaps.image, set.mapping == DiskMapping::Polar ? mPolarSampler : mDiskSampler},
+                   {set.viewMaps.image, isPolar(set.mapping) ? mPolarSampler : mDiskSampler},
                    part.layers,
                    {part.baseColor, mSurfaceSampler},
                    {part.materialMap, mSurfaceSampler},

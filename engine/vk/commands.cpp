@@ -168,8 +168,8 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
         write.dstBinding = expected->first;
         write.descriptorCount = 1;
         write.descriptorType = expected->second;
-        if (binding.texelFormat != VK_FORMAT_UNDEFINED) {
-            RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER));
+        if (expected->second == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) {
+            RELUME_CHECK(binding.texelFormat != VK_FORMAT_UNDEFINED);
             views[i] = texelView(binding);
             write.pTexelBufferView = &views[i];
         } else if (binding.buffer) {
@@ -177,9 +177,6 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
             RELUME_CHECK_LE(binding.bytes, mDevice.largestStorageBuffer());
             buffers[i] = {binding.buffer->handle(), binding.offset, binding.bytes};
             write.pBufferInfo = &buffers[i];
-        } else if (binding.texels) {
-            RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER));
-            write.pTexelBufferView = &binding.texels->view();
         } else {
             RELUME_CHECK_EQ(int(expected->second), int(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER));
             images[i] = {binding.sampler->handle(), binding.image->view(),
@@ -198,7 +195,7 @@ VkBufferView Commands::texelView(const Binding& binding) {
     create.format = binding.texelFormat;
     create.offset = binding.offset;
     const uint64_t texel = texelBytes(binding.texelFormat);
-    RELUME_CHECK_LE(binding.bytes / texel, uint64_t(mDevice.limits().maxTexelBufferElements));
+    RELUME_CHECK_LE(binding.bytes / texel, mDevice.mostTexels(texel));
     create.range = binding.bytes / texel * texel;
     VkBufferView view;
     RELUME_VK(vkCreateBufferView(mDevice.handle(), &create, nullptr, &view));
@@ -299,9 +296,11 @@ void Commands::setPositions(const Buffer& positions) {
 
 void Commands::draw(uint32_t vertices) { vkCmdDraw(mCommands, vertices, 1, 0, 0); }
 
-void Commands::drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount) {
+void Commands::drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount,
+                                   uint64_t firstDraw) {
+    constexpr uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
     vkCmdBindIndexBuffer(mCommands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexedIndirect(mCommands, draws.handle(), 0, drawCount, sizeof(VkDrawIndexedIndirectCommand));
+    vkCmdDrawIndexedIndirect(mCommands, draws.handle(), firstDraw * kStride, drawCount, kStride);
 }
 
 void Commands::barrier(Stage from, Stage to) {
@@ -375,8 +374,9 @@ void Commands::copy(const Buffer& from, uint64_t fromOffset, const Image& to, ui
                            &region);
 }
 
-void Commands::copy(const Image& from, const Buffer& to, uint32_t layers) {
-    const VkBufferImageCopy region = wholeLayers(from, layers);
+void Commands::copy(const Image& from, const Buffer& to, uint32_t layers, uint64_t toOffset) {
+    VkBufferImageCopy region = wholeLayers(from, layers);
+    region.bufferOffset = toOffset;
     vkCmdCopyImageToBuffer(mCommands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1,
                            &region);
 }

@@ -6,7 +6,6 @@
 #include "engine/vk/buffer.h"
 #include "engine/vk/image.h"
 #include "engine/vk/program.h"
-#include "engine/vk/texel_buffer.h"
 
 #include <functional>
 #include <initializer_list>
@@ -23,9 +22,8 @@ struct Binding {
     Binding(const Image& texture, const Sampler& textureSampler)
         : image(&texture), sampler(&textureSampler) {}
 
-    Binding(const TexelBuffer& texelBuffer) : texels(&texelBuffer) {}
     // The whole buffer, as many of its first bytes as make texels: read through the texture unit, which some
-    // devices do faster than they load.
+    // devices do faster than they load, or as a storage buffer where the device takes portable shaders.
     static Binding texelsOf(const Buffer& buffer, VkFormat format) {
         Binding binding(buffer);
         binding.texelFormat = format;
@@ -36,7 +34,6 @@ struct Binding {
     uint64_t offset = 0, bytes = 0;
     const Image* image = nullptr;
     const Sampler* sampler = nullptr;
-    const TexelBuffer* texels = nullptr;
     VkFormat texelFormat = VK_FORMAT_UNDEFINED;
 };
 
@@ -94,7 +91,8 @@ class Commands {
     void drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t instances, uint32_t firstIndex = 0);
     // Vertices by number alone.
     void draw(uint32_t vertices);
-    void drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount);
+    void drawIndexedIndirect(const Buffer& indices, const Buffer& draws, uint32_t drawCount,
+                             uint64_t firstDraw = 0);
 
     // Lets a library record what it draws, outside render().
     void recordForeign(const std::function<void(VkCommandBuffer)>& record) { record(mCommands); }
@@ -111,7 +109,8 @@ class Commands {
               uint64_t toOffset = 0);
     void copy(const Buffer& from, const Image& to); // all layers; image in TRANSFER_DST
     void copy(const Buffer& from, uint64_t fromOffset, const Image& to, uint32_t layer); // that layer alone
-    void copy(const Image& from, const Buffer& to, uint32_t layers); // first layers; image in TRANSFER_SRC
+    // The first layers; image in TRANSFER_SRC.
+    void copy(const Image& from, const Buffer& to, uint32_t layers, uint64_t toOffset = 0);
 
     // Submits and waits; adds this submission's pass times to `times()`.
     void submitAndWait();

@@ -5,6 +5,7 @@
 #include "engine/vk/pipeline_cache.h"
 #include "engine/vk/result.h"
 #include "engine/vk/shader_replacement.h"
+#include "shaders/portable_shaders.h"
 
 #include <algorithm>
 #include <cstring>
@@ -111,7 +112,7 @@ VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, Vk
 Device::Device(const DeviceOptions& options) {
     createInstance(options);
     try {
-        pickPhysicalDevice(options.select);
+        pickPhysicalDevice(options.select, options.leastFeatures);
         createDevice(!options.surfaceExtensions.empty());
         mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, options.pipelineCache);
     } catch (...) {
@@ -186,7 +187,7 @@ void Device::createInstance(const DeviceOptions& options) {
     RELUME_VK(createMessenger(mInstance, &messenger, nullptr, &mMessenger));
 }
 
-void Device::pickPhysicalDevice(const std::string& select) {
+void Device::pickPhysicalDevice(const std::string& select, bool leastFeatures) {
     const std::vector<VkPhysicalDevice> devices = physicalDevices(mInstance);
     if (devices.empty())
         throw NoDeviceError(
@@ -210,6 +211,10 @@ void Device::pickPhysicalDevice(const std::string& select) {
     mInfo = infos[size_t(best)];
     if (!mInfo.unsuitable.empty())
         throw NoDeviceError("--device {}: {} cannot be used: {}", select, mInfo.name, mInfo.unsuitable);
+    if (leastFeatures) {
+        mInfo.outputsLayers = mInfo.subgroupBallot = false;
+        mInfo.largestTexelBuffer = 1u << 16;
+    }
     mPhysical = devices[size_t(best)];
     vkGetPhysicalDeviceProperties(mPhysical, &mProperties);
     vkGetPhysicalDeviceMemoryProperties(mPhysical, &mMemory);
@@ -231,7 +236,7 @@ void Device::createDevice(bool showsImages) {
     VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                                 &features13};
     features12.scalarBlockLayout = VK_TRUE;
-    features12.shaderOutputLayer = VK_TRUE;
+    features12.shaderOutputLayer = mInfo.outputsLayers;
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -271,21 +276,30 @@ VkPipelineCache Device::pipelineCache() const { return mPipelineCache->handle();
 
 void Device::savePipelineCache() const { mPipelineCache->save(); }
 
+std::span<const uint32_t> Device::fitting(std::span<const uint32_t> builtIn) const {
+    if (!mInfo.takesPortableShaders()) return builtIn;
+    for (const PortableShader& shader : kPortableShaders)
+        if (shader.standard.data() == builtIn.data()) return shader.portable;
+    return builtIn;
+}
+
 std::vector<uint32_t> Device::shader(std::span<const uint32_t> builtIn) const {
     const std::lock_guard lock(mShaderMutex);
     const auto replaced = mReplacedShaders.find(builtIn.data());
-    return replaced == mReplacedShaders.end() ? std::vector(builtIn.begin(), builtIn.end())
-                                              : replaced->second;
+    if (replaced != mReplacedShaders.end()) return replaced->second;
+    const std::span<const uint32_t> own = fitting(builtIn);
+    return {own.begin(), own.end()};
 }
 
 size_t Device::replaceShaders(std::span<const ShaderReplacement> replacements) {
-    for (const ShaderReplacement& replacement : replacements) expectSameInterface(replacement);
+    for (const ShaderReplacement& replacement : replacements)
+        expectSameInterface(replacement.name, fitting(replacement.builtIn), replacement.spirv);
     size_t changed = 0;
     const std::lock_guard lock(mShaderMutex);
     for (const ShaderReplacement& replacement : replacements) {
         const auto replaced = mReplacedShaders.find(replacement.builtIn.data());
         const bool isNew = replaced == mReplacedShaders.end()
-                               ? !std::ranges::equal(replacement.builtIn, replacement.spirv)
+                               ? !std::ranges::equal(fitting(replacement.builtIn), replacement.spirv)
                                : replaced->second != replacement.spirv;
         if (!isNew) continue;
         mReplacedShaders[replacement.builtIn.data()] = replacement.spirv;

@@ -30,8 +30,16 @@ struct DeviceInfo {
     uint64_t largestHeap;   // bytes
     uint64_t largestAllocation, largestStorageBuffer;
     uint32_t largestLayerCount, sharedMemory, subgroupSize;
+    uint32_t largestTexelBuffer;    // texels
+    bool outputsLayers;             // vertex shaders choose the layer that is drawn into
     bool subgroupBallot;            // in compute shaders
     bool subgroupSizeCanBeAskedFor; // by a compute program
+
+    // Subgroups that standard shaders can work with: of 8 to 64 invocations, that vote.
+    bool hasBallots() const { return subgroupBallot && subgroupSize % 8 == 0 && subgroupSize <= 64; }
+    // Programs are made of shaders that need no such subgroups, and read storage buffers instead of texel
+    // buffers.
+    bool takesPortableShaders() const;
 };
 
 // All Vulkan devices of this machine, in the loader's order. Empty when there is no driver.
@@ -47,6 +55,8 @@ struct DeviceOptions {
     std::vector<std::string> surfaceExtensions;
     // The file that keeps what the driver compiles, for savePipelineCache(). Empty: none does.
     std::filesystem::path pipelineCache;
+    // As if the device could do no more than every one that can be used: to test that on one that can.
+    bool leastFeatures = false;
 };
 
 // Owns instance, device and queue; movable in its unique_ptr only, since everything refers to it.
@@ -71,6 +81,10 @@ class Device {
 
     // Bytes of the largest buffer that one binding may see, and that one allocation may hold.
     uint64_t largestStorageBuffer() const { return mInfo.largestStorageBuffer; }
+    // The most texels, of so many bytes, of a Binding::texelsOf().
+    uint64_t mostTexels(uint64_t texelBytes) const {
+        return mInfo.takesPortableShaders() ? largestStorageBuffer() / texelBytes : mInfo.largestTexelBuffer;
+    }
 
     // Bits of a timestamp that count, 36 to 64; 0: the queue writes none.
     uint32_t timestampBits() const { return mTimestampBits; }
@@ -93,7 +107,7 @@ class Device {
     void savePipelineCache() const;
 
     // What programs are made of where `builtIn`, an array of shaders/*.h, is given: its replacement if it has
-    // one, else itself.
+    // one, else what this device takes for it, mostly itself.
     std::vector<uint32_t> shader(std::span<const uint32_t> builtIn) const;
     // Replaces shaders in the programs that are made from now on, by any thread. Throws Error, and replaces
     // none, when one has another interface than what it replaces. Returns how many differ from what was in
@@ -108,8 +122,9 @@ class Device {
                                         VkDebugUtilsMessageTypeFlagsEXT,
                                         const VkDebugUtilsMessengerCallbackDataEXT*, void*);
     void createInstance(const DeviceOptions& options);
-    void pickPhysicalDevice(const std::string& select);
+    void pickPhysicalDevice(const std::string& select, bool leastFeatures);
     void createDevice(bool showsImages);
+    std::span<const uint32_t> fitting(std::span<const uint32_t> builtIn) const;
     void destroy();
 
     VkInstance mInstance = VK_NULL_HANDLE;

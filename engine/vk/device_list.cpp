@@ -50,7 +50,6 @@ static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion)
     if (properties.limits.maxComputeSharedMemorySize < kSharedMemory)
         return "20 KiB of shared memory are needed";
     if (!features12.scalarBlockLayout) return "scalarBlockLayout is needed";
-    if (!features12.shaderOutputLayer) return "shaderOutputLayer is needed";
     if (!features.features.multiDrawIndirect) return "multiDrawIndirect is needed";
     if (!features.features.drawIndirectFirstInstance) return "drawIndirectFirstInstance is needed";
     return "";
@@ -84,6 +83,11 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     info.largestAllocation = properties11.maxMemoryAllocationSize;
     info.largestStorageBuffer = std::min<uint64_t>(core.limits.maxStorageBufferRange, info.largestAllocation);
     info.largestLayerCount = std::min(core.limits.maxImageArrayLayers, core.limits.maxFramebufferLayers);
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12};
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    info.outputsLayers = features12.shaderOutputLayer;
+    info.largestTexelBuffer = core.limits.maxTexelBufferElements;
     info.sharedMemory = core.limits.maxComputeSharedMemorySize;
     info.subgroupSize = properties11.subgroupSize;
     info.subgroupBallot = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
@@ -91,6 +95,12 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     info.subgroupSizeCanBeAskedFor =
         (properties13.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
     return info;
+}
+
+bool DeviceInfo::takesPortableShaders() const {
+    constexpr uint32_t kUsualTexels = 1u
+                                      << 26; // of GPUs for the desk; others have the 65,536 that are promised
+    return !hasBallots() || largestTexelBuffer < kUsualTexels;
 }
 
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {

@@ -183,8 +183,9 @@ std::map<std::string, std::string> describeInterface(std::span<const uint32_t> s
     return Reflection(spirv).describe();
 }
 
-void expectSameInterface(const ShaderReplacement& replacement) {
-    const auto before = describeInterface(replacement.builtIn), after = describeInterface(replacement.spirv);
+void expectSameInterface(const std::string& name, std::span<const uint32_t> builtIn,
+                         std::span<const uint32_t> spirv) {
+    const auto before = describeInterface(builtIn), after = describeInterface(spirv);
     const auto textIn = [](const std::map<std::string, std::string>& parts, const std::string& what) {
         const auto part = parts.find(what);
         return part == parts.end() ? std::string("nothing") : part->second;
@@ -193,8 +194,8 @@ void expectSameInterface(const ShaderReplacement& replacement) {
     all.insert(after.begin(), after.end());
     for (const auto& [what, text] : all)
         if (textIn(before, what) != textIn(after, what))
-            throw Error("{}: {}: found {}, but this program was built for {}; build it again",
-                        replacement.name, what, textIn(after, what), textIn(before, what));
+            throw Error("{}: {}: found {}, but this program was built for {}; build it again", name, what,
+                        textIn(after, what), textIn(before, what));
 }
 
 } // namespace relume::vk

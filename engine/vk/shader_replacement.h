@@ -20,7 +20,9 @@ struct ShaderReplacement {
 // read.
 std::map<std::string, std::string> describeInterface(std::span<const uint32_t> spirv);
 
-// Throws Error, saying what differs, unless a shader can take the place of the built-in one.
-void expectSameInterface(const ShaderReplacement& replacement);
+// Throws Error, saying what differs of the shader called `name`, unless `spirv` can take the place of
+// `builtIn`.
+void expectSameInterface(const std::string& name, std::span<const uint32_t> builtIn,
+                         std::span<const uint32_t> spirv);
 
 } // namespace relume::vk

@@ -225,6 +225,8 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     options.validate();
     RELUME_CHECK(!scene.parts.empty());
     BakePlan plan{options};
+    if (options.visibilityMethod)
+        plan.options.visibilityMethod = usableMethod(device, *options.visibilityMethod);
     for (Part& part : scene.parts) orderVertices(part.mesh);
 
     Asset& asset = plan.asset;

@@ -21,8 +21,9 @@ uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int ter
     // The rasteriser's layers: one byte a texel, before packing.
     const bool isDrawn = options.visibilityMethod != VisibilityMethod::Traced;
     const uint64_t blockedBytes = isDrawn ? 6 * size * size : 0;
-    const uint64_t drawnPoints = std::min(device.info().largestLayerCount / 6,
-                                          uint32_t(device.largestStorageBuffer() / (6 * size * size)));
+    const uint32_t layers = device.info().outputsLayers ? device.info().largestLayerCount : UINT32_MAX;
+    const uint64_t drawnPoints =
+        std::min(layers / 6, uint32_t(device.largestStorageBuffer() / (6 * size * size)));
     // A quarter of the largest heap, and never more than 1 GiB: the rest belongs to others.
     uint64_t memory = std::min<uint64_t>(device.info().largestHeap / 4, 1ull << 30);
     if (limits.memory > 0) memory = std::min(memory, limits.memory);

@@ -1,5 +1,7 @@
 #include "precompute/bake/transport_pass.h"
 
+#include "engine/base/error.h"
+#include "engine/vk/upload.h"
 #include "shaders/compact_comp.h"
 #include "shaders/quantise_comp.h"
 #include "shaders/row_starts_comp.h"
@@ -22,10 +24,9 @@ uint64_t rowBlocks(uint64_t faceSize) {
 
 // For lookups of one fetch a channel: texel ((y · (S + 1) + x) · K + term) · 3 + channel holds what a lookup
 // between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
-vk::TexelBuffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
+vk::Buffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
     const auto column = [&](int x) {
-        return brdf.mapping == DiskMapping::Polar ? (x + brdf.size) % brdf.size
-                                                  : std::clamp(x, 0, brdf.size - 1);
+        return isPolar(brdf.mapping) ? (x + brdf.size) % brdf.size : std::clamp(x, 0, brdf.size - 1);
     };
     std::vector<vec4> texels;
     texels.reserve(size_t(brdf.terms) * 3 * size_t(brdf.size + 1) * size_t(brdf.size + 1));
@@ -38,7 +39,12 @@ vk::TexelBuffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) 
                     texels.emplace_back(above[column(x - 1)][channel], above[column(x)][channel],
                                         below[column(x - 1)][channel], below[column(x)][channel]);
             }
-    return {device, texels, "light map corners"};
+    if (texels.size() > device.mostTexels(sizeof(vec4)))
+        throw Error(
+            "light maps: {} texels are more than the {} that {} allows in a buffer; use fewer terms or "
+            "smaller maps",
+            texels.size(), device.mostTexels(sizeof(vec4)), device.name());
+    return vk::upload<vec4>(device, texels, "light map corners");
 }
 
 } // namespace
@@ -131,7 +137,9 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
         const shared::RowsPush rows{rowCount, mKept, first * group.terms};
         commands.barrier(Compute, Compute);
         commands.pass("transport", [&] {
-            commands.dispatch(mTransport, {points, bits, mCorners, mCoefficients, mSummaries},
+            commands.dispatch(mTransport,
+                              {points, bits, vk::Binding::texelsOf(mCorners, VK_FORMAT_R32G32B32A32_SFLOAT),
+                               mCoefficients, mSummaries},
                               shared::TransportPush{group.firstTerm, group.terms, first},
                               {6 * mTransport.groupSize()[0], pointCount, 1});
         });

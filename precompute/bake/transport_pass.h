@@ -73,7 +73,7 @@ class TransportPass {
                      const vk::Buffer& bits) const;
 
     uint32_t mFaceSize, mKept, mTogether;
-    vk::TexelBuffer mCorners;
+    vk::Buffer mCorners;
     std::vector<TermGroup> mGroups;
     vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mSummaries;
     vk::ComputeProgram mTransport, mSelect, mQuantise, mRowStarts, mCompact;

@@ -49,14 +49,16 @@ class DeviceStages {
         options.faceSize = asset.faceSize;
         options.visibilitySize = asset.visibilitySize;
         options.transportSamples = asset.transportSamples;
+        const VisibilityMethod method = usableMethod(device, *optionsOf(asset).visibilityMethod);
+        options.visibilityMethod = method;
         const uint32_t together = TransportPass::largestBatch(device, options) / mTerms;
         const uint32_t batch = std::max(1u, std::min(planBatch(device, options, mTerms), together));
         const auto size = uint32_t(asset.visibilitySize);
         const uint64_t bitBytes = visibilityBytes(size);
 
         const vk::Buffer points(device, batch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
-        const auto visibility = makeVisibility(device, *optionsOf(asset).visibilityMethod, asset.occluder,
-                                               size, batch, visibilityNearDistance(asset.visibilityOffset));
+        const auto visibility = makeVisibility(device, method, asset.occluder, size, batch,
+                                               visibilityNearDistance(asset.visibilityOffset));
         TransportTuning tuning = TransportTuning::of(device);
         tuning.coefficientBytes = ~0ull; // all points together, to see all of them
         const TransportPass transport(device, set.brdf, options, batch, tuning);

@@ -31,6 +31,7 @@ double secondsPerPoint(const vk::Device& device, const Asset& asset, VisibilityM
                        const vk::Buffer& points) {
     const auto size = uint32_t(asset.visibilitySize);
     double best = std::numeric_limits<double>::infinity();
+    if (!canUse(device, method)) return best;
     try {
         const auto visibility = makeVisibility(device, method, asset.occluder, size, kPoints,
                                                visibilityNearDistance(asset.visibilityOffset));

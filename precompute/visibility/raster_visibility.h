@@ -6,33 +6,42 @@
 namespace relume {
 
 // Clusters of triangles are culled per point and cube face on the device, and drawn with indirect draws into
-// six layers a point.
+// six layers a point: all at once where vertex shaders can choose the layer, else one by one.
 class RasterVisibility : public Visibility {
   public:
     // Whether clusters that cannot show in a face are left out; the bits are the same.
     enum class Culling { On, Off };
+    // How layers are drawn; the bits are the same. Together is for devices with DeviceInfo::outputsLayers.
+    enum class Layers { Together, OneByOne };
 
-    // As makeVisibility; six layers a point must fit an image.
+    // As makeVisibility; drawn together, six layers a point must fit an image.
     RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
-                     float nearDistance, Culling culling = Culling::On);
+                     float nearDistance, Culling culling, Layers layers);
+    RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
+                     float nearDistance);
 
     static Kernels kernels();
 
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const override;
 
-    // Triangles that the last finished submission drew, over all faces of its points. Reads back: for
-    // measurements.
-    uint64_t drawnTriangles(const vk::Device& device) const;
+    // Triangles that the last finished submission, of `count` points, drew over all their faces. Reads back:
+    // for measurements.
+    uint64_t drawnTriangles(const vk::Device& device, uint32_t count) const;
 
   private:
     void createGeometry(const vk::Device& device, const Mesh& occluder);
+    void recordTogether(vk::Commands& commands, const vk::Buffer& points, uint32_t layers) const;
+    void recordOneByOne(vk::Commands& commands, const vk::Buffer& points, uint32_t layers) const;
+    // Indirect draws of so many points.
+    uint64_t drawCount(uint32_t points) const { return mClusterCount * (mIsLayered ? 1 : 6ull * points); }
 
     uint32_t mSize, mCapacity;
+    bool mIsLayered;
     float mNearDistance;
     uint32_t mClusterCount = 0;
     vk::Buffer mPositions, mIndices, mClusters, mDraws, mLayers, mBlocked;
-    vk::Image mTarget;
+    vk::Image mTarget; // of all layers, or of one
     vk::ComputeProgram mReset, mCull, mPack;
     vk::GraphicsProgram mDraw;
 };

@@ -16,13 +16,8 @@ namespace {
 constexpr uint32_t kTileWidth = 32, kTileHeight = 128;
 
 void checkDevice(const vk::Device& device, const Bvh& bvh) {
-    constexpr uint32_t kLargestSubgroup = 64; // what the shader counts hits for
-    const vk::DeviceInfo& info = device.info();
-    if (!info.subgroupBallot || info.subgroupSize % shared::kBvhWidth != 0 ||
-        info.subgroupSize > kLargestSubgroup)
-        throw Error(
-            "{}: tracing needs subgroups of {} to {} invocations that can vote; use --visibility raster",
-            device.name(), shared::kBvhWidth, kLargestSubgroup);
+    static_assert(shared::kBvhWidth == 8); // as DeviceInfo::hasBallots() has it
+    RELUME_CHECK(canUse(device, VisibilityMethod::Traced));
     if (std::max(std::as_bytes(std::span(bvh.children)).size(),
                  std::as_bytes(std::span(bvh.triangles)).size()) > device.largestStorageBuffer())
         throw Error(

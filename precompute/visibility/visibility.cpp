@@ -3,10 +3,23 @@
 #include "precompute/visibility/raster_visibility.h"
 #include "precompute/visibility/traced_visibility.h"
 
+#include <spdlog/spdlog.h>
+
 namespace relume {
 
 std::string_view visibilityMethodName(VisibilityMethod method) {
     return method == VisibilityMethod::Raster ? "raster" : "traced";
+}
+
+bool canUse(const vk::Device& device, VisibilityMethod method) {
+    return method == VisibilityMethod::Raster || device.info().hasBallots();
+}
+
+VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method) {
+    if (canUse(device, method)) return method;
+    spdlog::info("visibility: drawn, since {} cannot trace: its subgroups of {} do not suit", device.name(),
+                 device.info().subgroupSize);
+    return VisibilityMethod::Raster;
 }
 
 Kernels visibilityKernels(VisibilityMethod method) {

@@ -51,11 +51,17 @@ using Kernels = std::vector<std::span<const uint32_t>>;
 enum class VisibilityMethod { Raster, Traced };
 std::string_view visibilityMethodName(VisibilityMethod method); // "raster", "traced"
 
+// Tracing takes subgroups that vote (DeviceInfo::hasBallots()); drawing, every device can do.
+bool canUse(const vk::Device& device, VisibilityMethod method);
+// The method, or the other one where the device cannot use it: the log says so.
+VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method);
+
 // All that a method runs.
 Kernels visibilityKernels(VisibilityMethod method);
 
-// `size` a multiple of 32; at most `capacity` points a batch. Throws OutOfMemory when a smaller batch may do,
-// Error when the occluder has more triangles than the device can bind.
+// Of a method that the device can use. `size` a multiple of 32; at most `capacity` points a batch. Throws
+// OutOfMemory when a smaller batch may do, Error when the occluder has more triangles than the device can
+// bind.
 std::unique_ptr<Visibility> makeVisibility(const vk::Device& device, VisibilityMethod method,
                                            const Mesh& occluder, uint32_t size, uint32_t capacity,
                                            float nearDistance);

@@ -1,10 +1,15 @@
-// Unshadowed radiance from lit spheres, and the estimates of shadowed radiance that use it. C++ twin of the estimates:
-// precompute/reference/residual_twin.h.
+// Unshadowed radiance from lit spheres, and the estimates of shadowed radiance that use it. Shaders have bindings 8 to
+// 10 from here. C++ twin of the estimates: precompute/reference/residual_twin.h.
 #ifndef RELUME_LIB_UNSHADOWED_GLSL
 #define RELUME_LIB_UNSHADOWED_GLSL
 #include "shaders/lib/polar_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
+#include "shaders/lib/texels.glsl"
 #include "shaders/lib/view_grid.glsl"
+
+layout(binding = 8) uniform sampler2DArray litSpheres;
+TEXELS(9, uint, usamplerBuffer, SphereSlots, sphereSlots); // of a layer's nodes: layers of the above
+TEXELS(10, vec4, samplerBuffer, ViewGrid, viewGrid);       // axis and side, two texels a node
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
@@ -31,15 +36,15 @@ vec2 phaseAt(mat3 frame, vec3 view, vec3 mirror) {
 }
 
 // `frame`: of the pixel. Phases are found where spheres have harmonics.
-SpherePlaces spherePlaces(samplerBuffer grid, vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics) {
+SpherePlaces spherePlaces(vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics) {
     const GridCell cell = gridCell(view);
     SpherePlaces at;
     at.weights = vec4(1 - cell.place.x, cell.place.x, 1 - cell.place.x, cell.place.x) *
                  vec4(vec2(1 - cell.place.y), vec2(cell.place.y));
     for (int i = 0; i < 4; i++) {
         at.nodes[i] = int(cell.first) + (i / 2) * int(kGridSide) + i % 2;
-        const vec3 axis = texelFetch(grid, 2 * at.nodes[i]).xyz;
-        const vec2 place = polarPlace(axis, texelFetch(grid, 2 * at.nodes[i] + 1).xyz, mirror);
+        const vec3 axis = texelOf(viewGrid, 2 * at.nodes[i]).xyz;
+        const vec2 place = polarPlace(axis, texelOf(viewGrid, 2 * at.nodes[i] + 1).xyz, mirror);
         at.places[i] = vec2(place.y + 0.5 / kSphereAzimuths, place.x);
         at.phases[i] = hasHarmonics ? phaseAt(frame, axis, mirror) : vec2(1, 0);
     }
@@ -52,24 +57,24 @@ vec2 placeInBand(sampler2DArray maps, float column, float row, uint rows, uint b
     return vec2(column, (float(band * rows) + clamp(row, 0.5, float(rows) - 0.5)) / float(textureSize(maps, 0).y));
 }
 
-vec3 sphereAt(sampler2DArray spheres, vec2 place, uint band, uint layer) {
-    const vec2 inBand = placeInBand(spheres, place.x, place.y * kSphereRings, kSphereRings, band);
-    return textureLod(spheres, vec3(inBand, layer), 0).rgb;
+vec3 sphereAt(vec2 place, uint band, uint layer) {
+    const vec2 inBand = placeInBand(litSpheres, place.x, place.y * kSphereRings, kSphereRings, band);
+    return textureLod(litSpheres, vec3(inBand, layer), 0).rgb;
 }
 
 // Returns the unshadowed radiance of the layer whose spheres begin at `firstSlot`: harmonic 0, then the real and the
 // imaginary part of each other.
-vec3 unshadowedRadiance(sampler2DArray spheres, usamplerBuffer slots, uint firstSlot, uint harmonics, SpherePlaces at) {
+vec3 unshadowedRadiance(uint firstSlot, uint harmonics, SpherePlaces at) {
     vec3 sum = vec3(0);
     for (int i = 0; i < 4; i++) {
-        const uint layer = texelFetch(slots, int(firstSlot) + at.nodes[i]).x;
-        vec3 sphere = sphereAt(spheres, at.places[i], 0, layer);
+        const uint layer = texelOf(sphereSlots, int(firstSlot) + at.nodes[i]).x;
+        vec3 sphere = sphereAt(at.places[i], 0, layer);
         vec2 phase = vec2(1, 0);
         for (uint harmonic = 1; harmonic <= harmonics; harmonic++) {
             const vec2 step = at.phases[i];
             phase = vec2(phase.x * step.x - phase.y * step.y, phase.x * step.y + phase.y * step.x);
-            sphere += phase.x * sphereAt(spheres, at.places[i], 2 * harmonic - 1, layer) -
-                      phase.y * sphereAt(spheres, at.places[i], 2 * harmonic, layer);
+            sphere += phase.x * sphereAt(at.places[i], 2 * harmonic - 1, layer) -
+                      phase.y * sphereAt(at.places[i], 2 * harmonic, layer);
         }
         sum += at.weights[i] * sphere;
     }

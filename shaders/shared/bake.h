@@ -29,8 +29,9 @@ RELUME_SHARED_SIZE(CullPush, 8)
 
 struct VisibilityPush {
     float nearDistance; // along a face's axis; what lies nearer casts no shadow
+    uint layer;         // of visibility_face.vert: 6 × point + face
 };
-RELUME_SHARED_SIZE(VisibilityPush, 4)
+RELUME_SHARED_SIZE(VisibilityPush, 8)
 
 struct PackVisibilityPush {
     uint words; // of this batch: points × 6 × size² / 32

@@ -216,6 +216,22 @@ TEST_CASE("visibility: traced rays through corners and along edges are blocked")
     CHECK_EQ(free, 0);
 }
 
+TEST_CASE("visibility: layers drawn one by one have the bits of those drawn together") {
+    const TestDevice device;
+    if (!static_cast<const vk::Device&>(device).info().outputsLayers) return;
+    constexpr uint32_t kSize = 64, kBatch = 5;
+    const Mesh mesh = makeKnot(3000);
+    const float offset = 1e-4f * boundsOf(mesh).radius(), near = visibilityNearDistance(offset);
+    const std::vector<shared::BakePoint> points = somePoints(mesh, 13, offset); // the last batch is not full
+    using enum RasterVisibility::Layers;
+    const auto draw = [&](RasterVisibility::Layers layers) {
+        const RasterVisibility visibility(device, mesh, kSize, kBatch, near, RasterVisibility::Culling::On,
+                                          layers);
+        return visibilityOf(device, visibility, points, kSize, kBatch);
+    };
+    CHECK(draw(OneByOne) == draw(Together));
+}
+
 TEST_CASE("visibility: clusters that are culled change no bit") {
     const TestDevice device;
     constexpr uint32_t kSize = 128, kBatch = 8;
@@ -229,7 +245,10 @@ TEST_CASE("visibility: clusters that are culled change no bit") {
         const float offset = 1e-4f * boundsOf(mesh).radius(), near = visibilityNearDistance(offset);
         const std::vector<shared::BakePoint> points = somePoints(vertices, 24, offset);
         const RasterVisibility culled(device, mesh, kSize, kBatch, near);
-        const RasterVisibility all(device, mesh, kSize, kBatch, near, RasterVisibility::Culling::Off);
+        const RasterVisibility all(device, mesh, kSize, kBatch, near, RasterVisibility::Culling::Off,
+                                   static_cast<const vk::Device&>(device).info().outputsLayers
+                                       ? RasterVisibility::Layers::Together
+                                       : RasterVisibility::Layers::OneByOne);
         CHECK(visibilityOf(device, culled, points, kSize, kBatch) ==
               visibilityOf(device, all, points, kSize, kBatch));
     }

@@ -9,7 +9,8 @@ namespace relume {
 
 class TestDevice {
   public:
-    TestDevice() : mDevice(vk::DeviceOptions{.select = "", .validation = "core,sync"}) {}
+    explicit TestDevice(bool leastFeatures = false)
+        : mDevice(vk::DeviceOptions{.validation = "core,sync", .leastFeatures = leastFeatures}) {}
     ~TestDevice() { CHECK_EQ(mDevice.validationMessages(), 0); }
 
     operator const vk::Device&() const { return mDevice; }

@@ -1,0 +1,64 @@
+// Devices that lack what others have give the same bytes by other shaders.
+#include "engine/render/relighter.h"
+#include "engine/render/view_pass.h"
+#include "engine/scene/builtin_mesh.h"
+#include "engine/scene/scene.h"
+#include "engine/transport/asset.h"
+#include "precompute/bake/bake.h"
+#include "precompute/layout/conversion.h"
+#include "precompute/residual/residuals.h"
+#include "tests/support/test_device.h"
+
+#include <doctest/doctest.h>
+
+using namespace relume;
+
+namespace {
+
+Asset bakeKnot(const vk::Device& device, VisibilityMethod method) {
+    Scene scene;
+    scene.parts.push_back({"knot", makeKnot(1000), "gold", "built-in knot", ""});
+    BakeOptions options;
+    options.visibilityMethod = method;
+    options.visibilitySize = 64;
+    options.faceSize = 32;
+    options.layout = {.layout = TransportLayout::Rows};
+    options.coefficients = 48;
+    return bake(device, std::move(scene), options);
+}
+
+std::vector<vec4> pixelsOf(const vk::Device& device, const Asset& asset, int samples) {
+    constexpr int kWidth = 64, kHeight = 48;
+    LightPass light(device, asset.faceSize);
+    light.setLight({.environments = {{std::make_shared<const Environment>(prepareForSampling(makeSky()))}}});
+    Relighter relighter(device, asset, {.residuals = makeResiduals(asset)});
+    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = samples});
+    vk::Commands commands(device, "least features test");
+    commands.begin();
+    light.record(commands);
+    relighter.record(commands, light);
+    view.record(commands, defaultCamera(boundsOf(asset), 0.6f, float(kWidth) / float(kHeight)), relighter);
+    commands.submitAndWait();
+    return view.read().pixels;
+}
+
+} // namespace
+
+TEST_CASE("image: a device of the least features bakes, relights and draws the same") {
+    const TestDevice usual, least(true);
+    REQUIRE(static_cast<const vk::Device&>(least).info().takesPortableShaders());
+    const Asset baked = bakeKnot(usual, VisibilityMethod::Raster);
+    // Asked to trace, it draws.
+    CHECK(encodeAsset(bakeKnot(least, VisibilityMethod::Traced)) == encodeAsset(baked));
+    for (const TransportLayout layout :
+         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+        CAPTURE(layoutName(layout));
+        Asset asset = baked;
+        if (layout != TransportLayout::Rows)
+            convertLayout(asset, {.layout = layout}, [](uint64_t, uint64_t) {});
+        for (const int samples : {1, 4}) {
+            CAPTURE(samples);
+            CHECK(pixelsOf(least, asset, samples) == pixelsOf(usual, asset, samples));
+        }
+    }
+}
