@@ -11,6 +11,8 @@ layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Layers { uint instanceLayers[]; };
 
+invariant gl_Position; // visibility.vert and visibility_face.vert give the same bits
+
 void main() {
     const uint layer = instanceLayers[gl_InstanceIndex];
     gl_Position =

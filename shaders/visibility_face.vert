@@ -10,6 +10,8 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 
+invariant gl_Position; // visibility.vert and visibility_face.vert give the same bits
+
 void main() {
     gl_Position = visibilityClip(positions[gl_VertexIndex] - points[push.layer / 6].origin, push.layer % 6,
                                  push.nearDistance);

@@ -78,7 +78,7 @@ Section shadowFigure(const SectionInputs& inputs) {
                                "too large for a device. "
                                "What lossless transport leaves is the ground's vertices being far apart, and "
                                "a light of 6 x 64² texels "
-                               "held against a reference of 6 x {}².",
+                               "held against a reference of 6 x {}², and shadows of a simplified occluder.",
                                "an area light of 3 degrees' radius",
                                (setup.images[0].recipe.ground->tessellation + 1) *
                                    (setup.images[0].recipe.ground->tessellation + 1),

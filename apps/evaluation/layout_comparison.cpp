@@ -131,7 +131,8 @@ Section layoutComparison(const SectionInputs& inputs) {
                                                               ReportSection& report) {
         report.say(fmt::format(
             "The {} in Ashikhmin-Shirley under {}. The paper's way: its factorisation, orthographic "
-            "maps of 48 x 48, rows of 96 coefficients. The default factorisation weighs what light "
+            "maps of 48 x 48, rows of 96 coefficients, drawn visibility of a simplified occluder. The "
+            "default factorisation weighs what light "
             "and pixels ask for, in equal-area maps; bases are the default layout. Errors are "
             "against the exact BRDF and the light's 6 x 256² texels.",
             scene.input.name, describe(light)));

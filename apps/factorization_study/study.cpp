@@ -40,7 +40,7 @@ const std::vector<Approach>& approaches() {
     // Those of one table side by side; later curves are drawn over earlier ones.
     static const std::vector<Approach> kApproaches = {
         {"paper, orthographic", Paper, Orthographic, Centre, 1},
-        {"paper, polar", Paper, Polar, Centre, 4},
+        {"paper, polar-sine", Paper, Polar, Centre, 4},
         {"cosine, orthographic", Cosine, Orthographic, Mean, 5},
         {"environment, orthographic", Environment, Orthographic, Mean, 3},
         {"environment, equal-area, texel centres", Environment, EqualArea, Centre, 7},

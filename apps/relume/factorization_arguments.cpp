@@ -75,6 +75,8 @@ void FactorizationArguments::resolve(const FactorizationOptions& otherwise, Disk
         options.terms = 1;
     }
     if (!isAutomatic) return;
+    if (options.method == Factorization::Normalized)
+        throw UsageError("--terms {}: factorization \"normalized\" has one term", *mTerms);
     options.wantedError = wantedErrorFrom(*mTerms);
     // Nonnegative terms are not nested, so their number cannot be chosen by error.
     if (options.method == Factorization::NonNegative && !mMethod) options.method = Factorization::Environment;

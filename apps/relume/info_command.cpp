@@ -26,9 +26,14 @@ static void printReadable(const nlohmann::ordered_json& value, int depth) {
     }
 }
 
-// The preset of the asset's options; null where they are of none, or not this program's.
+// The preset of the asset's options; null where they are of none, or not this program's, and for bakes that
+// were converted to another layout.
 static nlohmann::json presetOf(const Asset& asset) {
     try {
+        const TransportLayout layout = optionsOf(asset).layout.layout;
+        for (const AssetPart& part : asset.parts)
+            for (const MaterialSet& set : part.sets)
+                if (layoutOf(set.transport) != layout) return nullptr;
         if (const auto preset = presetOf(optionsOf(asset))) return presetName(*preset);
     } catch (const Error&) {
     }

@@ -40,7 +40,10 @@ void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
 
 LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
     LayoutOptions options = otherwise;
-    if (mLayout) options.layout = *layoutFromName(*mLayout);
+    if (mLayout)
+        options.layout = *layoutFromName(*mLayout);
+    else if ((mBudget || mError) && options.layout == TransportLayout::Rows)
+        options.layout = TransportLayout::Bases; // rows know of neither
     if (options.layout == TransportLayout::Rows) {
         if (mBudget || mError)
             throw UsageError("--layout rows: --budget and --error are for clusters and bases; rows are "

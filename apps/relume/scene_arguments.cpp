@@ -151,8 +151,9 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
             "Side of a face of the visibility cube: 64, 128 or 256");
     command
         .add_option("--visibility", mVisibility,
-                    "How visibility is found: traced (by rays), raster (by drawing) or auto (the faster "
-                    "here, measured; may differ from run to run)")
+                    "How visibility is found: traced (by rays; drawn where the device cannot), raster (by "
+                    "drawing) or "
+                    "auto (the faster here, measured; may differ from run to run)")
         ->type_name("METHOD")
         ->check(CLI::IsMember({"raster", "traced", "auto"}))
         ->default_str(std::string(visibilityMethodName(*defaults.visibilityMethod)));
@@ -205,7 +206,9 @@ void BakeArguments::resolve() {
     options.mapSize = mMapSize.value_or(options.mapSize);
     options.faceSize = mFaceSize.value_or(options.faceSize);
     options.visibilitySize = mVisibilitySize.value_or(options.visibilitySize);
-    options.transportSamples = mTransportSamples.value_or(options.transportSamples);
+    // The preset's are those of its own cubes: no more than there are visibility texels in a lighting texel.
+    const int ratio = std::max(1, options.visibilitySize / std::max(1, options.faceSize));
+    options.transportSamples = mTransportSamples.value_or(std::min(options.transportSamples, ratio * ratio));
     if (mVisibility) {
         options.visibilityMethod.reset();
         for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})

@@ -39,27 +39,32 @@ void run(const Arguments& arguments) {
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const Verification found = verify(*device, asset, prepareForSampling(arguments.light.environment()),
                                       radians(arguments.light.rotationDegrees), arguments.samples);
-    const VisibilityComparison ways = compareVisibility(*device, asset, arguments.samples);
-    if (!arguments.visibilityImage.empty()) writePng(arguments.visibilityImage, ways.picture);
+    const std::optional<VisibilityComparison> ways = compareVisibility(*device, asset, arguments.samples);
+    if (!arguments.visibilityImage.empty() && !ways)
+        throw Error("--visibility-image: {} cannot trace, so that there is nothing to compare",
+                    device->name());
+    if (!arguments.visibilityImage.empty()) writePng(arguments.visibilityImage, ways->picture);
     if (arguments.json) {
-        const nlohmann::ordered_json json = {{"samples", found.samples},
-                                             {"visibility_mismatch", found.visibilityMismatch},
-                                             {"raster_traced_difference", ways.share()},
-                                             {"raster_traced_inside", ways.inside},
-                                             {"transport_error", found.transportError},
-                                             {"layout_error", found.layoutError},
-                                             {"wavelet_error", found.waveletError},
-                                             {"quantization_error", found.quantisationError},
-                                             {"brdf_error", found.brdfError},
-                                             {"relight_bits", found.relightBits},
-                                             {"total_error", found.totalError}};
+        using Json = nlohmann::ordered_json;
+        const Json json = {{"samples", found.samples},
+                           {"visibility_mismatch", found.visibilityMismatch},
+                           {"raster_traced_difference", ways ? Json(ways->share()) : Json()},
+                           {"raster_traced_inside", ways ? Json(ways->inside) : Json()},
+                           {"transport_error", found.transportError},
+                           {"layout_error", found.layoutError},
+                           {"wavelet_error", found.waveletError},
+                           {"quantization_error", found.quantisationError},
+                           {"brdf_error", found.brdfError},
+                           {"relight_bits", found.relightBits},
+                           {"total_error", found.totalError}};
         fmt::print("{}\n", json.dump(2));
     } else {
         fmt::print("vertices sampled     {}\n", found.samples);
         fmt::print("visibility mismatch  {:.6f}  of the texels above the horizon, against Embree\n",
                    found.visibilityMismatch);
-        fmt::print("raster and traced    {:.6f}  of them differ, {} where traced sees no silhouette\n",
-                   ways.share(), ways.inside);
+        if (ways)
+            fmt::print("raster and traced    {:.6f}  of them differ, {} where traced sees no silhouette\n",
+                       ways->share(), ways->inside);
         fmt::print("transport error      {:.2e}  before compression, device against CPU\n",
                    found.transportError);
         fmt::print("layout error         {:.4f}    all that is lost by how transport is kept\n",

@@ -9,9 +9,9 @@ namespace relume {
 // from.
 std::filesystem::path shaderFolder();
 
-// SPIR-V of a shader with `macro` defined, if it is not empty: word for word what the build makes of it. Its
-// name ends in .comp, .vert or .frag, and its includes are found from the folder above its own. Throws Error
-// with the compiler's messages, file and line first.
+// SPIR-V of a shader with these macros defined, but for empty ones: word for word what the build makes of it.
+// Its name ends in .comp, .vert or .frag, and its includes are found from the folder above its own. Throws
+// Error with the compiler's messages, file and line first.
 std::vector<uint32_t> compileShader(const std::filesystem::path& source,
                                     std::span<const std::string_view> macros = {});
 

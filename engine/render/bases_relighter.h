@@ -13,7 +13,6 @@ class BasesRelighter : public SetRelighter {
   public:
     struct Programs {
         vk::ComputeProgram project, combine;
-        // Throws Error when the device has no subgroups that suit.
         explicit Programs(const vk::Device& device);
     };
 

@@ -13,7 +13,6 @@ class ClustersRelighter : public SetRelighter {
     ClustersRelighter(const vk::Device& device, const vk::ComputeProgram& program,
                       const ClusteredTransport& transport, uint32_t coefficients, uint64_t largestShard,
                       const std::string& name);
-    // Throws Error when the device has no subgroups that suit.
     static vk::ComputeProgram makeProgram(const vk::Device& device);
 
     size_t shards() const override { return mShards.size(); }

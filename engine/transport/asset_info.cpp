@@ -104,12 +104,16 @@ std::string describeInterpolation(const Json& record) {
 
 std::string describeVisibility(const Asset& asset) {
     const Json triangles = optionOf(asset, "occluder_triangles");
-    const bool isSimplified = triangles.is_number() && triangles > 0;
-    return fmt::format(
-        "visibility: in 6 x {}² directions, taken {:g} above each vertex, {}", asset.visibilitySize,
-        asset.visibilityOffset,
-        isSimplified ? fmt::format("of a model simplified to {} triangles", asset.occluder.triangleCount())
-                     : "of all triangles");
+    const std::string occluder =
+        !triangles.is_number() ? "an unknown occluder"
+        : triangles > 0 ? fmt::format("a model simplified to {} triangles", asset.occluder.triangleCount())
+                        : "all triangles";
+    const Json method = optionOf(asset, "visibility");
+    return fmt::format("visibility: {}, in 6 x {}² directions, taken {:g} above each vertex, of {}",
+                       method == "raster"   ? "drawn"
+                       : method == "traced" ? "traced"
+                                            : "found in an unknown way",
+                       asset.visibilitySize, asset.visibilityOffset, occluder);
 }
 
 // What the terms of all sets make least.

@@ -55,7 +55,8 @@ struct DeviceOptions {
     std::vector<std::string> surfaceExtensions;
     // The file that keeps what the driver compiles, for savePipelineCache(). Empty: none does.
     std::filesystem::path pipelineCache;
-    // As if the device could do no more than every one that can be used: to test that on one that can.
+    // As if the device had no output of layers, no ballots, and texel buffers as small as Vulkan allows: to
+    // test on one that has more what is done on those that do not.
     bool leastFeatures = false;
 };
 

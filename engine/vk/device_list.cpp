@@ -49,6 +49,9 @@ static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion)
     constexpr uint32_t kSharedMemory = 20 << 10; // of select.comp, rounded up; Vulkan promises 16 KiB only
     if (properties.limits.maxComputeSharedMemorySize < kSharedMemory)
         return "20 KiB of shared memory are needed";
+    constexpr uint32_t kStorageBuffers = 9; // of relight_combine.comp, PORTABLE
+    if (properties.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+        return "9 storage buffers a shader are needed";
     if (!features12.scalarBlockLayout) return "scalarBlockLayout is needed";
     if (!features.features.multiDrawIndirect) return "multiDrawIndirect is needed";
     if (!features.features.drawIndirectFirstInstance) return "drawIndirectFirstInstance is needed";

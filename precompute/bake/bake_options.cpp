@@ -24,6 +24,8 @@ FactorizationOptions defaultFactorization() { return {.terms = 8, .method = Fact
 
 void BakeOptions::validate() const {
     expectRange("--terms", factorization.terms, 1, kMaxTerms);
+    if (factorization.method == Factorization::Normalized && factorization.terms != 1)
+        throw UsageError("--terms: factorization \"normalized\" has one term, not {}", factorization.terms);
     expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);
     expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});

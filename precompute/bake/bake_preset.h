@@ -19,7 +19,8 @@ BakeOptions presetOptions(BakePreset preset);
 std::string_view presetName(BakePreset preset);
 std::optional<BakePreset> presetFromName(std::string_view name);
 
-// The preset that these are the options of, whatever came of their refinement; none if any differs.
+// The preset that these are the options of; none if any differs but what came of refinement, which is not
+// recorded where nothing was coarse.
 std::optional<BakePreset> presetOf(const BakeOptions& options);
 
 } // namespace relume

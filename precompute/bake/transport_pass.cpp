@@ -7,6 +7,7 @@
 #include "shaders/row_starts_comp.h"
 #include "shaders/select_comp.h"
 #include "shaders/transport_comp.h"
+#include "shaders/transport_portable_comp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,8 +117,8 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
 }
 
 std::vector<std::span<const uint32_t>> TransportPass::kernels() {
-    return {transport_comp_spirv, select_comp_spirv, quantise_comp_spirv, row_starts_comp_spirv,
-            compact_comp_spirv};
+    return {transport_comp_spirv, transport_portable_comp_spirv, select_comp_spirv,
+            quantise_comp_spirv,  row_starts_comp_spirv,         compact_comp_spirv};
 }
 
 void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,

@@ -109,7 +109,9 @@ Image draw(const Bits& raster, const Bits& traced, vec3 normal, int size) {
 
 } // namespace
 
-VisibilityComparison compareVisibility(const vk::Device& device, const Asset& asset, int samples) {
+std::optional<VisibilityComparison> compareVisibility(const vk::Device& device, const Asset& asset,
+                                                      int samples) {
+    if (!canUse(device, VisibilityMethod::Traced)) return std::nullopt;
     Finder raster(device, asset, VisibilityMethod::Raster), traced(device, asset, VisibilityMethod::Traced);
     const std::vector<shared::BakePoint> points = spreadPoints(asset, uint64_t(samples));
     const int size = asset.visibilitySize;

@@ -5,6 +5,8 @@
 #include "engine/transport/asset.h"
 #include "engine/vk/device.h"
 
+#include <optional>
+
 namespace relume {
 
 struct VisibilityComparison {
@@ -20,8 +22,8 @@ struct VisibilityComparison {
     double share() const { return hemisphere > 0 ? double(different) / double(hemisphere) : 0; }
 };
 
-// Of `samples` vertices, spread evenly over the asset's. Throws Error where the device can do only one of
-// both.
-VisibilityComparison compareVisibility(const vk::Device& device, const Asset& asset, int samples);
+// Of `samples` vertices, spread evenly over the asset's; nothing where the device can only draw.
+std::optional<VisibilityComparison> compareVisibility(const vk::Device& device, const Asset& asset,
+                                                      int samples);
 
 } // namespace relume

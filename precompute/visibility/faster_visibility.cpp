@@ -31,7 +31,6 @@ double secondsPerPoint(const vk::Device& device, const Asset& asset, VisibilityM
                        const vk::Buffer& points) {
     const auto size = uint32_t(asset.visibilitySize);
     double best = std::numeric_limits<double>::infinity();
-    if (!canUse(device, method)) return best;
     try {
         const auto visibility = makeVisibility(device, method, asset.occluder, size, kPoints,
                                                visibilityNearDistance(asset.visibilityOffset));
@@ -56,6 +55,7 @@ double secondsPerPoint(const vk::Device& device, const Asset& asset, VisibilityM
 } // namespace
 
 VisibilityMethod fasterVisibility(const vk::Device& device, const Asset& asset) {
+    if (!canUse(device, VisibilityMethod::Traced)) return VisibilityMethod::Raster;
     const vk::Buffer points(device, kPoints * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points");
     std::ranges::copy(spreadPoints(asset), points.map<shared::BakePoint>().begin());
     const double traced = secondsPerPoint(device, asset, VisibilityMethod::Traced, points);

@@ -102,8 +102,13 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
     else
         clusters.push_back({vec3(0), 0, 0, 0});
     mClusterCount = uint32_t(clusters.size());
-    const uint64_t largestBinding = std::max(occluder.vertexCount() * sizeof(vec3),
-                                             drawCount(mCapacity) * sizeof(VkDrawIndexedIndirectCommand));
+    const uint64_t ofBatch = mIsLayered ? uint64_t(mClusterCount) * 6 * mCapacity * sizeof(uint32_t)
+                                        : drawCount(mCapacity) * sizeof(VkDrawIndexedIndirectCommand);
+    if (ofBatch > device.largestStorageBuffer() && mCapacity > 1)
+        throw vk::OutOfMemory("visibility draws: {} bytes of {} points are more than {} binds", ofBatch,
+                              mCapacity, device.name());
+    const uint64_t largestBinding = std::max({occluder.vertexCount() * sizeof(vec3), ofBatch,
+                                              mClusterCount * sizeof(VkDrawIndexedIndirectCommand)});
     if (largestBinding > device.largestStorageBuffer() ||
         mClusterCount >
             std::min(device.limits().maxComputeWorkGroupCount[1], device.limits().maxDrawIndirectCount))
@@ -128,8 +133,6 @@ void RasterVisibility::recordTogether(vk::Commands& commands, const vk::Buffer& 
     });
     commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Color, Transfer);
-    commands.barrier(Compute, Transfer);
-    commands.copy(mTarget, mBlocked, layers);
 }
 
 void RasterVisibility::recordOneByOne(vk::Commands& commands, const vk::Buffer& points,
@@ -171,6 +174,10 @@ void RasterVisibility::record(vk::Commands& commands, const vk::Buffer& points, 
             recordOneByOne(commands, points, layers);
     });
     commands.pass("visibility pack", [&] {
+        if (mIsLayered) {
+            commands.barrier(Compute, Transfer);
+            commands.copy(mTarget, mBlocked, layers);
+        }
         commands.barrier(Transfer, Compute);
         const auto words = uint32_t(count * visibilityBytes(mSize) / 4);
         commands.dispatch(mPack, {points, mBlocked, bits}, shared::PackVisibilityPush{words}, {words, 1, 1});

@@ -9,7 +9,7 @@ namespace relume {
 // a ray passes an edge within rounding. Nothing is too near to be seen: points on a surface are to be lifted.
 class TracedVisibility : public Visibility {
   public:
-    // As makeVisibility. Throws Error when the device has no subgroups that suit.
+    // As makeVisibility.
     TracedVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size);
 
     static Kernels kernels();

@@ -17,7 +17,7 @@ bool canUse(const vk::Device& device, VisibilityMethod method) {
 
 VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method) {
     if (canUse(device, method)) return method;
-    spdlog::info("visibility: drawn, since {} cannot trace: its subgroups of {} do not suit", device.name(),
+    spdlog::warn("visibility: drawn, since {} cannot trace: its subgroups of {} do not suit", device.name(),
                  device.info().subgroupSize);
     return VisibilityMethod::Raster;
 }

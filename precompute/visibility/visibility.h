@@ -53,7 +53,7 @@ std::string_view visibilityMethodName(VisibilityMethod method); // "raster", "tr
 
 // Tracing takes subgroups that vote (DeviceInfo::hasBallots()); drawing, every device can do.
 bool canUse(const vk::Device& device, VisibilityMethod method);
-// The method, or the other one where the device cannot use it: the log says so.
+// The method, or the other one where the device cannot use it: warns.
 VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method);
 
 // All that a method runs.

@@ -63,7 +63,11 @@ std::vector<std::vector<uint8_t>> visibilityOf(const vk::Device& device, Visibil
     return visibilityOf(device, *visibility, points, size, batch);
 }
 
-constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Raster, VisibilityMethod::Traced};
+// Those that the device can use.
+std::vector<VisibilityMethod> methodsOf(const vk::Device& device) {
+    if (canUse(device, VisibilityMethod::Traced)) return {VisibilityMethod::Raster, VisibilityMethod::Traced};
+    return {VisibilityMethod::Raster};
+}
 
 size_t differences(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
     size_t count = 0;
@@ -77,7 +81,7 @@ TEST_CASE("visibility: a sphere alone sees everything above its horizon") {
     const TestDevice device;
     const Mesh sphere = makeSphere(3);
     const std::vector<shared::BakePoint> points = somePoints(sphere, 10, 1e-4f);
-    for (const VisibilityMethod method : kMethods) {
+    for (const VisibilityMethod method : methodsOf(device)) {
         const auto cubes = visibilityOf(device, method, sphere, points, 64, 4, 1e-7f);
         for (size_t point = 0; point < points.size(); point++) {
             int wrong = 0;
@@ -110,7 +114,7 @@ TEST_CASE("visibility: under a wide ceiling with a hole only the hole is seen") 
     quad(1, far, -far, far);
     quad(-1, 1, -far, -1);
     quad(-1, 1, 1, far);
-    for (const VisibilityMethod method : kMethods) {
+    for (const VisibilityMethod method : methodsOf(device)) {
         const auto cubes = visibilityOf(device, method, ceiling, {{{0, 0, 0}, {0, 1, 0}}}, 64, 1, 1e-4f);
         for (int face = 0; face < 6; face++)
             for (int y = 0; y < 64; y++)
@@ -139,7 +143,7 @@ TEST_CASE("visibility: agrees with Embree but at silhouettes") {
         }
         const double hemispheres = double(points.size()) * double(expected[0].size()) / 2;
         CHECK_GT(double(blocked) / hemispheres, 0.05); // else the knot tests nothing
-        for (const VisibilityMethod method : kMethods) {
+        for (const VisibilityMethod method : methodsOf(device)) {
             const auto cubes =
                 visibilityOf(device, method, knot, points, uint32_t(size), 7, visibilityNearDistance(offset));
             size_t mismatched = 0;
@@ -188,7 +192,7 @@ TEST_CASE("visibility: no ray slips out of a closed mesh") {
     for (const vec3 at : {vec3(0), vec3(0.31f, -0.2f, 0.4f), vec3(0, 0.9f, 0)})
         for (const vec3 normal : {vec3(0, 1, 0), vec3(0, -1, 0), glm::normalize(vec3(1, -2, 3))})
             points.push_back({at, normal});
-    for (const VisibilityMethod method : kMethods)
+    for (const VisibilityMethod method : methodsOf(device))
         for (const std::vector<uint8_t>& cube : visibilityOf(device, method, sphere, points, 256, 9, 1e-7f))
             CHECK_EQ(std::ranges::count(cube, 1), 0);
 }
@@ -302,7 +306,7 @@ TEST_CASE("visibility: the faster way is one of them, and says so in the asset")
 
 TEST_CASE("visibility: an empty occluder blocks nothing") {
     const TestDevice device;
-    for (const VisibilityMethod method : kMethods) {
+    for (const VisibilityMethod method : methodsOf(device)) {
         const auto cubes = visibilityOf(device, method, {}, {{{0, 0, 0}, {0, 0, 1}}}, 64, 1, 1e-4f);
         CHECK_EQ(std::ranges::count(cubes[0], 1), 3 * 64 * 64);
     }
