@@ -117,7 +117,7 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
                     exact = reference(asset, sky, ReferenceBrdf::Exact);
         const double error = compareImages(drawn, exact).relativeRmse;
         MESSAGE("turned by ", degrees, " degrees: ", error);
-        CHECK_LE(error, 0.05);
+        CHECK_LE(error, 0.029); // without interpolation of turns or phases it is 0.03 and more
         images.push_back(drawn);
     }
     // The turn is seen.
