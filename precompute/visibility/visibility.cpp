@@ -17,8 +17,9 @@ bool canUse(const vk::Device& device, VisibilityMethod method) {
 
 VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method) {
     if (canUse(device, method)) return method;
-    spdlog::warn("visibility: drawn, since {} cannot trace: its subgroups of {} do not suit", device.name(),
-                 device.info().subgroupSize);
+    spdlog::warn(
+        "visibility: drawn, since {} cannot trace: that takes subgroups of 8 to 64 that vote, its have {}",
+        device.name(), device.info().subgroupSize);
     return VisibilityMethod::Raster;
 }
 
