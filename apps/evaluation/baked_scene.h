@@ -23,7 +23,7 @@ struct BakeRecipe {
     nlohmann::ordered_json visibilityKey() const;
 };
 
-// BakePreset::Paper, of so many terms and coefficients.
+// Returns the options of BakePreset::Paper with so many terms and coefficients.
 BakeOptions paperOptions(int terms, int coefficients = 96);
 
 Scene makeScene(const BakeRecipe& recipe);
@@ -34,7 +34,7 @@ struct BakeRecord {
     // Of wall-clock time, over the vertices of its last run: a tenth or more. None: of a bake that was not
     // timed.
     std::optional<double> msPerVertex;
-    std::vector<std::pair<std::string, double>> msByStage; // device's, of a vertex; of a timed bake
+    std::vector<std::pair<std::string, double>> msByStage; // device time of a vertex; empty unless timed
 };
 
 class BakeStore {

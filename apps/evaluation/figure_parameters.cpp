@@ -29,7 +29,7 @@ FigureSetup setupOf(const SectionInputs& inputs, const SceneInput& model, const 
         {"normalized",
          "one term, polar map, normalized decomposition",
          recipe(kAshikhminShirley, normalized),
-         {.residual = false}},
+         {}},
         {"terms", "four terms", recipe(kAshikhminShirley, paperOptions(4)), {}},
         {"one", "one term, orthographic map", recipe(kAshikhminShirley, paperOptions(4)), {.terms = 1}}};
     setup.images.back().isShown = false;
@@ -60,9 +60,7 @@ Section parametersFigure(const SectionInputs& inputs) {
                 table.rows.push_back({image.title, textOf(errorOf(setup, results, image.name))});
         report.add(std::move(table));
         report.say(
-            "The polar map has the azimuth along x and the sine of the angle from the normal along y, so "
-            "that its texels are alike in number at every angle: a single term is a highlight over the "
-            "diffuse part, and the orthographic map's, whose rim counts most, is grazing light.");
+            "The polar map has the azimuth along x and the sine of the angle from the normal along y.");
     };
     return section;
 }

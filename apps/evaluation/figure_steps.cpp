@@ -101,8 +101,7 @@ Step makeRenderStep(const FigureSetup& setup, size_t first) {
         for (size_t i = first; i < setup.images.size(); i++) {
             if (firstOfBake(setup, i) != first) continue;
             RelitOptions relit = setup.images[i].relit;
-            // The paper's way knows of no residual.
-            relit.residual &= setup.images[i].recipe.options.factorization.method != Factorization::Paper;
+            relit.residual = !isPublished(setup.images[i].recipe.options.factorization.method);
             run.writeLinear(setup.images[i].name, scene.render(cameraOf(setup, asset), light.light, relit));
         }
         return Json{{"bytes_per_vertex", double(record.bytes) / double(record.vertices)},

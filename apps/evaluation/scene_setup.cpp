@@ -30,8 +30,8 @@ BakeRecipe sceneRecipe(const SectionInputs& inputs, const std::string& model, co
         recipe.triangles = kQuickTriangles;
         recipe.ground->tessellation = kQuickGround;
         recipe.options.visibilitySize = kQuickVisibility;
-        const int ratio = kQuickVisibility / recipe.options.faceSize;
-        recipe.options.transportSamples = std::min(recipe.options.transportSamples, ratio * ratio);
+        recipe.options.transportSamples =
+            std::min(recipe.options.transportSamples, recipe.options.mostTransportSamples());
     }
     return recipe;
 }

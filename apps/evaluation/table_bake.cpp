@@ -81,7 +81,7 @@ void addRow(ReportTable& table, const PaperScene& scene, size_t which, const Ste
                           cost.basesBytes ? fmt::format("{:.0f}", *cost.basesBytes) : "-"});
 }
 
-// Where the time of a vertex goes.
+// Adds a table of the device time of a vertex, stage by stage.
 void addStages(const std::vector<PaperScene>& scenes, const StepResults& results, ReportSection& report) {
     ReportTable table{
         "table_1_stages",

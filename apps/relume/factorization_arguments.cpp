@@ -23,8 +23,7 @@ int termsFrom(const std::string& text) {
 
 // Published tables are orthographic; errors that are weighted by area do best with texels of equal area.
 DiskMapping mappingFor(Factorization method) {
-    const bool isPublished = method == Factorization::Paper || method == Factorization::Normalized;
-    return isPublished ? DiskMapping::Orthographic : DiskMapping::EqualArea;
+    return isPublished(method) ? DiskMapping::Orthographic : DiskMapping::EqualArea;
 }
 
 } // namespace

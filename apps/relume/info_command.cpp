@@ -26,9 +26,9 @@ static void printReadable(const nlohmann::ordered_json& value, int depth) {
     }
 }
 
-// The preset of the asset's options; null where they are of none, or not this program's, and for bakes that
-// were converted to another layout.
-static nlohmann::json presetOf(const Asset& asset) {
+// Names the preset of the asset's options, or null: of none, of another program, or converted to another
+// layout since.
+static nlohmann::json describePreset(const Asset& asset) {
     try {
         const TransportLayout layout = optionsOf(asset).layout.layout;
         for (const AssetPart& part : asset.parts)
@@ -54,7 +54,7 @@ void addInfoCommand(CLI::App& program) {
         const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file),
                                                    KeptVisibility(arguments->file).storedBytes());
         auto info = nlohmann::ordered_json::parse(text);
-        info["preset"] = presetOf(asset);
+        info["preset"] = describePreset(asset);
         if (arguments->json)
             fmt::print("{}\n", info.dump(2));
         else

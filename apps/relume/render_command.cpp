@@ -197,8 +197,8 @@ void addRenderCommand(CLI::App& program) {
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1024));
     addPreset(*command, arguments->preset,
-              "Options that others are given beside: default, or paper, without residual and with light "
-              "coefficients by --threshold 1024 (docs/paper.md)");
+              "Where options start from that are not given: default, or paper, which is --residual off "
+              "--threshold 1024 (docs/paper.md)");
     command
         ->add_option("--residual", arguments->residual,
                      "Add what the K terms leave of the BRDF, by the share of the light that reaches a point")

@@ -114,8 +114,7 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
 
 void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
     std::map<std::string, BakePreset> presets;
-    for (const BakePreset each : {BakePreset::Default, BakePreset::Paper})
-        presets.emplace(presetName(each), each);
+    for (const BakePreset each : kBakePresets) presets.emplace(presetName(each), each);
     command.add_option("--preset", preset, help)
         ->transform(CLI::CheckedTransformer(presets))
         ->type_name("default|paper")
@@ -125,9 +124,10 @@ void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
 void BakeArguments::add(CLI::App& command, bool takesLayout) {
     const BakeOptions defaults = presetOptions(BakePreset::Default);
     mTakesLayout = takesLayout;
-    addPreset(command, mPreset,
-              "Options that others are given beside: default, or paper, as the paper of 2004 has them "
-              "(docs/paper.md)");
+    addPreset(
+        command, mPreset,
+        "Where options start from that are not given: default, or paper, the method as it was published in "
+        "2004 (docs/paper.md)");
     mFactorization.add(command, defaults.factorization);
     const int ofRows = defaultCoefficients(TransportLayout::Rows);
     if (takesLayout) mLayout.add(command, true);
@@ -150,10 +150,10 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
     addSize("--visibility-size", mVisibilitySize, "V", defaults.visibilitySize,
             "Side of a face of the visibility cube: 64, 128 or 256");
     command
-        .add_option("--visibility", mVisibility,
-                    "How visibility is found: traced (by rays; drawn where the device cannot), raster (by "
-                    "drawing) or "
-                    "auto (the faster here, measured; may differ from run to run)")
+        .add_option(
+            "--visibility", mVisibility,
+            "How visibility is found: traced (by rays; by drawing where the device cannot), raster (by "
+            "drawing) or auto (the faster here, measured; may differ from run to run)")
         ->type_name("METHOD")
         ->check(CLI::IsMember({"raster", "traced", "auto"}))
         ->default_str(std::string(visibilityMethodName(*defaults.visibilityMethod)));
@@ -206,9 +206,8 @@ void BakeArguments::resolve() {
     options.mapSize = mMapSize.value_or(options.mapSize);
     options.faceSize = mFaceSize.value_or(options.faceSize);
     options.visibilitySize = mVisibilitySize.value_or(options.visibilitySize);
-    // The preset's are those of its own cubes: no more than there are visibility texels in a lighting texel.
-    const int ratio = std::max(1, options.visibilitySize / std::max(1, options.faceSize));
-    options.transportSamples = mTransportSamples.value_or(std::min(options.transportSamples, ratio * ratio));
+    options.transportSamples =
+        mTransportSamples.value_or(std::min(options.transportSamples, options.mostTransportSamples()));
     if (mVisibility) {
         options.visibilityMethod.reset();
         for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})

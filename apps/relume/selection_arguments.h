@@ -11,7 +11,7 @@ namespace relume {
 class SelectionArguments {
   public:
     void add(CLI::App& command);
-    // What was given of these, else `otherwise`.
+    // Returns the selection that was given, or `otherwise` if none was.
     LightSelection selection(const LightSelection& otherwise = {}) const;
 
   private:

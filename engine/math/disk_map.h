@@ -12,12 +12,12 @@ namespace relume {
 // Values are stored in files and passed to shaders: never renumber.
 enum class DiskMapping : uint32_t {
     Orthographic = 0,   // (x, y) = ((d·s + 1) / 2, (d·t + 1) / 2)
-    EqualAreaPolar = 1, // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - d·n)): in files of before alone
+    EqualAreaPolar = 1, // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - d·n)): of earlier files
     EqualArea = 2,      // (x, y) = ((d·s, d·t) / sqrt(1 + d·n) + 1) / 2: Lambert's azimuthal projection
     Polar = 3, // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - (d·n)²)): section 3.2 of the paper
 };
 
-// Whether x is an azimuth, so that a map's left and right borders meet.
+// Returns whether x is an azimuth, so that a map's left and right borders meet.
 constexpr bool isPolar(DiskMapping mapping) {
     return mapping == DiskMapping::Polar || mapping == DiskMapping::EqualAreaPolar;
 }
@@ -36,8 +36,8 @@ float diskMapSolidAngle(DiskMapping mapping, vec2 coordinates);
 constexpr float kGrazingCosine = 1e-3f;
 vec3 liftAboveHorizon(vec3 local);
 
-// As files and the command line have them: "orthographic", "polar-sine" (Polar), "equal-area"; and "polar",
-// EqualAreaPolar, which no new bake takes.
+// Names are those of files and the command line: "orthographic", "polar-sine" (Polar), "equal-area", and
+// "polar" (EqualAreaPolar), which no new bake takes.
 std::string_view diskMappingName(DiskMapping mapping);
 std::optional<DiskMapping> diskMappingFromName(std::string_view name);
 

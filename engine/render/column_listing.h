@@ -9,10 +9,10 @@
 
 namespace relume {
 
-// Their group size on this device: a subgroup, or 8 to 32 invocations that have portable shaders.
+// Returns the group size of these kernels: a subgroup, or 8 to 32 invocations of portable shaders.
 uint32_t listingLanes(const vk::Device& device);
 
-// A program of such a kernel.
+// Makes the program of such a kernel.
 vk::ComputeProgram makeListingProgram(const vk::Device& device, std::span<const uint32_t> spirv,
                                       std::string_view name);
 

@@ -80,13 +80,13 @@ std::string describeLayout(const Transport& transport) {
     return "";
 }
 
-// What the bake's options have under a key; null if they have nothing.
+// Returns the value of an option that the bake recorded, or null.
 Json optionOf(const Asset& asset, const char* key) {
     const Json options = jsonOrText(asset.provenance.options);
     return options.is_object() && options.contains(key) ? options[key] : Json();
 }
 
-// Of a record of refinement, or none.
+// Takes a record of refinement, or null.
 std::string describeInterpolation(const Json& record) {
     const auto number = [&](const char* key) {
         return record.is_object() && record.contains(key) && record[key].is_number()
@@ -116,7 +116,7 @@ std::string describeVisibility(const Asset& asset) {
                        asset.visibilitySize, asset.visibilityOffset, occluder);
 }
 
-// What the terms of all sets make least.
+// Names the method and the values that the terms of all sets are found by.
 std::string describeTerms(const Asset& asset) {
     const Json method = optionOf(asset, "factorization");
     if (!method.is_string()) return "BRDF terms: of an unknown factorization";

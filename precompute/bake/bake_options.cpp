@@ -22,6 +22,11 @@ int defaultCoefficients(TransportLayout layout) { return layout == TransportLayo
 
 FactorizationOptions defaultFactorization() { return {.terms = 8, .method = Factorization::NonNegative}; }
 
+int BakeOptions::mostTransportSamples() const {
+    const int ratio = visibilitySize / std::max(faceSize, 1); // of sizes that are not validated yet
+    return std::max(ratio * ratio, 1);
+}
+
 void BakeOptions::validate() const {
     expectRange("--terms", factorization.terms, 1, kMaxTerms);
     if (factorization.method == Factorization::Normalized && factorization.terms != 1)
@@ -35,12 +40,11 @@ void BakeOptions::validate() const {
         !(refinement->wanted >= kLeastRefinementError && refinement->wanted <= kMostRefinementError))
         throw UsageError("--refine: expected an error of {} to {}, found {}", kLeastRefinementError,
                          kMostRefinementError, refinement->wanted);
-    const int ratio = visibilitySize / faceSize;
-    if (transportSamples > ratio * ratio)
+    if (transportSamples > mostTransportSamples())
         throw UsageError(
             "--transport-samples {}: expected at most {}, the visibility texels in a lighting texel; raise "
             "--visibility-size or lower --face-size",
-            transportSamples, ratio * ratio);
+            transportSamples, mostTransportSamples());
 }
 
 } // namespace relume

@@ -37,6 +37,8 @@ struct BakeOptions {
     // well.
     std::optional<RefinementRecord> refinement = std::nullopt;
 
+    // Returns the most transportSamples: the visibility texels in a lighting texel.
+    int mostTransportSamples() const;
     // Throws UsageError naming the option, its valid values and what was given.
     void validate() const;
 };

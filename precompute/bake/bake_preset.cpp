@@ -6,8 +6,6 @@ namespace relume {
 
 namespace {
 
-constexpr BakePreset kPresets[] = {BakePreset::Default, BakePreset::Paper};
-
 // Triangles. The paper tells of a simplified occluder and of no number.
 constexpr size_t kPaperOccluder = 5000;
 
@@ -34,14 +32,8 @@ BakeOptions presetOptions(BakePreset preset) {
 
 std::string_view presetName(BakePreset preset) { return preset == BakePreset::Paper ? "paper" : "default"; }
 
-std::optional<BakePreset> presetFromName(std::string_view name) {
-    for (const BakePreset preset : kPresets)
-        if (name == presetName(preset)) return preset;
-    return std::nullopt;
-}
-
 std::optional<BakePreset> presetOf(const BakeOptions& options) {
-    for (const BakePreset preset : kPresets) {
+    for (const BakePreset preset : kBakePresets) {
         BakeOptions wanted = presetOptions(preset);
         const auto& baked = options.refinement;
         if (wanted.refinement && baked && baked->isAuto && baked->wanted == wanted.refinement->wanted)

@@ -7,20 +7,20 @@ namespace relume {
 
 enum class BakePreset {
     Default,
-    // As All-Frequency Relighting of Non-Diffuse Objects using Separable BRDF Approximation (2004) has it:
-    // visibility drawn from a simplified occluder, the BRDF at every visibility texel, eigenpairs of
+    // The method of All-Frequency Relighting of Non-Diffuse Objects using Separable BRDF Approximation
+    // (2004): visibility drawn from a simplified occluder, the BRDF at every visibility texel, eigenpairs of
     // orthographic tables, K = 4, rows of 96 coefficients.
     Paper,
 };
+inline constexpr BakePreset kBakePresets[] = {BakePreset::Default, BakePreset::Paper};
 
 BakeOptions presetOptions(BakePreset preset);
 
 // "default" and "paper".
 std::string_view presetName(BakePreset preset);
-std::optional<BakePreset> presetFromName(std::string_view name);
 
-// The preset that these are the options of; none if any differs but what came of refinement, which is not
-// recorded where nothing was coarse.
+// Returns the preset that has these options, or nothing if none has. What came of refinement does not count,
+// nor that none is recorded where nothing was coarse.
 std::optional<BakePreset> presetOf(const BakeOptions& options);
 
 } // namespace relume

@@ -227,9 +227,12 @@ std::optional<Factorization> factorizationFromName(std::string_view name) {
     return Factorization(found - std::begin(kNames));
 }
 
+bool isPublished(Factorization method) {
+    return method == Factorization::Paper || method == Factorization::Normalized;
+}
+
 TexelValue texelValueOf(Factorization method) {
-    const bool isPublished = method == Factorization::Paper || method == Factorization::Normalized;
-    return isPublished ? TexelValue::Centre : TexelValue::Mean;
+    return isPublished(method) ? TexelValue::Centre : TexelValue::Mean;
 }
 
 FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {

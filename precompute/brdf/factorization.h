@@ -29,7 +29,11 @@ enum class Factorization {
 std::string_view factorizationName(Factorization method);
 std::optional<Factorization> factorizationFromName(std::string_view name);
 
-// What tables to factor: Paper's and Normalized's hold f at texel centres, all others its means.
+// Paper and Normalized, the methods of publications: they factor orthographic tables of f at texel centers,
+// and the residual is not part of them.
+bool isPublished(Factorization method);
+
+// Returns what the tables that a method factors hold: f at texel centers if it is published, else its means.
 TexelValue texelValueOf(Factorization method);
 
 struct FactorizationOptions {

@@ -22,7 +22,8 @@ struct VisibilityComparison {
     double share() const { return hemisphere > 0 ? double(different) / double(hemisphere) : 0; }
 };
 
-// Of `samples` vertices, spread evenly over the asset's; nothing where the device can only draw.
+// Compares the visibility of `samples` vertices, spread evenly over the asset's. Returns nothing where the
+// device can only draw.
 std::optional<VisibilityComparison> compareVisibility(const vk::Device& device, const Asset& asset,
                                                       int samples);
 

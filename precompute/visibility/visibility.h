@@ -51,17 +51,18 @@ using Kernels = std::vector<std::span<const uint32_t>>;
 enum class VisibilityMethod { Raster, Traced };
 std::string_view visibilityMethodName(VisibilityMethod method); // "raster", "traced"
 
-// Tracing takes subgroups that vote (DeviceInfo::hasBallots()); drawing, every device can do.
+// Returns whether the device can use a method: every device draws, and those with DeviceInfo::hasBallots()
+// trace.
 bool canUse(const vk::Device& device, VisibilityMethod method);
-// The method, or the other one where the device cannot use it: warns.
+// Returns the method or, with a warning, the other one where the device cannot use it.
 VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method);
 
 // All that a method runs.
 Kernels visibilityKernels(VisibilityMethod method);
 
-// Of a method that the device can use. `size` a multiple of 32; at most `capacity` points a batch. Throws
-// OutOfMemory when a smaller batch may do, Error when the occluder has more triangles than the device can
-// bind.
+// Makes a method ready that the device can use. `size` is a multiple of 32; at most `capacity` points a
+// batch. Throws OutOfMemory when a smaller batch may do, Error when the occluder has more triangles than the
+// device can bind.
 std::unique_ptr<Visibility> makeVisibility(const vk::Device& device, VisibilityMethod method,
                                            const Mesh& occluder, uint32_t size, uint32_t capacity,
                                            float nearDistance);

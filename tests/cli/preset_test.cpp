@@ -41,7 +41,7 @@ TEST_CASE("presets: paper bakes and renders as its options do, and others beside
     CHECK_EQ(options["visibility"], "traced");
     CHECK_EQ(options["transport_samples"], 16);
 
-    // What the preset has none of to spare gives way.
+    // The preset gives way where what is given leaves no room for it.
     bake("--preset paper --visibility-size 64 --error 0.05 -o smaller.relume");
     const nlohmann::json smaller = infoOf(folder, "smaller.relume")["provenance"]["options"];
     CHECK_EQ(smaller["transport_samples"], 1);

@@ -63,7 +63,7 @@ std::vector<std::vector<uint8_t>> visibilityOf(const vk::Device& device, Visibil
     return visibilityOf(device, *visibility, points, size, batch);
 }
 
-// Those that the device can use.
+// Returns the methods that the device can use.
 std::vector<VisibilityMethod> methodsOf(const vk::Device& device) {
     if (canUse(device, VisibilityMethod::Traced)) return {VisibilityMethod::Raster, VisibilityMethod::Traced};
     return {VisibilityMethod::Raster};

@@ -48,7 +48,7 @@ TEST_CASE("image: a device of the least features bakes, relights and draws the s
     const TestDevice usual, least(true);
     REQUIRE(static_cast<const vk::Device&>(least).info().takesPortableShaders());
     const Asset baked = bakeKnot(usual, VisibilityMethod::Raster);
-    // Asked to trace, it draws.
+    // The device draws though it is asked to trace.
     CHECK(encodeAsset(bakeKnot(least, VisibilityMethod::Traced)) == encodeAsset(baked));
     for (const TransportLayout layout :
          {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {

@@ -52,9 +52,8 @@ TEST_CASE("baked options: they come back") {
 }
 
 TEST_CASE("baked options: a preset is known by its options, and not where one of them differs") {
-    for (const BakePreset preset : {BakePreset::Default, BakePreset::Paper}) {
+    for (const BakePreset preset : kBakePresets) {
         BakeOptions options = presetOptions(preset);
-        CHECK(presetFromName(presetName(preset)) == preset);
         CHECK(presetOf(optionsOf(assetOf(options))) == preset);
         options.refinement.reset(); // as where nothing was coarse
         CHECK(presetOf(optionsOf(assetOf(options))) == preset);

@@ -66,7 +66,7 @@ TEST_CASE("factorization: the normalized decomposition") {
     CHECK(product.terms == 1);
     CHECK((reconstruct(product, table, 0) - table.channels[0]).norm() < 1e-5f * table.channels[0].norm());
 
-    // Of two outgoing directions that reflect from one incoming direction each, and others that do not.
+    // Two outgoing directions reflect one incoming direction each, the others reflect nothing.
     for (MatrixXf& channel : table.channels) {
         channel.setZero();
         channel(0, 0) = 3;
