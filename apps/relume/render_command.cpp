@@ -179,7 +179,7 @@ void addRelightMode(CLI::App& command, RelightMode& mode) {
             "--relight", mode,
             "From all of the light, or what changed of it, or by whichever is less; the images are the "
             "same (default auto)")
-        ->transform(CLI::CheckedTransformer(modes))
+        ->transform(CLI::CheckedTransformer(modes).description(""))
         ->type_name("full|incremental|auto");
 }
 
@@ -197,8 +197,8 @@ void addRenderCommand(CLI::App& program) {
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1024));
     addPreset(*command, arguments->preset,
-              "Where options start from that are not given: default, or paper, which is --residual off "
-              "--threshold 1024 (docs/paper.md)");
+              "Options to start from: default, or paper, which is --residual off --threshold 1024 "
+              "(docs/paper.md); options that are given win");
     command
         ->add_option("--residual", arguments->residual,
                      "Add what the K terms leave of the BRDF, by the share of the light that reaches a point")

@@ -116,7 +116,7 @@ void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
     std::map<std::string, BakePreset> presets;
     for (const BakePreset each : kBakePresets) presets.emplace(presetName(each), each);
     command.add_option("--preset", preset, help)
-        ->transform(CLI::CheckedTransformer(presets))
+        ->transform(CLI::CheckedTransformer(presets).description(""))
         ->type_name("default|paper")
         ->default_str("default");
 }
@@ -124,10 +124,9 @@ void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
 void BakeArguments::add(CLI::App& command, bool takesLayout) {
     const BakeOptions defaults = presetOptions(BakePreset::Default);
     mTakesLayout = takesLayout;
-    addPreset(
-        command, mPreset,
-        "Where options start from that are not given: default, or paper, the method as it was published in "
-        "2004 (docs/paper.md)");
+    addPreset(command, mPreset,
+              "Options to start from: default, or paper, the method as it was published in 2004 "
+              "(docs/paper.md); options that are given win");
     mFactorization.add(command, defaults.factorization);
     const int ofRows = defaultCoefficients(TransportLayout::Rows);
     if (takesLayout) mLayout.add(command, true);
