@@ -10,6 +10,7 @@
 #include "engine/vk/device.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -111,6 +112,18 @@ void addSamples(CLI::App& command, int& samples);
 void tellSamples(int drawn, int wanted, const vk::Device& device);
 
 float radians(float degrees);
+
+// Adds an option that takes one of some names for values. Help shows them, and a wrong one's error.
+template <typename Value>
+CLI::Option* addChoice(CLI::App& command, const std::string& option, Value& value,
+                       const std::map<std::string, Value>& choices, const std::string& help) {
+    std::vector<std::string> names;
+    for (const auto& [name, choice] : choices) names.push_back(name);
+    return command
+        .add_option_function<std::string>(
+            option, [&value, choices](const std::string& name) { value = choices.at(name); }, help)
+        ->check(CLI::IsMember(names));
+}
 
 // Accepts numbers from `low` to `high`; not infinity, not NaN (which CLI::Range lets pass).
 CLI::Validator between(float low, float high);

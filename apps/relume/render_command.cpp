@@ -174,13 +174,11 @@ void run(const Arguments& arguments) {
 void addRelightMode(CLI::App& command, RelightMode& mode) {
     const std::map<std::string, RelightMode> modes = {
         {"full", RelightMode::Full}, {"incremental", RelightMode::Incremental}, {"auto", RelightMode::Auto}};
-    command
-        .add_option(
-            "--relight", mode,
-            "From all of the light, or what changed of it, or by whichever is less; the images are the "
-            "same (default auto)")
-        ->transform(CLI::CheckedTransformer(modes).description(""))
-        ->type_name("full|incremental|auto");
+    addChoice(
+        command, "--relight", mode, modes,
+        "From all of the light, or what changed of it, or by whichever is less; the images are the same")
+        ->type_name("MODE")
+        ->default_str("auto");
 }
 
 } // namespace

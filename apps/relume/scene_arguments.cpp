@@ -115,10 +115,7 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
 void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
     std::map<std::string, BakePreset> presets;
     for (const BakePreset each : kBakePresets) presets.emplace(presetName(each), each);
-    command.add_option("--preset", preset, help)
-        ->transform(CLI::CheckedTransformer(presets).description(""))
-        ->type_name("default|paper")
-        ->default_str("default");
+    addChoice(command, "--preset", preset, presets, help)->type_name("PRESET")->default_str("default");
 }
 
 void BakeArguments::add(CLI::App& command, bool takesLayout) {

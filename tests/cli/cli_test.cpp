@@ -50,7 +50,7 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"brdf clay --factorization svd", "nonnegative"},
              {"brdf clay --map equal", "equal-area"},
              {"brdf clay --terms 2 --factorization normalized", "one term"},
-             {"bake -o x.relume --preset old", "paper"},
+             {"bake -o x.relume --preset old", "old not in {default,paper}"},
              {"brdf clay --size 3", "--size"},
              {"brdf clay --size 8 --terms auto:0.1 --factorization nonnegative", "give their number"},
              {"brdf cley", "clay"},
