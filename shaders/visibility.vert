@@ -15,7 +15,6 @@ invariant gl_Position; // visibility.vert and visibility_face.vert give the same
 
 void main() {
     const uint layer = instanceLayers[gl_InstanceIndex];
-    gl_Position =
-        visibilityClip(positions[gl_VertexIndex] - points[layer / 6].origin, layer % 6, push.nearDistance);
+    gl_Position = visibilityClip(positions[gl_VertexIndex], points[layer / 6], layer % 6, push);
     gl_Layer = int(layer);
 }

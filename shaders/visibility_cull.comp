@@ -1,6 +1,7 @@
 #version 460
 // Decides which clusters of the occluder are drawn into which cube faces: a cluster is left out when its
-// bounding sphere lies wholly below the point's horizon, behind the face, or outside the face's pyramid.
+// bounding box lies wholly below the point's horizon, behind the face, or outside the face's pyramid, or when it
+// is part of a closed surface and shows the point no back.
 // The order of instances is not deterministic, but the image is: every triangle writes the same value.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -19,13 +20,15 @@ layout(binding = 1, scalar) readonly buffer Clusters { TriangleCluster clusters[
 layout(binding = 2, scalar) buffer Draws { uint draws[][5]; };
 layout(binding = 3, scalar) writeonly buffer Layers { uint instanceLayers[]; };
 
-bool canShow(BakePoint point, TriangleCluster sphere, uint face) {
-    const vec3 centre = sphere.centre - point.origin;
-    if (dot(centre, point.normal) < -sphere.radius) return false;
-    // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z; its side planes have normals (±1, 0, 1) / √2.
-    const vec3 local = centre * kFaceAxes[face];
-    const float reach = sphere.radius * 1.41421357;
-    return local.z >= -sphere.radius && abs(local.x) - local.z <= reach && abs(local.y) - local.z <= reach;
+bool canShow(BakePoint point, TriangleCluster cluster, uint face) {
+    const vec3 centre = cluster.centre - point.origin;
+    const vec3 extent = cluster.extent + 1e-6 * (abs(centre) + cluster.extent); // rounding leaves nothing out
+    if (dot(point.normal, centre) + dot(abs(point.normal), extent) <= 0) return false;
+    if (dot(normalize(cluster.apex - point.origin), cluster.axis) >= cluster.cutoff) return false;
+    // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z.
+    const vec3 local = centre * kFaceAxes[face], reach = abs(extent * kFaceAxes[face]);
+    return local.z + reach.z > 0 && abs(local.x) - local.z <= reach.x + reach.z &&
+           abs(local.y) - local.z <= reach.y + reach.z;
 }
 
 void main() {

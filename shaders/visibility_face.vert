@@ -13,6 +13,5 @@ layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 invariant gl_Position; // visibility.vert and visibility_face.vert give the same bits
 
 void main() {
-    gl_Position = visibilityClip(positions[gl_VertexIndex] - points[push.layer / 6].origin, push.layer % 6,
-                                 push.nearDistance);
+    gl_Position = visibilityClip(positions[gl_VertexIndex], points[push.layer / 6], push.layer % 6, push);
 }

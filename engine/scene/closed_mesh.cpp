@@ -28,46 +28,80 @@ uint32_t root(std::vector<uint32_t>& pieces, uint32_t triangle) {
     return triangle;
 }
 
-// From one place to another, and the triangle it is of.
-struct Edge {
-    uint32_t from, to, triangle;
-    auto ends() const { return std::pair(from, to); }
+// A side of a triangle, between two places; the one that sorts first is `low`.
+struct Side {
+    uint32_t low, high, triangle;
+    bool rises; // from low to high
+    auto edge() const { return std::pair(low, high); }
 };
 
-} // namespace
-
-bool isClosed(const Mesh& mesh) {
+std::vector<Side> sidesByEdge(const Mesh& mesh) {
     const std::vector<uint32_t> places = weld(mesh);
-    std::vector<Edge> edges, opposite; // the latter the other way
+    std::vector<Side> sides;
     for (uint32_t t = 0; t < mesh.triangleCount(); t++)
         for (int c = 0; c < 3; c++) {
             const uint32_t from = places[mesh.triangles[t][c]], to = places[mesh.triangles[t][(c + 1) % 3]];
-            if (from == to) continue;
-            edges.push_back({from, to, t});
-            opposite.push_back({to, from, t});
+            if (from != to) sides.push_back({std::min(from, to), std::max(from, to), t, from < to});
         }
-    std::ranges::sort(edges, {}, &Edge::ends);
-    std::ranges::sort(opposite, {}, &Edge::ends);
-    if (edges.empty() || !std::ranges::equal(edges, opposite, {}, &Edge::ends, &Edge::ends) ||
-        std::ranges::adjacent_find(edges, {}, &Edge::ends) != edges.end())
-        return false;
-    // Pieces meet at edges: those that touch at a place alone may face different ways.
+    std::ranges::sort(sides, {}, &Side::edge);
+    return sides;
+}
+
+// Six times the volume between a triangle and a point: positive where the point is behind it.
+double volumeBehind(const Mesh& mesh, uint32_t triangle, const glm::dvec3& point) {
+    const uvec3 t = mesh.triangles[triangle];
+    const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point, b = glm::dvec3(mesh.positions[t.y]) - point,
+                     c = glm::dvec3(mesh.positions[t.z]) - point;
+    return glm::dot(a, glm::cross(b, c));
+}
+
+} // namespace
+
+std::vector<bool> trianglesOfClosedPieces(const Mesh& mesh) {
+    std::vector<Side> sides = sidesByEdge(mesh);
+    const auto endOfRun = [&](auto first, auto same) {
+        return std::find_if_not(first, sides.end(), [&](const Side& side) { return same(side, *first); });
+    };
+    // Pieces meet at edges of two triangles: those that touch at a place, or at an edge of more, may face
+    // different ways.
     std::vector<uint32_t> pieces(mesh.triangleCount());
     std::iota(pieces.begin(), pieces.end(), 0u);
-    for (size_t i = 0; i < edges.size(); i++)
-        pieces[root(pieces, edges[i].triangle)] = root(pieces, opposite[i].triangle);
+    for (auto first = sides.begin(); first != sides.end();) {
+        const auto end = endOfRun(first, [](const Side& a, const Side& b) { return a.edge() == b.edge(); });
+        if (end - first == 2) pieces[root(pieces, first->triangle)] = root(pieces, first[1].triangle);
+        first = end;
+    }
     std::vector<double> volumes(mesh.triangleCount(), 0);
     const glm::dvec3 middle(boundsOf(mesh).centre());
-    for (uint32_t t = 0; t < mesh.triangleCount(); t++) {
-        const uvec3 triangle = mesh.triangles[t];
-        const glm::dvec3 a = glm::dvec3(mesh.positions[triangle.x]) - middle,
-                         b = glm::dvec3(mesh.positions[triangle.y]) - middle,
-                         c = glm::dvec3(mesh.positions[triangle.z]) - middle;
-        volumes[root(pieces, t)] += glm::dot(a, glm::cross(b, c));
+    for (uint32_t t = 0; t < mesh.triangleCount(); t++)
+        volumes[root(pieces, t)] += volumeBehind(mesh, t, middle);
+
+    // A piece goes along each edge as often one way as the other.
+    const auto edgeOfPiece = [&](const Side& side) {
+        return std::tuple(side.low, side.high, root(pieces, side.triangle));
+    };
+    std::ranges::sort(sides, {}, edgeOfPiece);
+    for (auto first = sides.begin(); first != sides.end();) {
+        const auto end =
+            endOfRun(first, [&](const Side& a, const Side& b) { return edgeOfPiece(a) == edgeOfPiece(b); });
+        if (2 * std::count_if(first, end, [](const Side& side) { return side.rises; }) != end - first)
+            volumes[root(pieces, first->triangle)] = 0;
+        first = end;
     }
-    // Triangles of a single place have no edges and cannot be seen.
-    return std::ranges::all_of(edges,
-                               [&](const Edge& edge) { return volumes[root(pieces, edge.triangle)] > 0; });
+    std::vector<bool> isOfClosed(mesh.triangleCount());
+    for (uint32_t t = 0; t < mesh.triangleCount(); t++) isOfClosed[t] = volumes[root(pieces, t)] > 0;
+    return isOfClosed;
+}
+
+bool isClosed(const Mesh& mesh) {
+    const std::vector<bool> isOfClosed = trianglesOfClosedPieces(mesh);
+    for (uint32_t t = 0; t < mesh.triangleCount(); t++) {
+        const uvec3 corners = mesh.triangles[t];
+        const vec3 place = mesh.positions[corners.x];
+        const bool isInOnePlace = mesh.positions[corners.y] == place && mesh.positions[corners.z] == place;
+        if (!isOfClosed[t] && !isInOnePlace) return false;
+    }
+    return std::ranges::find(isOfClosed, true) != isOfClosed.end();
 }
 
 } // namespace relume

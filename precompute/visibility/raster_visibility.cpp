@@ -1,5 +1,6 @@
 #include "precompute/visibility/raster_visibility.h"
 
+#include "engine/scene/closed_mesh.h"
 #include "engine/vk/result.h"
 #include "engine/vk/upload.h"
 #include "shaders/visibility_cull_comp.h"
@@ -18,41 +19,56 @@ namespace {
 
 constexpr size_t kClusterVertices = 255;
 
-// Few enough that most of a cluster shows in a face where its sphere does: with an occluder of 2,000
-// triangles a point of the bunny draws 1,400 over its faces in clusters of 16, and 5,500 in clusters of 256.
-// Many small clusters of large meshes cost more in draws than they leave out.
+// The height below the horizon down to which is drawn, of the occluder's radius: rounding must not leave out
+// what rises above the horizon.
+constexpr float kBelowHorizon = 0.01f;
+
+// A margin of the cosine that culls: triangles seen on edge may turn when the rasteriser rounds their
+// corners.
+constexpr float kConeMargin = 0.01f;
+
+// Returns the most triangles of a cluster: few enough that most of them show in a face where its box does.
+// With an occluder of 2,000 triangles clusters of 16 draw a quarter of what those of 256 do. Many small
+// clusters of large meshes cost more in draws than they leave out.
 size_t clusterTriangles(size_t triangles) {
     constexpr size_t kClusters = 128;
     return std::clamp<size_t>(triangles / kClusters / 4 * 4, 16, 128);
 }
 
-// Groups the occluder's triangles into compact clusters; `indices` receives their corners, cluster by
-// cluster.
-std::vector<shared::TriangleCluster> makeClusters(const Mesh& mesh, std::vector<uint32_t>& indices) {
-    const auto* corners = &mesh.triangles[0].x;
-    const auto* positions = &mesh.positions[0].x;
-    const size_t indexCount = 3 * mesh.triangleCount(), most = clusterTriangles(mesh.triangleCount());
-    std::vector<meshopt_Meshlet> meshlets(meshopt_buildMeshletsBound(indexCount, kClusterVertices, most));
+// Groups triangles into compact clusters, and appends them and their corners. Of those with `backsAlone`
+// nothing but triangles that face away from a point is drawn.
+void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backsAlone,
+                 std::vector<shared::TriangleCluster>& clusters, std::vector<uint32_t>& indices) {
+    if (corners.empty()) return;
+    const float* positions = &mesh.positions[0].x;
+    const size_t most = clusterTriangles(mesh.triangleCount());
+    const float weightOfFacing = backsAlone ? 0.5f : 0.0f; // against that of being near
+    std::vector<meshopt_Meshlet> meshlets(meshopt_buildMeshletsBound(corners.size(), kClusterVertices, most));
     std::vector<unsigned> vertices(meshlets.size() * kClusterVertices);
     std::vector<unsigned char> triangles(meshlets.size() * most * 3);
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(), corners,
-                                          indexCount, positions, mesh.vertexCount(), sizeof(vec3),
-                                          kClusterVertices, most, 0.0f));
-    std::vector<shared::TriangleCluster> clusters;
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(), corners.data(),
+                                          corners.size(), positions, mesh.vertexCount(), sizeof(vec3),
+                                          kClusterVertices, most, weightOfFacing));
     for (const meshopt_Meshlet& meshlet : meshlets) {
         Bounds box;
         const auto firstIndex = uint32_t(indices.size());
-        for (unsigned i = 0; i < 3 * meshlet.triangle_count; i++) {
+        const uint32_t count = 3 * meshlet.triangle_count;
+        for (uint32_t i = 0; i < count; i++) {
             indices.push_back(vertices[meshlet.vertex_offset + triangles[meshlet.triangle_offset + i]]);
             box.add(mesh.positions[indices.back()]);
         }
-        // A sphere about the box's centre, grown a little so that rounding never culls what it should not.
-        float radius = 0;
-        for (size_t i = firstIndex; i < indices.size(); i++)
-            radius = std::max(radius, glm::length(mesh.positions[indices[i]] - box.centre()));
-        clusters.push_back({box.centre(), radius * 1.0001f, firstIndex, 3 * meshlet.triangle_count});
+        shared::TriangleCluster& cluster = clusters.emplace_back();
+        cluster = {box.centre(), 0.5f * (box.high - box.low), vec3(0), vec3(0), 2, firstIndex, count};
+        if (!backsAlone) continue;
+        // meshoptimizer finds where backs alone are seen from; turned round, these are the fronts.
+        std::vector<uint32_t> turned(indices.rbegin(), indices.rbegin() + count);
+        const meshopt_Bounds cone =
+            meshopt_computeClusterBounds(turned.data(), count, positions, mesh.vertexCount(), sizeof(vec3));
+        const auto vector = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
+        cluster.apex = vector(cone.cone_apex);
+        cluster.axis = vector(cone.cone_axis);
+        cluster.cutoff = cone.cone_cutoff + kConeMargin;
     }
-    return clusters;
 }
 
 } // namespace
@@ -64,10 +80,11 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
 
 RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size,
                                    uint32_t capacity, float nearDistance, Culling culling, Layers layers)
-    : mSize(size), mCapacity(capacity), mIsLayered(layers == Layers::Together), mNearDistance(nearDistance) {
+    : mSize(size), mCapacity(capacity), mIsLayered(layers == Layers::Together), mNearDistance(nearDistance),
+      mBelowHorizon(std::max(kBelowHorizon * boundsOf(occluder).radius(), nearDistance)) {
     RELUME_CHECK_EQ(size % 32, 0u);
     if (mIsLayered) RELUME_CHECK_LE(6 * capacity, device.info().largestLayerCount);
-    createGeometry(device, occluder);
+    createGeometry(device, occluder, culling);
     mLayers = {device, mIsLayered ? uint64_t(mClusterCount) * 6 * capacity * 4 : 4, vk::BufferUse::Device,
                "visibility layers"};
     mBlocked = {device, 6ull * capacity * size * size, vk::BufferUse::Device, "visibility blocked"};
@@ -83,10 +100,11 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
     mPack = {device, visibility_pack_comp_spirv, {size}, "visibility pack"};
     vk::GraphicsOptions options;
     options.colorFormat = VK_FORMAT_R8_UINT;
-    if (mIsLayered)
-        mDraw = {device, visibility_vert_spirv, visibility_frag_spirv, {}, options, "visibility draw"};
-    else
-        mDraw = {device, visibility_face_vert_spirv, visibility_frag_spirv, {}, options, "visibility draw"};
+    const std::span<const uint32_t> vertex =
+        mIsLayered ? std::span<const uint32_t>(visibility_vert_spirv) : visibility_face_vert_spirv;
+    mDraw = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw"};
+    options.cull = vk::Cull::Clockwise; // these are the fronts: images of a cube's faces are mirrored
+    mDrawBacks = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw backs"};
 }
 
 Kernels RasterVisibility::kernels() {
@@ -94,13 +112,21 @@ Kernels RasterVisibility::kernels() {
             visibility_face_vert_spirv,       visibility_frag_spirv,      visibility_pack_comp_spirv};
 }
 
-void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occluder) {
+void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occluder, Culling culling) {
     std::vector<uint32_t> indices;
     std::vector<shared::TriangleCluster> clusters;
-    if (occluder.triangleCount() > 0) clusters = makeClusters(occluder, indices);
+    std::vector<uint32_t> closed, open;
+    const std::vector<bool> isOfClosed = trianglesOfClosedPieces(occluder);
+    for (size_t t = 0; t < occluder.triangleCount(); t++) {
+        const uvec3 triangle = occluder.triangles[t];
+        std::vector<uint32_t>& corners = culling == Culling::On && isOfClosed[t] ? closed : open;
+        corners.insert(corners.end(), {triangle.x, triangle.y, triangle.z});
+    }
+    addClusters(occluder, closed, true, clusters, indices);
+    mClosedCount = uint32_t(clusters.size());
+    addClusters(occluder, open, false, clusters, indices);
     // A cluster without triangles keeps the passes the same for an empty occluder.
-    else
-        clusters.push_back({vec3(0), 0, 0, 0});
+    if (clusters.empty()) clusters.emplace_back();
     mClusterCount = uint32_t(clusters.size());
     const uint64_t ofBatch = mIsLayered ? uint64_t(mClusterCount) * 6 * mCapacity * sizeof(uint32_t)
                                         : drawCount(mCapacity) * sizeof(VkDrawIndexedIndirectCommand);
@@ -122,14 +148,28 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
               "visibility draws"};
 }
 
+// Draws backs alone of closed surfaces: a ray that meets one leaves it through a back at last, even from
+// inside.
+void RasterVisibility::drawClusters(vk::Commands& commands, std::initializer_list<vk::Binding> bindings,
+                                    const shared::VisibilityPush& push, uint64_t firstDraw) const {
+    if (mClosedCount > 0) {
+        commands.bind(mDrawBacks, bindings, push);
+        commands.drawIndexedIndirect(mIndices, mDraws, mClosedCount, firstDraw);
+    }
+    if (mClosedCount < mClusterCount) {
+        commands.bind(mDraw, bindings, push);
+        commands.drawIndexedIndirect(mIndices, mDraws, mClusterCount - mClosedCount,
+                                     firstDraw + mClosedCount);
+    }
+}
+
 void RasterVisibility::recordTogether(vk::Commands& commands, const vk::Buffer& points,
                                       uint32_t layers) const {
     using enum vk::Stage;
     commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         Transfer, Color);
     commands.render({.color = &mTarget, .layers = layers}, [&] {
-        commands.bind(mDraw, {points, mPositions, mLayers}, shared::VisibilityPush{mNearDistance, 0});
-        commands.drawIndexedIndirect(mIndices, mDraws, mClusterCount);
+        drawClusters(commands, {points, mPositions, mLayers}, {mNearDistance, mBelowHorizon, 0}, 0);
     });
     commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Color, Transfer);
@@ -143,8 +183,8 @@ void RasterVisibility::recordOneByOne(vk::Commands& commands, const vk::Buffer& 
         commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             Transfer, Color);
         commands.render({.color = &mTarget}, [&] {
-            commands.bind(mDraw, {points, mPositions}, shared::VisibilityPush{mNearDistance, layer});
-            commands.drawIndexedIndirect(mIndices, mDraws, mClusterCount, uint64_t(layer) * mClusterCount);
+            drawClusters(commands, {points, mPositions}, {mNearDistance, mBelowHorizon, layer},
+                         uint64_t(layer) * mClusterCount);
         });
         commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Color, Transfer);

@@ -9,7 +9,8 @@ namespace relume {
 // six layers a point: all at once where vertex shaders can choose the layer, else one by one.
 class RasterVisibility : public Visibility {
   public:
-    // Whether clusters that cannot show in a face are left out; the bits are the same.
+    // Whether clusters that cannot show in a face, and fronts of closed surfaces, are left out; the bits are
+    // the same.
     enum class Culling { On, Off };
     // How layers are drawn; the bits are the same. Together is for devices with DeviceInfo::outputsLayers.
     enum class Layers { Together, OneByOne };
@@ -30,7 +31,9 @@ class RasterVisibility : public Visibility {
     uint64_t drawnTriangles(const vk::Device& device, uint32_t count) const;
 
   private:
-    void createGeometry(const vk::Device& device, const Mesh& occluder);
+    void createGeometry(const vk::Device& device, const Mesh& occluder, Culling culling);
+    void drawClusters(vk::Commands& commands, std::initializer_list<vk::Binding> bindings,
+                      const shared::VisibilityPush& push, uint64_t firstDraw) const;
     void recordTogether(vk::Commands& commands, const vk::Buffer& points, uint32_t layers) const;
     void recordOneByOne(vk::Commands& commands, const vk::Buffer& points, uint32_t layers) const;
     // Indirect draws of so many points.
@@ -38,12 +41,13 @@ class RasterVisibility : public Visibility {
 
     uint32_t mSize, mCapacity;
     bool mIsLayered;
-    float mNearDistance;
+    float mNearDistance, mBelowHorizon;
     uint32_t mClusterCount = 0;
+    uint32_t mClosedCount = 0; // the first clusters are of closed surfaces
     vk::Buffer mPositions, mIndices, mClusters, mDraws, mLayers, mBlocked;
     vk::Image mTarget; // of all layers, or of one
     vk::ComputeProgram mReset, mCull, mPack;
-    vk::GraphicsProgram mDraw;
+    vk::GraphicsProgram mDraw, mDrawBacks;
 };
 
 } // namespace relume

@@ -15,11 +15,14 @@ RELUME_SHARED_SIZE(BakePoint, 36)
 
 // A few neighbouring triangles of the occluder: one indirect draw, instanced over the layers it touches.
 struct TriangleCluster {
-    vec3 centre; // Bounding sphere
-    float radius;
+    vec3 centre, extent; // Bounding box: the middle, and half its size
+    // From points p where dot(normalize(apex - p), axis) ≥ cutoff no back is seen; cutoff is above 1 where
+    // fronts count too.
+    vec3 apex, axis;
+    float cutoff;
     uint firstIndex, indexCount;
 };
-RELUME_SHARED_SIZE(TriangleCluster, 24)
+RELUME_SHARED_SIZE(TriangleCluster, 60)
 
 struct CullPush {
     uint layers; // 6 × points of this batch
@@ -29,9 +32,10 @@ RELUME_SHARED_SIZE(CullPush, 8)
 
 struct VisibilityPush {
     float nearDistance; // along a face's axis; what lies nearer casts no shadow
+    float belowHorizon; // what lies so far below the point's horizon is not drawn
     uint layer;         // of visibility_face.vert: 6 × point + face
 };
-RELUME_SHARED_SIZE(VisibilityPush, 8)
+RELUME_SHARED_SIZE(VisibilityPush, 12)
 
 struct PackVisibilityPush {
     uint words; // of this batch: points × 6 × size² / 32

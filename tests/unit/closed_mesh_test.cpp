@@ -65,6 +65,24 @@ TEST_CASE("closed mesh: pieces that touch at one place are apart") {
     CHECK_FALSE(isClosed(inwards));
 }
 
+TEST_CASE("closed mesh: pieces that share an edge are apart, each closed or not") {
+    Mesh tetrahedron;
+    tetrahedron.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    tetrahedron.triangles = {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}};
+    REQUIRE(isClosed(tetrahedron));
+    Mesh opposite = tetrahedron; // shares the edge from 0 to 1
+    for (vec3& position : opposite.positions) position = {-position.x, -position.y, position.z};
+    Mesh outwards = tetrahedron, inwards = tetrahedron, open = tetrahedron;
+    append(outwards, opposite);
+    append(inwards, turnedInsideOut(opposite));
+    opposite.triangles.pop_back();
+    append(open, opposite);
+    CHECK(isClosed(outwards));
+    const std::vector<bool> first{true, true, true, true, false, false, false, false};
+    CHECK(trianglesOfClosedPieces(inwards) == first);
+    CHECK(trianglesOfClosedPieces(open) == std::vector<bool>(first.begin(), first.end() - 1));
+}
+
 TEST_CASE("numbered triangles: each begins with the vertex of its number, and is what it was") {
     Mesh fan = makePlane(1, 1);
     fan.triangles.clear();
