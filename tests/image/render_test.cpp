@@ -5,6 +5,7 @@
 #include "engine/scene/builtin_mesh.h"
 #include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
+#include "precompute/bake/bake_preset.h"
 #include "precompute/reference/reference_image.h"
 #include "tests/support/test_device.h"
 
@@ -16,13 +17,16 @@ namespace {
 
 constexpr int kWidth = 120, kHeight = 90;
 
-Asset bakeKnot(const vk::Device& device, const std::string& material, int coefficients, int vertices) {
+Asset bakeKnot(const vk::Device& device, const std::string& material, const BakeOptions& options) {
     Scene scene;
-    scene.parts.push_back({"knot", makeKnot(vertices), material, "built-in knot", ""});
-    BakeOptions options;
-    options.factorization = {}; // signed terms, which are drawn alone
-    options.coefficients = coefficients;
+    scene.parts.push_back({"knot", makeKnot(3000), material, "built-in knot", ""});
     return bake(device, std::move(scene), options);
+}
+
+Asset bakeDiffuseKnot(const vk::Device& device, int coefficients) {
+    BakeOptions options;
+    options.coefficients = coefficients;
+    return bakeKnot(device, "grey-diffuse", options);
 }
 
 Camera viewOf(const Asset& asset) {
@@ -64,18 +68,16 @@ TEST_CASE("image: a diffuse knot under the sky is its reference") {
     const TestDevice device;
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
     // What remains at all coefficients is interpolation between vertices and facets against smooth normals.
-    CHECK_LE(relativeRmse(device, bakeKnot(device, "grey-diffuse", 6 * 64 * 64, 3000), sky,
-                          ReferenceBrdf::Exact, 0),
-             0.02);
-    CHECK_LE(relativeRmse(device, bakeKnot(device, "grey-diffuse", 96, 3000), sky, ReferenceBrdf::Exact,
-                          kPaperLightThreshold),
-             0.05);
+    CHECK_LE(relativeRmse(device, bakeDiffuseKnot(device, 6 * 64 * 64), sky, ReferenceBrdf::Exact, 0), 0.02);
+    CHECK_LE(
+        relativeRmse(device, bakeDiffuseKnot(device, 96), sky, ReferenceBrdf::Exact, kPaperLightThreshold),
+        0.05);
 }
 
 TEST_CASE("image: edges are as the reference has them") {
     const TestDevice device;
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
-    const Asset asset = bakeKnot(device, "grey-diffuse", 6 * 64 * 64, 3000);
+    const Asset asset = bakeDiffuseKnot(device, 6 * 64 * 64);
     const Image image = relit(device, asset, sky, 0, kDefaultSamples);
     for (const int samples : {1, kDefaultSamples}) {
         const Image reference = renderReference(asset, viewOf(asset), sky,
@@ -98,11 +100,11 @@ TEST_CASE("image: edges are as the reference has them") {
     }
 }
 
-TEST_CASE("image: a glossy knot under the sky is the reference of its factors") {
+TEST_CASE("image: a glossy knot baked the paper's way is the reference of its factors") {
     const TestDevice device;
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
-    CHECK_LE(relativeRmse(device, bakeKnot(device, "ashikhmin-shirley", 96, 3000), sky,
-                          ReferenceBrdf::Factored, kPaperLightThreshold),
+    CHECK_LE(relativeRmse(device, bakeKnot(device, "ashikhmin-shirley", presetOptions(BakePreset::Paper)),
+                          sky, ReferenceBrdf::Factored, kPaperLightThreshold),
              0.08);
 }
 
