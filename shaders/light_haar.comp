@@ -2,6 +2,7 @@
 // Orthonormal 2D Haar transform of the lighting cube: a work-group per face and channel.
 // C++ twin: haarForward() in engine/math/haar.h.
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/light.h"
 
 layout(local_size_x = 128) in;
 layout(constant_id = 0) const uint kSize = 64;
@@ -17,6 +18,12 @@ uint place(uint x, uint y) {
     return 3 * ((face * kSize + y) * kSize + x) + channel;
 }
 
+// Returns a texel's radiance, of which what is next to none counts as none.
+float radianceAt(uint x, uint y) {
+    const float value = radiance[place(x, y)];
+    return abs(value) < kLeastRadiance ? 0 : value;
+}
+
 void main() {
     uint level = 0;
     for (uint side = kHalf; side >= 1; side /= 2) {
@@ -24,10 +31,10 @@ void main() {
             const uint x = block % side, y = block / side;
             float a, b, c, d;
             if (side == kHalf) {
-                a = radiance[place(2 * x, 2 * y)];
-                b = radiance[place(2 * x + 1, 2 * y)];
-                c = radiance[place(2 * x, 2 * y + 1)];
-                d = radiance[place(2 * x + 1, 2 * y + 1)];
+                a = radianceAt(2 * x, 2 * y);
+                b = radianceAt(2 * x + 1, 2 * y);
+                c = radianceAt(2 * x, 2 * y + 1);
+                d = radianceAt(2 * x + 1, 2 * y + 1);
             } else {
                 const uint from = 4 * y * side + 2 * x;
                 a = averages[1 - level][from];

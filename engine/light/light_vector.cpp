@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
+#include "shaders/shared/light.h"
 
 #include <algorithm>
 #include <bit>
@@ -23,11 +24,17 @@ std::vector<vec3> transformFaces(const LightCube& cube, void (*haar)(std::span<v
     return values;
 }
 
-// Coefficients that a device may flush to zero are zero.
-float componentOf(float coefficient) {
-    RELUME_CHECK(std::isfinite(coefficient));
-    return std::abs(coefficient) < std::numeric_limits<float>::min() ? 0 : coefficient;
+LightCube withoutLeast(LightCube cube) {
+    for (vec3& texel : cube.radiance)
+        for (int c = 0; c < 3; c++) {
+            RELUME_CHECK(std::isfinite(texel[c]));
+            if (std::abs(texel[c]) < shared::kLeastRadiance) texel[c] = 0;
+        }
+    return cube;
 }
+
+// Weights that a device may flush to zero are zero.
+float flushed(float weight) { return weight < std::numeric_limits<float>::min() ? 0 : weight; }
 
 float largestComponent(vec3 c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
@@ -45,8 +52,8 @@ std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
     std::vector<float> weights;
     for (uint32_t i = 0; i < coefficients.size(); i++) {
         const int x = int(i) % size, y = int(i) / size % size;
-        weights.push_back(componentOf(largestComponent(coefficients[i]) *
-                                      (selection.isAreaWeighted() ? areaOf(x, y) : 1.0f)));
+        weights.push_back(
+            flushed(largestComponent(coefficients[i]) * (selection.isAreaWeighted() ? areaOf(x, y) : 1.0f)));
     }
     std::vector<uint32_t> kept;
     for (uint32_t i = 0; i < weights.size(); i++)
@@ -73,12 +80,9 @@ ivec3 quantise(vec3 coefficient, double step) {
 
 LightVector makeLightVector(const LightCube& cube, const LightSelection& selection) {
     RELUME_CHECK_LE(cube.radiance.size(), size_t(kMaximumLightEntries));
-    std::vector<vec3> coefficients = transformFaces(cube, haarForward);
+    const std::vector<vec3> coefficients = transformFaces(withoutLeast(cube), haarForward);
     float largest = 0;
-    for (vec3& c : coefficients) {
-        c = {componentOf(c.x), componentOf(c.y), componentOf(c.z)};
-        largest = std::max(largest, largestComponent(c));
-    }
+    for (const vec3& c : coefficients) largest = std::max(largest, largestComponent(c));
     LightVector vector{.faceSize = cube.size, .scale = 0, .error = 0, .indices = {}, .values = {}};
     if (largest == 0) return vector;
 

@@ -23,10 +23,11 @@ struct LightVector {
 };
 
 // CPU twin of the light passes:
-//   1. c = the Haar transform of each face; m = the largest |component| of all. Components below 2^-126 count
-//      as 0: devices may flush them. Without any other, nothing is kept.
+//   1. Texels' components below kLeastRadiance count as 0, so that no sum or difference is less than a normal
+//      float, which devices may flush. c = the Haar transform of each face; m = the largest |component| of
+//      all. Of no light nothing is kept.
 //   2. Kept is what `selection` says.
-//   3. step = the smallest power of two, from 2^-126, with m / step ≤ kLightMaximum and, for every channel,
+//   3. step = the smallest power of two with m / step ≤ kLightMaximum and, for every channel,
 //      Σ|q| ≤ kLightSumLimit over the kept, where q = sign(c) floor(|c| / step + ½).
 //   4. values of the kept: q, without those that are all zero; scale = step;
 //      error = √(Σ (c - step q)² / Σ c²) over all entries and channels, q = 0 for those not kept.

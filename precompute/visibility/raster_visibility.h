@@ -9,8 +9,9 @@ namespace relume {
 // six layers a point: all at once where vertex shaders can choose the layer, else one by one.
 class RasterVisibility : public Visibility {
   public:
-    // Whether clusters that cannot show in a face, and fronts of closed surfaces, are left out; the bits are
-    // the same.
+    // Whether clusters that cannot show in a face, and fronts of closed surfaces, are left out. The bits are
+    // the same, but for a texel in a million at rims on devices that tell backs from fronts before they round
+    // corners.
     enum class Culling { On, Off };
     // How layers are drawn; the bits are the same. Together is for devices with DeviceInfo::outputsLayers.
     enum class Layers { Together, OneByOne };

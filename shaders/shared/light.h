@@ -5,6 +5,10 @@
 
 RELUME_SHARED_BEGIN
 
+// The least radiance that is light: 2^-90. A cube of less, or none, has no denormal coefficients, which
+// devices may flush to zero.
+const float kLeastRadiance = 8.0779356694631609e-28f;
+
 // A disc on the sphere of directions, as it is averaged over texels: engine/light/cap.h.
 struct LightCap {
     vec3 centres[6]; // unit vector, in each face's frame: right, down, forward

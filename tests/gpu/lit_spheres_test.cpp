@@ -84,6 +84,9 @@ vec3 exactRadiance(const LightCube& light, const Brdf& brdf, vec3 view, vec3 mir
 
 TEST_CASE("lit spheres: the device makes those of the twin") {
     const TestDevice device;
+    // Most samplers round bilinear weights to 8 bits.
+    const bool roundsLess = static_cast<const vk::Device&>(device).info().driver.starts_with("llvmpipe");
+    const double filtering = roundsLess ? 2e-3 : 1e-2;
     const LightCube light = skyCube();
     const Material gold = makeMaterial("gold", 5), steel = makeMaterial("brushed-steel", 4);
     const std::shared_ptr<ResidualSet> sets[] = {residualOf(gold), residualOf(steel)};
@@ -109,13 +112,12 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
         const std::vector<CellLight> lights = cellLights(light);
         for (uint32_t i = 0; i < 2; i++) {
             const SphereKernel& kernel = *sets[i]->layers[0];
-            // Samplers round bilinear weights to 8 bits.
             CHECK(relativeError(
                       spheres.readTuples(sets[i].get()),
                       unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors, hasTangents)) < 2e-3);
             for (const uint32_t node : {40u, 79u})
                 CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node),
-                                    litSpheres(kernel, polarLight(cube, gridDirection(node)))) < 2e-3);
+                                    litSpheres(kernel, polarLight(cube, gridDirection(node)))) < filtering);
         }
     }
 }
