@@ -113,7 +113,7 @@ TEST_CASE("pipeline cache: a device saves it, the next one begins with it") {
     const auto kept = vk::unpackPipelineCache(propertiesOf(next), file);
     REQUIRE_FALSE(kept.empty());
     CHECK(std::ranges::equal(kept, used));
-    CHECK_EQ(dataOf(next), used);
+    CHECK_GE(dataOf(next).size(), used.size()); // drivers need not give the same bytes back
     MESSAGE("this driver keeps ", kept.size(), " bytes");
 }
 
