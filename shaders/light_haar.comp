@@ -18,8 +18,8 @@ uint place(uint x, uint y) {
     return 3 * ((face * kSize + y) * kSize + x) + channel;
 }
 
-// Returns a texel's radiance, of which what is next to none counts as none.
-float radianceAt(uint x, uint y) {
+// Returns a texel's radiance, or 0 if it is below kLeastRadiance.
+float loadRadiance(uint x, uint y) {
     const float value = radiance[place(x, y)];
     return abs(value) < kLeastRadiance ? 0 : value;
 }
@@ -31,10 +31,10 @@ void main() {
             const uint x = block % side, y = block / side;
             float a, b, c, d;
             if (side == kHalf) {
-                a = radianceAt(2 * x, 2 * y);
-                b = radianceAt(2 * x + 1, 2 * y);
-                c = radianceAt(2 * x, 2 * y + 1);
-                d = radianceAt(2 * x + 1, 2 * y + 1);
+                a = loadRadiance(2 * x, 2 * y);
+                b = loadRadiance(2 * x + 1, 2 * y);
+                c = loadRadiance(2 * x, 2 * y + 1);
+                d = loadRadiance(2 * x + 1, 2 * y + 1);
             } else {
                 const uint from = 4 * y * side + 2 * x;
                 a = averages[1 - level][from];

@@ -1,7 +1,7 @@
 #version 460
 // Decides which clusters of the occluder are drawn into which cube faces: a cluster is left out when its
 // bounding box lies wholly below the point's horizon, behind the face, or outside the face's pyramid, or when it
-// is part of a closed surface and shows the point no back.
+// is part of a closed surface and shows the point front faces only.
 // The order of instances is not deterministic, but the image is: every triangle writes the same value.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -22,7 +22,7 @@ layout(binding = 3, scalar) writeonly buffer Layers { uint instanceLayers[]; };
 
 bool canShow(BakePoint point, TriangleCluster cluster, uint face) {
     const vec3 centre = cluster.centre - point.origin;
-    const vec3 extent = cluster.extent + 1e-6 * (abs(centre) + cluster.extent); // rounding leaves nothing out
+    const vec3 extent = cluster.extent + 1e-6 * (abs(centre) + cluster.extent); // a margin for rounding
     if (dot(point.normal, centre) + dot(abs(point.normal), extent) <= 0) return false;
     if (dot(normalize(cluster.apex - point.origin), cluster.axis) >= cluster.cutoff) return false;
     // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z.

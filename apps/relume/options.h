@@ -113,8 +113,7 @@ void tellSamples(int drawn, int wanted, const vk::Device& device);
 
 float radians(float degrees);
 
-// Adds an option that takes the name of one of `choices` and stores what it stands for. Help shows the names,
-// and the error of a wrong one does.
+// Adds an option whose value is chosen by name. Help and errors list the names.
 template <typename Value>
 CLI::Option* addChoice(CLI::App& command, const std::string& option, Value& value,
                        const std::map<std::string, Value>& choices, const std::string& help) {

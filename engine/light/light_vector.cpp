@@ -24,7 +24,7 @@ std::vector<vec3> transformFaces(const LightCube& cube, void (*haar)(std::span<v
     return values;
 }
 
-LightCube withoutLeast(LightCube cube) {
+LightCube dropFaintTexels(LightCube cube) {
     for (vec3& texel : cube.radiance)
         for (int c = 0; c < 3; c++) {
             RELUME_CHECK(std::isfinite(texel[c]));
@@ -33,8 +33,8 @@ LightCube withoutLeast(LightCube cube) {
     return cube;
 }
 
-// Weights that a device may flush to zero are zero.
-float flushed(float weight) { return weight < std::numeric_limits<float>::min() ? 0 : weight; }
+// Returns zero for a weight that a device may flush to zero.
+float flushDenormal(float weight) { return weight < std::numeric_limits<float>::min() ? 0 : weight; }
 
 float largestComponent(vec3 c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
@@ -52,8 +52,8 @@ std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
     std::vector<float> weights;
     for (uint32_t i = 0; i < coefficients.size(); i++) {
         const int x = int(i) % size, y = int(i) / size % size;
-        weights.push_back(
-            flushed(largestComponent(coefficients[i]) * (selection.isAreaWeighted() ? areaOf(x, y) : 1.0f)));
+        weights.push_back(flushDenormal(largestComponent(coefficients[i]) *
+                                        (selection.isAreaWeighted() ? areaOf(x, y) : 1.0f)));
     }
     std::vector<uint32_t> kept;
     for (uint32_t i = 0; i < weights.size(); i++)
@@ -80,7 +80,7 @@ ivec3 quantise(vec3 coefficient, double step) {
 
 LightVector makeLightVector(const LightCube& cube, const LightSelection& selection) {
     RELUME_CHECK_LE(cube.radiance.size(), size_t(kMaximumLightEntries));
-    const std::vector<vec3> coefficients = transformFaces(withoutLeast(cube), haarForward);
+    const std::vector<vec3> coefficients = transformFaces(dropFaintTexels(cube), haarForward);
     float largest = 0;
     for (const vec3& c : coefficients) largest = std::max(largest, largestComponent(c));
     LightVector vector{.faceSize = cube.size, .scale = 0, .error = 0, .indices = {}, .values = {}};

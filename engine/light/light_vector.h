@@ -23,9 +23,9 @@ struct LightVector {
 };
 
 // CPU twin of the light passes:
-//   1. Texels' components below kLeastRadiance count as 0, so that no sum or difference is less than a normal
-//      float, which devices may flush. c = the Haar transform of each face; m = the largest |component| of
-//      all. Of no light nothing is kept.
+//   1. Components of texels below kLeastRadiance count as 0: sums and differences of the others are normal
+//      floats, which no device flushes to zero. c = the Haar transform of each face; m = the largest
+//      |component| of all. If m is 0, nothing is kept.
 //   2. Kept is what `selection` says.
 //   3. step = the smallest power of two with m / step ≤ kLightMaximum and, for every channel,
 //      Σ|q| ≤ kLightSumLimit over the kept, where q = sign(c) floor(|c| / step + ½).

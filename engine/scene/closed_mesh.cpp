@@ -57,7 +57,7 @@ double volumeBehind(const Mesh& mesh, uint32_t triangle, const glm::dvec3& point
 
 } // namespace
 
-std::vector<bool> trianglesOfClosedPieces(const Mesh& mesh) {
+std::vector<bool> findClosedTriangles(const Mesh& mesh) {
     std::vector<Side> sides = sidesByEdge(mesh);
     const auto endOfRun = [&](auto first, auto same) {
         return std::find_if_not(first, sides.end(), [&](const Side& side) { return same(side, *first); });
@@ -94,7 +94,7 @@ std::vector<bool> trianglesOfClosedPieces(const Mesh& mesh) {
 }
 
 bool isClosed(const Mesh& mesh) {
-    const std::vector<bool> isOfClosed = trianglesOfClosedPieces(mesh);
+    const std::vector<bool> isOfClosed = findClosedTriangles(mesh);
     for (uint32_t t = 0; t < mesh.triangleCount(); t++) {
         const uvec3 corners = mesh.triangles[t];
         const vec3 place = mesh.positions[corners.x];

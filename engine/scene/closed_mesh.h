@@ -7,12 +7,12 @@
 
 namespace relume {
 
-// Returns for every triangle whether it is of a closed piece. Pieces are what edges of two triangles join,
-// whatever vertices the corners are (those in the same place are one). A closed piece goes along each of its
-// edges as often one way as the other, and encloses a volume with its triangles counter-clockwise as seen
-// from outside: from there it shows no back, unless it passes through itself with a part inside out.
-// Triangles in a single place are of no piece.
-std::vector<bool> trianglesOfClosedPieces(const Mesh& mesh);
+// Returns for every triangle whether it belongs to a closed piece. A piece is a set of triangles connected by
+// edges that two triangles share; corners in the same place are one corner. A closed piece runs along each of
+// its edges equally often in both directions and encloses a positive volume, its triangles counter-clockwise
+// seen from outside. From outside it shows no back face, unless it intersects itself with a part inside out.
+// A triangle whose corners are all in the same place belongs to no piece.
+std::vector<bool> findClosedTriangles(const Mesh& mesh);
 
 // Returns whether all triangles but those in a single place are of closed pieces, and there are such.
 bool isClosed(const Mesh& mesh);

@@ -19,12 +19,10 @@ namespace {
 
 constexpr size_t kClusterVertices = 255;
 
-// The height below the horizon down to which is drawn, of the occluder's radius: rounding must not leave out
-// what rises above the horizon.
-constexpr float kBelowHorizon = 0.01f;
+// Horizon margin over the occluder's radius: rounding must not clip what rises above the horizon.
+constexpr float kHorizonMargin = 0.01f;
 
-// A margin of the cosine that culls: triangles seen on edge may turn when the rasteriser rounds their
-// corners.
+// Added to the cosine of a normal cone: rounding a corner may turn a triangle that is seen edge-on.
 constexpr float kConeMargin = 0.01f;
 
 // Returns the most triangles of a cluster: few enough that most of them show in a face where its box does.
@@ -35,20 +33,20 @@ size_t clusterTriangles(size_t triangles) {
     return std::clamp<size_t>(triangles / kClusters / 4 * 4, 16, 128);
 }
 
-// Groups triangles into compact clusters, and appends them and their corners. Of those with `backsAlone`
-// nothing but triangles that face away from a point is drawn.
-void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backsAlone,
+// Appends triangles, given by their corners, as compact clusters. With backFacesOnly clusters also get a
+// normal cone.
+void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backFacesOnly,
                  std::vector<shared::TriangleCluster>& clusters, std::vector<uint32_t>& indices) {
     if (corners.empty()) return;
     const float* positions = &mesh.positions[0].x;
     const size_t most = clusterTriangles(mesh.triangleCount());
-    const float weightOfFacing = backsAlone ? 0.5f : 0.0f; // against that of being near
+    const float coneWeight = backFacesOnly ? 0.5f : 0.0f; // of similar normals, against compactness
     std::vector<meshopt_Meshlet> meshlets(meshopt_buildMeshletsBound(corners.size(), kClusterVertices, most));
     std::vector<unsigned> vertices(meshlets.size() * kClusterVertices);
     std::vector<unsigned char> triangles(meshlets.size() * most * 3);
     meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(), corners.data(),
                                           corners.size(), positions, mesh.vertexCount(), sizeof(vec3),
-                                          kClusterVertices, most, weightOfFacing));
+                                          kClusterVertices, most, coneWeight));
     for (const meshopt_Meshlet& meshlet : meshlets) {
         Bounds box;
         const auto firstIndex = uint32_t(indices.size());
@@ -59,8 +57,9 @@ void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backs
         }
         shared::TriangleCluster& cluster = clusters.emplace_back();
         cluster = {box.centre(), 0.5f * (box.high - box.low), vec3(0), vec3(0), 2, firstIndex, count};
-        if (!backsAlone) continue;
-        // meshoptimizer finds where backs alone are seen from; turned round, these are the fronts.
+        if (!backFacesOnly) continue;
+        // meshoptimizer's cone is where back faces only are seen: those of the reversed triangles are front
+        // faces.
         std::vector<uint32_t> turned(indices.rbegin(), indices.rbegin() + count);
         const meshopt_Bounds cone =
             meshopt_computeClusterBounds(turned.data(), count, positions, mesh.vertexCount(), sizeof(vec3));
@@ -80,8 +79,9 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
 
 RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size,
                                    uint32_t capacity, float nearDistance, Culling culling, Layers layers)
-    : mSize(size), mCapacity(capacity), mIsLayered(layers == Layers::Together), mNearDistance(nearDistance),
-      mBelowHorizon(std::max(kBelowHorizon * boundsOf(occluder).radius(), nearDistance)) {
+    : mSize(size), mCapacity(capacity), mIsLayered(layers == Layers::Together),
+      mHorizonMargin(std::max(kHorizonMargin * boundsOf(occluder).radius(), nearDistance)),
+      mDepthScale(nearDistance / mHorizonMargin) {
     RELUME_CHECK_EQ(size % 32, 0u);
     if (mIsLayered) RELUME_CHECK_LE(6 * capacity, device.info().largestLayerCount);
     createGeometry(device, occluder, culling);
@@ -103,8 +103,8 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
     const std::span<const uint32_t> vertex =
         mIsLayered ? std::span<const uint32_t>(visibility_vert_spirv) : visibility_face_vert_spirv;
     mDraw = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw"};
-    options.cull = vk::Cull::Clockwise; // these are the fronts: images of a cube's faces are mirrored
-    mDrawBacks = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw backs"};
+    options.cull = vk::Cull::Clockwise; // front faces, since the images of a cube's faces are mirrored
+    mDrawBackFaces = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw back faces"};
 }
 
 Kernels RasterVisibility::kernels() {
@@ -116,7 +116,7 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
     std::vector<uint32_t> indices;
     std::vector<shared::TriangleCluster> clusters;
     std::vector<uint32_t> closed, open;
-    const std::vector<bool> isOfClosed = trianglesOfClosedPieces(occluder);
+    const std::vector<bool> isOfClosed = findClosedTriangles(occluder);
     for (size_t t = 0; t < occluder.triangleCount(); t++) {
         const uvec3 triangle = occluder.triangles[t];
         std::vector<uint32_t>& corners = culling == Culling::On && isOfClosed[t] ? closed : open;
@@ -148,12 +148,12 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
               "visibility draws"};
 }
 
-// Draws backs alone of closed surfaces: a ray that meets one leaves it through a back at last, even from
-// inside.
+// Draws closed surfaces by their back faces: a ray that meets such a surface leaves it through a back face,
+// wherever the ray begins.
 void RasterVisibility::drawClusters(vk::Commands& commands, std::initializer_list<vk::Binding> bindings,
                                     const shared::VisibilityPush& push, uint64_t firstDraw) const {
     if (mClosedCount > 0) {
-        commands.bind(mDrawBacks, bindings, push);
+        commands.bind(mDrawBackFaces, bindings, push);
         commands.drawIndexedIndirect(mIndices, mDraws, mClosedCount, firstDraw);
     }
     if (mClosedCount < mClusterCount) {
@@ -169,7 +169,7 @@ void RasterVisibility::recordTogether(vk::Commands& commands, const vk::Buffer& 
     commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         Transfer, Color);
     commands.render({.color = &mTarget, .layers = layers}, [&] {
-        drawClusters(commands, {points, mPositions, mLayers}, {mNearDistance, mBelowHorizon, 0}, 0);
+        drawClusters(commands, {points, mPositions, mLayers}, {mHorizonMargin, mDepthScale, 0}, 0);
     });
     commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Color, Transfer);
@@ -183,7 +183,7 @@ void RasterVisibility::recordOneByOne(vk::Commands& commands, const vk::Buffer& 
         commands.transition(mTarget, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                             Transfer, Color);
         commands.render({.color = &mTarget}, [&] {
-            drawClusters(commands, {points, mPositions}, {mNearDistance, mBelowHorizon, layer},
+            drawClusters(commands, {points, mPositions}, {mHorizonMargin, mDepthScale, layer},
                          uint64_t(layer) * mClusterCount);
         });
         commands.transition(mTarget, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,

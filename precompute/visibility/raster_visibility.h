@@ -9,9 +9,9 @@ namespace relume {
 // six layers a point: all at once where vertex shaders can choose the layer, else one by one.
 class RasterVisibility : public Visibility {
   public:
-    // Whether clusters that cannot show in a face, and fronts of closed surfaces, are left out. The bits are
-    // the same, but for a texel in a million at rims on devices that tell backs from fronts before they round
-    // corners.
+    // On leaves out clusters that cannot show in a face, and front faces of closed surfaces. The bits are the
+    // same, except that a device which culls before it rounds corners may lose a texel in a million at
+    // silhouettes.
     enum class Culling { On, Off };
     // How layers are drawn; the bits are the same. Together is for devices with DeviceInfo::outputsLayers.
     enum class Layers { Together, OneByOne };
@@ -42,13 +42,13 @@ class RasterVisibility : public Visibility {
 
     uint32_t mSize, mCapacity;
     bool mIsLayered;
-    float mNearDistance, mBelowHorizon;
+    float mHorizonMargin, mDepthScale; // as in VisibilityPush
     uint32_t mClusterCount = 0;
     uint32_t mClosedCount = 0; // the first clusters are of closed surfaces
     vk::Buffer mPositions, mIndices, mClusters, mDraws, mLayers, mBlocked;
     vk::Image mTarget; // of all layers, or of one
     vk::ComputeProgram mReset, mCull, mPack;
-    vk::GraphicsProgram mDraw, mDrawBacks;
+    vk::GraphicsProgram mDraw, mDrawBackFaces;
 };
 
 } // namespace relume

@@ -5,13 +5,14 @@
 #include "shaders/lib/cubemap.glsl"
 #include "shaders/shared/bake.h"
 
-// Returns the clip position of a corner of the occluder, as `point` sees it. Depth is not stored, so z is free to
-// clip what need not be drawn: 0 ≤ z leaves out what lies more than `belowHorizon` below the horizon, half of all
-// texels, and z ≤ w what is nearer than about `nearDistance`, as the height above the horizon is at most √3 w there.
+// Returns the clip position of a corner of the occluder, as `point` sees it. No depth is stored, so the planes that clip
+// it do other work: 0 ≤ z clips what lies further below the horizon than the margin, which is half of all that is in view,
+// and z ≤ w clips what is nearer than the near distance. A height in view is at most √3 w, and the scale is small, so
+// that nothing else is clipped.
 vec4 visibilityClip(vec3 corner, BakePoint point, uint face, VisibilityPush push) {
     const vec3 offset = corner - point.origin, local = offset * kFaceAxes[face];
-    const float height = dot(point.normal, offset) + push.belowHorizon;
-    return vec4(local.xy, height * (push.nearDistance / push.belowHorizon), local.z);
+    const float height = dot(point.normal, offset);
+    return vec4(local.xy, push.depthScale * (height + push.horizonMargin), local.z);
 }
 
 #endif

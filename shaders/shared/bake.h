@@ -16,8 +16,8 @@ RELUME_SHARED_SIZE(BakePoint, 36)
 // A few neighbouring triangles of the occluder: one indirect draw, instanced over the layers it touches.
 struct TriangleCluster {
     vec3 centre, extent; // Bounding box: the middle, and half its size
-    // From points p where dot(normalize(apex - p), axis) ≥ cutoff no back is seen; cutoff is above 1 where
-    // fronts count too.
+    // Normal cone: a point p where dot(normalize(apex - p), axis) ≥ cutoff sees front faces only. The cutoff
+    // is above 1 where front faces are drawn too.
     vec3 apex, axis;
     float cutoff;
     uint firstIndex, indexCount;
@@ -31,9 +31,9 @@ struct CullPush {
 RELUME_SHARED_SIZE(CullPush, 8)
 
 struct VisibilityPush {
-    float nearDistance; // along a face's axis; what lies nearer casts no shadow
-    float belowHorizon; // what lies so far below the point's horizon is not drawn
-    uint layer;         // of visibility_face.vert: 6 × point + face
+    float horizonMargin; // height below the point's horizon down to which the occluder is drawn
+    float depthScale;    // near distance over horizonMargin
+    uint layer;          // of visibility_face.vert: 6 × point + face
 };
 RELUME_SHARED_SIZE(VisibilityPush, 12)
 

@@ -5,8 +5,8 @@
 
 RELUME_SHARED_BEGIN
 
-// The least radiance that counts as light, 2^-90: sums and differences of texels that are none or more are
-// normal floats, which no device flushes to zero.
+// The least radiance that counts as light, 2^-90: sums and differences of texels that are 0 or more than this
+// are normal floats.
 const float kLeastRadiance = 8.0779356694631609e-28f;
 
 // A disc on the sphere of directions, as it is averaged over texels: engine/light/cap.h.

@@ -79,8 +79,8 @@ TEST_CASE("closed mesh: pieces that share an edge are apart, each closed or not"
     append(open, opposite);
     CHECK(isClosed(outwards));
     const std::vector<bool> first{true, true, true, true, false, false, false, false};
-    CHECK(trianglesOfClosedPieces(inwards) == first);
-    CHECK(trianglesOfClosedPieces(open) == std::vector<bool>(first.begin(), first.end() - 1));
+    CHECK(findClosedTriangles(inwards) == first);
+    CHECK(findClosedTriangles(open) == std::vector<bool>(first.begin(), first.end() - 1));
 }
 
 TEST_CASE("numbered triangles: each begins with the vertex of its number, and is what it was") {
