@@ -104,7 +104,7 @@ TEST_CASE("pipeline cache: another driver's is not unpacked") {
     CHECK(vk::unpackPipelineCache(driver, vk::packPipelineCache(driver, std::span(data).first(31))).empty());
 }
 
-TEST_CASE("pipeline cache: a device saves it, the next one begins with it") {
+TEST_CASE("pipeline cache: a device saves what its driver gives") {
     const test::TemporaryFolder folder;
     const auto path = folder.path() / "of" / "its own" / "pipelines";
     const Bytes used = dataAfterUse(path);
@@ -113,7 +113,6 @@ TEST_CASE("pipeline cache: a device saves it, the next one begins with it") {
     const auto kept = vk::unpackPipelineCache(propertiesOf(next), file);
     REQUIRE_FALSE(kept.empty());
     CHECK(std::ranges::equal(kept, used));
-    CHECK_GE(dataOf(next).size(), used.size()); // drivers need not give the same bytes back
     MESSAGE("this driver keeps ", kept.size(), " bytes");
 }
 

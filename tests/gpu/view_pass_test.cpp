@@ -112,8 +112,7 @@ class HostView {
     HostView(const vk::Device& device, const Asset& asset, const LightVector& light,
              const Appearance& appearance)
         : mAsset(asset), mLight(light), mAppearance(appearance),
-          // Corners are rounded to 1/256 of a pixel by most devices, to 1/16 by some.
-          mRim(0.02f * std::exp2(std::max(0.0f, 7.0f - float(device.limits().subPixelPrecisionBits)))),
+          mEdgeWeight(roundsFinely(device) ? 0.02f : 0.16f),
           mTracer(std::array{&asset.parts[0].mesh, &asset.parts[1].mesh}) {
         for (size_t i = 0; i < asset.parts.size(); i++)
             mTuples.push_back(relight(rowsOf(setOf(i).transport), light));
@@ -204,7 +203,7 @@ class HostView {
                             lookupMap(brdf.viewMap(layer, term), brdf.size, brdf.mapping, local);
         }
         const float inside = std::min({hit->weights.x, hit->weights.y, hit->weights.z});
-        return {true, inside > mRim && toEye.z > 0.15f, glm::max(radiance, vec3(0))};
+        return {true, inside > mEdgeWeight && toEye.z > 0.15f, glm::max(radiance, vec3(0))};
     }
 
     const MaterialSet& setOf(size_t part) const { return mAsset.parts[part].sets[mAppearance[part].set]; }
@@ -238,7 +237,7 @@ class HostView {
     const Asset& mAsset;
     const LightVector& mLight;
     const Appearance& mAppearance;
-    float mRim; // weight of a corner up to which rounding decides
+    float mEdgeWeight; // barycentric weight up to which a pixel is too near an edge to be steady
     RayTracer mTracer;
     std::vector<std::vector<vec3>> mTuples;
 };
@@ -297,8 +296,8 @@ void checkAgainstHost(const vk::Device& device, const Asset& asset, const Appear
             }
         }
     CHECK_LT(worst, tolerance * largest);
-    CHECK_LT(kWidth * kHeight / 12, covered);
-    CHECK_LT(30, clamped);
+    CHECK_LT(kWidth * kHeight / (roundsFinely(device) ? 4 : 12), covered);
+    CHECK_LT(roundsFinely(device) ? 100 : 30, clamped);
 }
 
 void checkPlain(const vk::Device& device, const Asset& asset) {
@@ -512,9 +511,8 @@ TEST_CASE("view pass: leaving clusters of triangles out changes no pixel") {
             int differ = 0;
             for (size_t pixel = 0; pixel < seen.pixels.size(); pixel++)
                 differ += seen.pixels[pixel] != expected.pixels[pixel];
-            // Where a front and a back meet at a rim, which are as deep there, the order of triangles may
-            // decide.
-            CHECK_LE(differ, isClosed ? 0 : 1);
+            // A front and a back face may tie in depth at a silhouette, where the order of triangles decides.
+            CHECK_LE(differ, isClosed || roundsFinely(device) ? 0 : 1);
         }
     }
 }

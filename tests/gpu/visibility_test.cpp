@@ -238,7 +238,7 @@ TEST_CASE("visibility: layers drawn one by one have the bits of those drawn toge
     CHECK(draw(OneByOne) == draw(Together));
 }
 
-TEST_CASE("visibility: clusters and fronts that are left out change nothing") {
+TEST_CASE("visibility: clusters and front faces that are left out change nothing") {
     const TestDevice device;
     constexpr uint32_t kSize = 128, kBatch = 8;
     Scene scene;
@@ -260,9 +260,8 @@ TEST_CASE("visibility: clusters and fronts that are left out change nothing") {
         size_t differ = 0;
         for (size_t point = 0; point < points.size(); point++)
             differ += differences(fewer[point], expected[point]);
-        // Of 2.4 million texels. Some devices tell backs from fronts before they round corners: at a rim a
-        // back may be lost.
-        CHECK_LE(differ, 4u);
+        // SwiftShader culls before it rounds corners: of 2.4 million texels it loses two at silhouettes.
+        CHECK_LE(differ, roundsFinely(device) ? 0u : 4u);
     }
 }
 

@@ -69,10 +69,10 @@ TEST_CASE("image: a diffuse knot under the sky is its reference") {
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
     // What remains at all coefficients is interpolation between vertices and facets against smooth normals.
     CHECK_LE(relativeRmse(device, bakeDiffuseKnot(device, 6 * 64 * 64), sky, ReferenceBrdf::Exact, 0),
-             0.02 + rimError(device));
+             0.02 + silhouetteError(device));
     CHECK_LE(
         relativeRmse(device, bakeDiffuseKnot(device, 96), sky, ReferenceBrdf::Exact, kPaperLightThreshold),
-        0.05 + rimError(device));
+        0.05 + silhouetteError(device));
 }
 
 TEST_CASE("image: edges are as the reference has them") {
@@ -96,9 +96,9 @@ TEST_CASE("image: edges are as the reference has them") {
         MESSAGE(edges, " pixels are covered in part; ", differ, " in another part in a reference of ",
                 samples, " samples, relative RMSE ", std::sqrt(squares / level));
         CHECK_GT(edges, 100);
-        const double rim = rimError(device); // rounding decides a few
-        CHECK((differ < (0.02 + rim) * edges) == (samples > 1));
-        CHECK((std::sqrt(squares / level) < 0.1 + rim) == (samples > 1));
+        const double rounding = silhouetteError(device); // decides a few pixels
+        CHECK((differ < (0.02 + rounding) * edges) == (samples > 1));
+        CHECK((std::sqrt(squares / level) < 0.1 + rounding) == (samples > 1));
     }
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("image: a glossy knot baked the paper's way is the reference of its fa
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
     CHECK_LE(relativeRmse(device, bakeKnot(device, "ashikhmin-shirley", presetOptions(BakePreset::Paper)),
                           sky, ReferenceBrdf::Factored, kPaperLightThreshold),
-             0.08 + rimError(device));
+             0.08 + silhouetteError(device));
 }
 
 TEST_CASE("image: under an even light a convex diffuse object shows its albedo") {

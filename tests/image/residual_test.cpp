@@ -77,8 +77,8 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
                          compareImages(drawn, reference(asset, sky, ReferenceBrdf::Residual)).relativeRmse;
         MESSAGE(factorizationName(method), ": terms alone ", ofTerms, ", with the residual ", error,
                 ", from the same estimate ", ofEstimate);
-        CHECK_LE(error, 0.5 * ofTerms + rimError(device));
-        CHECK_LE(ofEstimate, 0.06 + rimError(device));
+        CHECK_LE(error, 0.5 * ofTerms + silhouetteError(device));
+        CHECK_LE(ofEstimate, 0.06 + silhouetteError(device));
         // Switched off, not a bit of it is left.
         CHECK(relit(device, asset, sky, residuals, false).pixels == terms.pixels);
     }
