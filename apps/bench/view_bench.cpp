@@ -6,7 +6,6 @@
 #include "engine/render/light_pass.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
-#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 
@@ -26,7 +25,7 @@ struct Stage {
     Stage(const vk::Device& device, const Asset& source, const Light& sources, const ViewRounds& rounds,
           int samples)
         : asset(source), light(device, source.faceSize),
-          relighter(device, source, {.residuals = rounds.residual ? makeResiduals(source) : Residuals()}),
+          relighter(device, source, {.residual = rounds.residual}),
           view(device, source, {.width = rounds.width, .height = rounds.height, .samples = samples}) {
         light.setLight(sources);
         relighter.setMode(RelightMode::Full); // turning changes nothing of some light

@@ -9,6 +9,7 @@
 #include "precompute/error/study_json.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <fmt/format.h>
 #include <span>
 #include <spdlog/spdlog.h>
 #include <thread>

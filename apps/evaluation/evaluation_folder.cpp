@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -16,19 +17,21 @@ void makeFolder(const std::filesystem::path& folder) {
     // A link to a folder counts as a failure to create_directories(), but not here.
     std::error_code unknown;
     if (failure && !std::filesystem::is_directory(folder, unknown))
-        throw Error("{}: the folder cannot be made: {}", folder.string(), failure.message());
+        throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), failure.message()));
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
     makeFolder(folder);
     mFolder = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (mFolder < 0)
-        throw Error("{}: the folder cannot be opened: {}", folder.string(), std::strerror(errno));
+        throw Error(
+            fmt::format("{}: the folder cannot be opened: {}", folder.string(), std::strerror(errno)));
     if (flock(mFolder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(mFolder);
-        throw Error("{}: another evaluation is writing to this folder; wait for it, stop it, or name another "
-                    "folder",
-                    folder.string());
+        throw Error(fmt::format(
+            "{}: another evaluation is writing to this folder; wait for it, stop it, or name another "
+            "folder",
+            folder.string()));
     }
 }
 

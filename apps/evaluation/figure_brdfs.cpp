@@ -8,6 +8,7 @@
 #include "precompute/brdf/factorization_error.h"
 
 #include <array>
+#include <fmt/format.h>
 
 namespace relume {
 

@@ -4,6 +4,8 @@
 #include "apps/evaluation/scene_setup.h"
 #include "apps/evaluation/sections.h"
 
+#include <fmt/format.h>
+
 namespace relume {
 
 namespace {

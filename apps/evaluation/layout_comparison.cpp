@@ -6,6 +6,7 @@
 #include "apps/evaluation/sections.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 

@@ -1,5 +1,7 @@
 #include "apps/evaluation/paper_models.h"
 
+#include <fmt/format.h>
+
 namespace relume {
 
 namespace {

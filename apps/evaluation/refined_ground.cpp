@@ -6,6 +6,7 @@
 #include "precompute/error/error_study.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 

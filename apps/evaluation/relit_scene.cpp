@@ -1,12 +1,13 @@
 #include "apps/evaluation/relit_scene.h"
+#include "engine/import/environment_file.h"
 
 #include "apps/evaluation/expect_no_stop.h"
 #include "engine/base/check.h"
 #include "engine/base/progress.h"
-#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -43,8 +44,7 @@ Camera orbitOf(const Asset& asset, ImageSize size, float azimuth, float elevatio
 }
 
 RelitScene::RelitScene(const vk::Device& device, const Asset& asset, ImageSize size)
-    : mDevice(device), mLight(device, asset.faceSize),
-      mRelighter(device, asset, {.residuals = makeResiduals(asset)}),
+    : mDevice(device), mLight(device, asset.faceSize), mRelighter(device, asset, {}),
       mView(device, asset, {.width = size.width, .height = size.height, .samples = 1}) {}
 
 Image RelitScene::render(const Camera& camera, const Light& light, const RelitOptions& options) {

@@ -2,7 +2,7 @@
 // where they are not.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/import/scene.h"
 
 #include <map>
 #include <span>

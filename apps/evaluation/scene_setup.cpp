@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 
 namespace relume {

@@ -1,7 +1,7 @@
 #include "apps/evaluation/step_run.h"
 
 #include "apps/evaluation/evaluation_folder.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "engine/render/tone_map.h"
 
 namespace relume {

@@ -7,6 +7,8 @@
 #include "apps/evaluation/sections.h"
 #include "precompute/layout/conversion.h"
 
+#include <fmt/format.h>
+
 namespace relume {
 
 namespace {

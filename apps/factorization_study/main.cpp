@@ -4,10 +4,12 @@
 #include "apps/relume/run_program.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/environment_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <chrono>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 using namespace relume;

@@ -3,6 +3,9 @@
 #include "apps/relume/run_program.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/environment_file.h"
+
+#include <fmt/format.h>
 
 using namespace relume;
 
@@ -38,8 +41,8 @@ void run(Arguments& arguments) {
         const Asset asset = readAsset(file);
         for (const AssetPart& part : asset.parts)
             if (layoutOf(part.sets[0].transport) != TransportLayout::Rows)
-                throw Error("{}: expected a bake in rows, best of many coefficients, found {}", file.string(),
-                            layoutName(layoutOf(part.sets[0].transport)));
+                throw Error(fmt::format("{}: expected a bake in rows, best of many coefficients, found {}",
+                                        file.string(), layoutName(layoutOf(part.sets[0].transport))));
         options.lights.clear();
         for (const Environment& map : maps)
             options.lights.push_back(sampleEnvironment(map, asset.faceSize, 0));

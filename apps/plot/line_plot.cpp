@@ -15,7 +15,7 @@ using glm::dvec2;
 
 constexpr double kLeft = 64, kRight = 16, kTop = 34, kLegendRow = 18, kBottom = 46;
 constexpr double kGapX = 22, kGapY = 30, kLetterWidth = 6.2; // of text of 11 pixels, on average
-constexpr Stroke kGrid{"#e4e4e4", 1}, kFrame{"#888888", 1};
+constexpr LineStyle kGrid{"#e4e4e4", 1}, kFrame{"#888888", 1};
 
 bool isDrawn(const LinePlot& plot, dvec2 point) {
     return std::isfinite(point.x) && std::isfinite(point.y) && (!plot.logarithmic || point.y > 0) &&

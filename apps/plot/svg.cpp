@@ -18,7 +18,7 @@ std::string number(double value) {
     return fmt::format("{}", rounded == 0 ? 0.0 : rounded);
 }
 
-std::string attributes(const Stroke& stroke) {
+std::string attributes(const LineStyle& stroke) {
     const std::string dashes =
         stroke.dashes.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dashes);
     return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}", stroke.colour,
@@ -41,12 +41,12 @@ Svg::Svg(double width, double height)
                         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
                         number(width), number(height))) {}
 
-void Svg::line(glm::dvec2 from, glm::dvec2 to, const Stroke& stroke) {
+void Svg::line(glm::dvec2 from, glm::dvec2 to, const LineStyle& stroke) {
     mBody += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", number(from.x),
                          number(from.y), number(to.x), number(to.y), attributes(stroke));
 }
 
-void Svg::polyline(std::span<const glm::dvec2> points, const Stroke& stroke) {
+void Svg::polyline(std::span<const glm::dvec2> points, const LineStyle& stroke) {
     mBody += fmt::format("<polyline points=\"{}\" {} stroke-linejoin=\"round\"/>\n", listed(points),
                          attributes(stroke));
 }
@@ -64,7 +64,7 @@ void Svg::text(glm::dvec2 place, std::string_view text, const TextStyle& style) 
                          style.bold ? " font-weight=\"bold\"" : "", escapedMarkup(text));
 }
 
-void Svg::halfCircle(glm::dvec2 centre, double radius, const Stroke& stroke) {
+void Svg::halfCircle(glm::dvec2 centre, double radius, const LineStyle& stroke) {
     mBody += fmt::format("<path d=\"M {0} {1} A {2} {2} 0 0 1 {3} {1}\" {4}/>\n", number(centre.x - radius),
                          number(centre.y), number(radius), number(centre.x + radius), attributes(stroke));
 }

@@ -9,7 +9,7 @@
 
 namespace relume {
 
-struct Stroke {
+struct LineStyle {
     std::string_view colour = "#444444";
     double width = 1;
     std::string_view dashes = ""; // "4 3", SVG's stroke-dasharray; empty: solid
@@ -29,13 +29,13 @@ class Svg {
   public:
     Svg(double width, double height);
 
-    void line(glm::dvec2 from, glm::dvec2 to, const Stroke& stroke);
-    void polyline(std::span<const glm::dvec2> points, const Stroke& stroke);
+    void line(glm::dvec2 from, glm::dvec2 to, const LineStyle& stroke);
+    void polyline(std::span<const glm::dvec2> points, const LineStyle& stroke);
     void polygon(std::span<const glm::dvec2> points, std::string_view fill);
     // `text` is UTF-8; what SVG would take for markup is escaped.
     void text(glm::dvec2 place, std::string_view text, const TextStyle& style);
     // A circle's upper half, about `centre`.
-    void halfCircle(glm::dvec2 centre, double radius, const Stroke& stroke);
+    void halfCircle(glm::dvec2 centre, double radius, const LineStyle& stroke);
 
     std::string finish() const;
 

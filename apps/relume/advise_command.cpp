@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
 #include "precompute/error/advice.h"
+#include "precompute/error/study_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,35 +24,6 @@ struct Arguments {
     bool asIs = false;
     bool json = false;
 };
-
-std::string commandLineOf(const BakeOptions& options) {
-    std::string text = fmt::format("--terms {} --factorization {}", options.factorization.terms,
-                                   factorizationName(options.factorization.method));
-    if (options.layout.layout == TransportLayout::Rows)
-        text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
-    else
-        text += fmt::format(" --error {:.3g}", options.layout.error);
-    text +=
-        options.refinement ? fmt::format(" --refine {:.3g}", options.refinement->wanted) : " --refine off";
-    return text;
-}
-
-nlohmann::ordered_json describe(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
-    if (!bake) return nullptr;
-    return {{"options", commandLineOf(bake->options)},
-            {"terms", bake->options.factorization.terms},
-            {"error", bake->error},
-            {"bytes", uint64_t(bake->bytes)},
-            {"bytes_per_vertex", uint64_t(bake->bytes / double(vertices))},
-            {"seconds", bake->seconds ? nlohmann::ordered_json(*bake->seconds) : nullptr}};
-}
-
-nlohmann::ordered_json describe(const MeshAdvice& advice) {
-    return {{"vertices", advice.vertices},
-            {"bases", describe(advice.bases, advice.vertices)},
-            {"rows", describe(advice.rows, advice.vertices)},
-            {"least_errors", advice.leastErrors}};
-}
 
 void print(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
     if (!bake) return;
@@ -90,11 +62,7 @@ void run(Arguments& arguments) {
     const Advice advice = advise(*device, std::move(request), light, observer,
                                  [&](double share) { progress.update(uint64_t(double(points) * share)); });
     if (arguments.json) {
-        nlohmann::ordered_json json = {{"asked", arguments.error}, {"plain", describe(advice.plain)}};
-        if (advice.refined) json["refined"] = describe(*advice.refined);
-        const AdvisedBake* best = advice.best();
-        json["best"] = best ? nlohmann::ordered_json(commandLineOf(best->options)) : nullptr;
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", describe(advice, arguments.error).dump(2));
     } else {
         print(advice);
     }
@@ -102,11 +70,11 @@ void run(Arguments& arguments) {
     if (!advice.best()) {
         double least = std::ranges::min(advice.plain.leastErrors);
         if (advice.refined) least = std::min(least, std::ranges::min(advice.refined->leastErrors));
-        throw Error(
+        throw Error(fmt::format(
             "an error of {} is not reached: with all coefficients and as many as {} terms it is {:.3g}; "
             "ask for a larger one, keep more of the light (--coefficients, here of the light), or take "
             "a finer mesh",
-            arguments.error, kMaxTerms, least);
+            arguments.error, kMaxTerms, least));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -18,7 +19,8 @@ WeightedMaterial parse(const std::string& text, const std::vector<std::string>& 
     const char* end = text.data() + text.size();
     const auto [rest, failure] = std::from_chars(text.data() + equals + 1, end, material.weight);
     if (failure != std::errc() || rest != end || !(material.weight >= 0 && material.weight <= 1e6f))
-        throw UsageError("--material {}: expected a weight of 0 or more after the equals sign", text);
+        throw UsageError(
+            fmt::format("--material {}: expected a weight of 0 or more after the equals sign", text));
     return material;
 }
 
@@ -43,7 +45,7 @@ Appearance AppearanceArguments::appearance(const Asset& asset) const {
         blend.push_back(parse(text, names));
         sum += blend.back().weight;
         if (std::ranges::count(blend, blend.back().name, &WeightedMaterial::name) > 1)
-            throw UsageError("--material: \"{}\" is named twice", blend.back().name);
+            throw UsageError(fmt::format("--material: \"{}\" is named twice", blend.back().name));
     }
     if (sum == 0) throw UsageError("--material: expected at least one weight above 0");
     for (WeightedMaterial& material : blend) material.weight /= sum;

@@ -1,7 +1,7 @@
 // A sample of a scene's vertices, and the ways to bake it.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/import/scene.h"
 #include "engine/transport/asset.h"
 #include "engine/vk/commands.h"
 #include "precompute/bake/bake_options.h"

@@ -7,6 +7,7 @@
 #include "engine/base/interrupt.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -33,7 +34,8 @@ void BakeJob::add(CLI::App& command) {
 void BakeJob::prepare() {
     if (mThreads > 0) mThreadLimit.emplace(mThreads);
     if (output.extension() != ".relume")
-        throw UsageError("--output: expected a name ending in .relume, found \"{}\"", output.string());
+        throw UsageError(
+            fmt::format("--output: expected a name ending in .relume, found \"{}\"", output.string()));
     expectWritable(output);
     if (!mTimings.empty()) expectWritable(mTimings);
 }

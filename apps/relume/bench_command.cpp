@@ -119,8 +119,8 @@ void run(Arguments& arguments) {
 void expectNoOptions(const CLI::App& command, const char* subcommand) {
     for (const CLI::Option* option : command.get_options())
         if (option->count() > 0)
-            throw UsageError("{}: {} comes before {}, where it means nothing; put it after",
-                             command.get_name(), option->get_name(), subcommand);
+            throw UsageError(fmt::format("{}: {} comes before {}, where it means nothing; put it after",
+                                         command.get_name(), option->get_name(), subcommand));
 }
 
 void addBenchCommand(CLI::App& program) {

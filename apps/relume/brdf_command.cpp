@@ -6,7 +6,8 @@
 #include "apps/relume/lobe_plot.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/image/image_file.h"
+#include "engine/import/environment_file.h"
+#include "engine/import/image_file.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -30,7 +31,8 @@ struct Arguments {
 void checkOutput(const char* option, const std::filesystem::path& path, const char* extension) {
     if (path.empty()) return;
     if (path.extension() != extension)
-        throw UsageError("{}: expected a name ending in {}, found \"{}\"", option, extension, path.string());
+        throw UsageError(
+            fmt::format("{}: expected a name ending in {}, found \"{}\"", option, extension, path.string()));
     expectWritable(path);
 }
 

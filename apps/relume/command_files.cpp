@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 
+#include <fmt/format.h>
 #include <map>
 
 namespace relume {
@@ -38,12 +39,12 @@ void CommandFiles::check() const {
     std::map<std::filesystem::path, const Output*> outputs;
     for (const Output& output : mOutputs) {
         if (output.place != output.replaced && inputs.contains(output.place))
-            throw UsageError("{}: {} would be written over, and is read; name another file", output.option,
-                             output.file.string());
+            throw UsageError(fmt::format("{}: {} would be written over, and is read; name another file",
+                                         output.option, output.file.string()));
         const auto [first, isNew] = outputs.try_emplace(output.place, &output);
         if (!isNew)
-            throw UsageError("{}: {} is what {} writes too; name another file", output.option,
-                             output.file.string(), first->second->option);
+            throw UsageError(fmt::format("{}: {} is what {} writes too; name another file", output.option,
+                                         output.file.string(), first->second->option));
     }
 }
 

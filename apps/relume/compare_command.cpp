@@ -1,7 +1,7 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "engine/render/compare.h"
 
 #include <cmath>

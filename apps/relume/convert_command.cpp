@@ -5,11 +5,15 @@
 #include "engine/base/file.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
+#include "engine/import/old_asset.h"
+#include "engine/transport/chunk_file.h"
 #include "engine/transport/kept_visibility.h"
 #include "precompute/bake/bake_observer.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/layout/layout_scale.h"
+#include "precompute/residual/residuals.h"
 
+#include <fmt/format.h>
 #include <memory>
 #include <spdlog/spdlog.h>
 
@@ -33,8 +37,8 @@ LayoutOptions optionsOf(const Arguments& arguments) {
 
 void checkOutput(const Arguments& arguments) {
     if (arguments.output.extension() != ".relume")
-        throw UsageError("--output: expected a name ending in .relume, found \"{}\"",
-                         arguments.output.string());
+        throw UsageError(fmt::format("--output: expected a name ending in .relume, found \"{}\"",
+                                     arguments.output.string()));
     CommandFiles files;
     files.addInput(arguments.input);
     files.addOutput("--output", arguments.output);
@@ -53,15 +57,31 @@ Conversion convert(Asset& asset, const LayoutOptions& options, const Arguments& 
     return convertLayout(asset, options, report, arguments.coefficients);
 }
 
+// A bake of this version or the one before, with residuals.
+Asset readInput(const std::filesystem::path& path, std::vector<std::byte> bytes) {
+    const std::string name = path.string();
+    if (isOldAsset(bytes)) bytes = updateAsset(bytes, name);
+    if (!KeptVisibility(sourceOf(bytes), name).key().empty())
+        spdlog::warn("{}: its visibility is not copied; rebake from the file that has it", name);
+    Asset asset = decodeAsset(bytes, name);
+    makeResiduals(asset);
+    return asset;
+}
+
 void run(const Arguments& arguments) {
     const LayoutOptions options = optionsOf(arguments);
     checkOutput(arguments);
     catchInterrupts();
     try {
-        Asset asset = readAsset(arguments.input);
-        if (!KeptVisibility(arguments.input).key().empty())
-            spdlog::warn("{}: its visibility is not copied; rebake from the file that has it",
-                         arguments.input.string());
+        std::vector<std::byte> bytes = readFile(arguments.input);
+        const bool isUpdate = isOldAsset(bytes) && !arguments.layout.areGiven() && !arguments.coefficients;
+        Asset asset = readInput(arguments.input, std::move(bytes));
+        if (isUpdate) {
+            writeAsset(arguments.output, asset);
+            spdlog::info("{}: updated to format version {}; its transport is as it was",
+                         arguments.output.string(), kAssetFormatVersion);
+            return;
+        }
         const Conversion conversion = convert(asset, options, arguments);
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
         writeAsset(arguments.output, asset);
@@ -98,6 +118,9 @@ void addConvertCommand(CLI::App& program) {
         ->type_name("COUNT");
     command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
     command->footer(
+        "A file of an earlier program, of format version 2, is updated; without --layout, --budget, --error "
+        "and\n"
+        "--coefficients its transport stays as it is.\n"
         "The error is against FILE's own transport; `relume info` adds what FILE had lost already.\n"
         "The more coefficients a bake kept (-N), the better a layout that is made of it.\n"
         "relume bake bunny.obj --layout rows -N 384 -o rows.relume\n"

@@ -4,7 +4,7 @@
 #include "apps/relume/studied_light.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "precompute/error/heat_maps.h"
 #include "precompute/error/study_json.h"
 
@@ -65,15 +65,16 @@ void run(const Arguments& arguments) {
     constexpr uint64_t kMostPixels = 1u << 18; // of which each takes tens of milliseconds: hours
     const auto pixels = uint64_t(arguments.camera.width) * uint64_t(arguments.camera.height);
     if (pixels > kMostPixels)
-        throw UsageError("--size: expected at most {} pixels, each of which is traced many thousand times; "
-                         "found {}",
-                         kMostPixels, pixels);
+        throw UsageError(
+            fmt::format("--size: expected at most {} pixels, each of which is traced many thousand times; "
+                        "found {}",
+                        kMostPixels, pixels));
     CommandFiles files;
     const Asset asset = readAsset(arguments.file);
     if (asset.provenance.bakedShare)
-        throw Error(
+        throw Error(fmt::format(
             "{}: is a preview, whose rows are interpolated for the most part; wait for the bake to end",
-            arguments.file);
+            arguments.file));
     const Appearance appearance = arguments.appearance.appearance(asset);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const StudiedLight light = arguments.light.studied();

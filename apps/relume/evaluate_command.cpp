@@ -6,6 +6,7 @@
 #include "engine/base/nearest_name.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -29,11 +30,11 @@ void check(const EvaluationOptions& options) {
     for (const SectionEntry& entry : sectionList()) names.emplace_back(entry.name);
     for (const std::string& name : options.only)
         if (std::ranges::find(names, name) == names.end())
-            throw UsageError("--only: there is no section \"{}\"; did you mean \"{}\"?", name,
-                             nearestName(name, names));
+            throw UsageError(fmt::format("--only: there is no section \"{}\"; did you mean \"{}\"?", name,
+                                         nearestName(name, names)));
     std::error_code failure;
     if (!options.data.empty() && !std::filesystem::is_directory(options.data, failure))
-        throw UsageError("--data: {} is no folder", options.data.string());
+        throw UsageError(fmt::format("--data: {} is no folder", options.data.string()));
 }
 
 void run(const Arguments& arguments) {

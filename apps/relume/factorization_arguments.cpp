@@ -2,6 +2,8 @@
 
 #include "engine/base/error.h"
 
+#include <fmt/format.h>
+
 namespace relume {
 
 namespace {
@@ -12,13 +14,15 @@ constexpr std::string_view kAuto = "auto:";
 float wantedErrorFrom(const std::string& text) {
     float error;
     if (CLI::detail::lexical_cast(text.substr(kAuto.size()), error) && error > 0 && error <= 1) return error;
-    throw UsageError("--terms: expected an error above 0 and up to 1 after auto:, found \"{}\"", text);
+    throw UsageError(
+        fmt::format("--terms: expected an error above 0 and up to 1 after auto:, found \"{}\"", text));
 }
 
 int termsFrom(const std::string& text) {
     int terms;
     if (CLI::detail::lexical_cast(text, terms) && terms >= 1 && terms <= kMaxTerms) return terms;
-    throw UsageError("--terms: expected 1 to {}, or auto:E for an error of E; found \"{}\"", kMaxTerms, text);
+    throw UsageError(
+        fmt::format("--terms: expected 1 to {}, or auto:E for an error of E; found \"{}\"", kMaxTerms, text));
 }
 
 // Published tables are orthographic; errors that are weighted by area do best with texels of equal area.
@@ -75,7 +79,7 @@ void FactorizationArguments::resolve(const FactorizationOptions& otherwise, Disk
     }
     if (!isAutomatic) return;
     if (options.method == Factorization::Normalized)
-        throw UsageError("--terms {}: factorization \"normalized\" has one term", *mTerms);
+        throw UsageError(fmt::format("--terms {}: factorization \"normalized\" has one term", *mTerms));
     options.wantedError = wantedErrorFrom(*mTerms);
     // Nonnegative terms are not nested, so their number cannot be chosen by error.
     if (options.method == Factorization::NonNegative && !mMethod) options.method = Factorization::Environment;

@@ -1,7 +1,7 @@
 #include "apps/relume/commands.h"
 #include "engine/base/error.h"
+#include "engine/import/asset_info.h"
 #include "engine/transport/asset.h"
-#include "engine/transport/asset_info.h"
 #include "engine/transport/kept_visibility.h"
 #include "precompute/bake/bake_preset.h"
 #include "precompute/bake/baked_options.h"

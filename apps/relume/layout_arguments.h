@@ -13,6 +13,7 @@ namespace relume {
 struct LayoutArguments {
     // Without `hasDefaults` nothing has a default but what resolve() is told.
     void add(CLI::App& command, bool hasDefaults);
+    bool areGiven() const { return mLayout || mBudget || mError; }
     // What was given, else of these. Throws UsageError.
     LayoutOptions resolve(const LayoutOptions& otherwise = {}) const;
 

@@ -16,7 +16,7 @@ using glm::dvec2;
 constexpr double kRadius = 190, kPanelWidth = 2 * kRadius + 70, kPanelHeight = kRadius + 78, kTop = 66;
 constexpr float kIncoming[] = {0, 30, 60, 80}; // degrees
 constexpr int kSteps = 360;                    // of half a degree each
-constexpr Stroke kTrue{"#0072b2", 2}, kApproximated{"#d55e00", 2, "6 4"}, kGrid{"#dddddd", 1},
+constexpr LineStyle kTrue{"#0072b2", 2}, kApproximated{"#d55e00", 2, "6 4"}, kGrid{"#dddddd", 1},
     kHorizon{"#888888", 1}, kRay{"#444444", 1.5};
 
 // In the plane of s and the normal; positive angles lean towards s.
@@ -36,7 +36,7 @@ dvec2 onPlot(dvec2 centre, float degrees, double radius) {
 
 // Values over the outgoing angle, as a curve about the centre.
 void drawLobe(Svg& svg, dvec2 centre, const std::vector<double>& values, double largest,
-              const Stroke& stroke) {
+              const LineStyle& stroke) {
     std::vector<dvec2> points;
     for (int step = 0; step <= kSteps; step++)
         points.push_back(

@@ -1,5 +1,6 @@
 #include "apps/relume/commands.h"
 #include "precompute/brdf/brdf.h"
+#include "precompute/brdf/material_json.h"
 #include "precompute/brdf/model_list.h"
 
 #include <fmt/format.h>
@@ -9,26 +10,6 @@
 namespace relume {
 
 namespace {
-
-void printJson() {
-    nlohmann::ordered_json presets = nlohmann::ordered_json::array(), models = presets;
-    for (const MaterialPreset& preset : materialPresets())
-        presets.push_back({{"name", preset.name},
-                           {"description", preset.description},
-                           {"material", makeBrdf(preset.name)->describe()}});
-    for (const MaterialModel& model : materialModels()) {
-        nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
-        for (const MaterialParameter& parameter : model.parameters)
-            parameters.push_back({{"name", parameter.name},
-                                  {"values", parameter.values},
-                                  {"default", parameter.fallback.empty()
-                                                  ? nlohmann::ordered_json(nullptr)
-                                                  : nlohmann::ordered_json::parse(parameter.fallback)}});
-        models.push_back(
-            {{"name", model.name}, {"description", model.description}, {"parameters", parameters}});
-    }
-    fmt::print("{}\n", nlohmann::ordered_json{{"presets", presets}, {"models", models}}.dump(2));
-}
 
 void printText() {
     fmt::print("Presets\n");
@@ -58,7 +39,7 @@ void addMaterialsCommand(CLI::App& program) {
     command->add_flag("--json", *json, "Print JSON");
     command->callback([json] {
         if (*json)
-            printJson();
+            fmt::print("{}\n", describeMaterials().dump(2));
         else
             printText();
     });

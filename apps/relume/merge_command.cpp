@@ -9,6 +9,7 @@
 #include "precompute/bake/merge.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <optional>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
@@ -25,8 +26,8 @@ struct Arguments {
 
 void checkOutput(const Arguments& arguments) {
     if (arguments.output.extension() != ".relume")
-        throw UsageError("--output: expected a name ending in .relume, found \"{}\"",
-                         arguments.output.string());
+        throw UsageError(fmt::format("--output: expected a name ending in .relume, found \"{}\"",
+                                     arguments.output.string()));
     CommandFiles files;
     for (const std::filesystem::path& part : arguments.parts) files.addInput(part);
     files.addOutput("--output", arguments.output);

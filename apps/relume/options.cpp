@@ -1,13 +1,16 @@
 #include "apps/relume/options.h"
+#include "engine/import/environment_file.h"
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/image/image_file.h"
-#include "engine/light/light_file.h"
+#include "engine/import/image_file.h"
+#include "engine/import/light_file.h"
 #include "engine/render/auto_exposure.h"
 
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -44,7 +47,8 @@ std::unique_ptr<vk::Device> DeviceArguments::open() const { return std::make_uni
 
 void DeviceArguments::expectNoMessages(const vk::Device& device) {
     if (device.validationMessages() > 0)
-        throw Error("the Vulkan validation layer reported {} messages", device.validationMessages());
+        throw Error(
+            fmt::format("the Vulkan validation layer reported {} messages", device.validationMessages()));
 }
 
 void CameraArguments::add(CLI::App& command) {
@@ -54,7 +58,8 @@ void CameraArguments::add(CLI::App& command) {
             char rest;
             if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 ||
                 height < 1 || width > 16384 || height > 16384)
-                throw UsageError("--size: expected WIDTHxHEIGHT, each 1 to 16384, found \"{}\"", text);
+                throw UsageError(
+                    fmt::format("--size: expected WIDTHxHEIGHT, each 1 to 16384, found \"{}\"", text));
         });
     CLI::Option* eye = command.add_option("--eye", mEye, "Eye position")
                            ->type_name("X,Y,Z")
@@ -85,7 +90,8 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
     const Bounds bounds = objectBounds(asset);
     Camera camera;
     if (!mOrbit.empty()) {
-        if (!(mOrbit[2] > 0)) throw UsageError("--orbit: expected a distance above 0, found {}", mOrbit[2]);
+        if (!(mOrbit[2] > 0))
+            throw UsageError(fmt::format("--orbit: expected a distance above 0, found {}", mOrbit[2]));
         camera = orbitCamera(bounds, radians(mOrbit[0]), radians(mOrbit[1]), mOrbit[2], fov, aspect);
     } else
         camera = defaultCamera(bounds, fov, aspect);
@@ -180,8 +186,8 @@ MovingLight LightArguments::source(bool withPictures) const {
         return MovingLight({.distant = {{directionAt(mDistant[0], mDistant[1]), vec3(kPi)}}});
     if (!mSphere.empty()) {
         if (!(mSphere[2] > 0 && mSphere[2] <= 90))
-            throw UsageError("--sphere-light: expected a radius above 0 and up to 90 degrees, found {}",
-                             mSphere[2]);
+            throw UsageError(fmt::format(
+                "--sphere-light: expected a radius above 0 and up to 90 degrees, found {}", mSphere[2]));
         // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
         const float radius = radians(mSphere[2]), sine = std::sin(radius);
         return MovingLight(
@@ -211,7 +217,7 @@ MovingLight LightArguments::sequence() const {
         light["blend"] = describe(mBlend);
         light["blend"]["weight"] = mBlendWeight;
     }
-    return {std::move(light), "--environment", ""};
+    return {light.dump(), "--environment", ""};
 }
 
 void ImageArguments::add(CLI::App& command) {
@@ -250,12 +256,14 @@ void ImageArguments::add(CLI::App& command) {
 void ImageArguments::check() const {
     const std::string extension = output.extension();
     if (extension != ".exr" && extension != ".png")
-        throw UsageError("--output: expected a name ending in .exr or .png, found \"{}\"", output.string());
+        throw UsageError(
+            fmt::format("--output: expected a name ending in .exr or .png, found \"{}\"", output.string()));
     if (color() && !isPng())
-        throw UsageError("--background {}: a color is of display values, and .exr is radiance; use "
-                         "environment or none, or "
-                         "write .png",
-                         mBackground);
+        throw UsageError(
+            fmt::format("--background {}: a color is of display values, and .exr is radiance; use "
+                        "environment or none, or "
+                        "write .png",
+                        mBackground));
     if (mBlurDegrees > 0 && !showsLight())
         throw UsageError(
             "--background-blur: there is no environment behind the object; add --background environment");
@@ -292,8 +300,8 @@ std::optional<vec3> ImageArguments::color() const {
         color = vec3(-1);
     if (!(glm::all(glm::greaterThanEqual(color, vec3(0))) && glm::all(glm::lessThanEqual(color, vec3(1)))))
         throw UsageError(
-            "--background: expected environment, none, #rrggbb, or r,g,b of 0 to 1, found \"{}\"",
-            mBackground);
+            fmt::format("--background: expected environment, none, #rrggbb, or r,g,b of 0 to 1, found \"{}\"",
+                        mBackground));
     return color;
 }
 

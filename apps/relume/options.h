@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/relume/command_files.h"
-#include "engine/light/moving_light.h"
+#include "engine/import/moving_light.h"
 #include "engine/render/ground_fade.h"
 #include "engine/render/tone_map.h"
 #include "engine/scene/camera.h"

@@ -39,8 +39,8 @@ size_t partPrefix(const std::string& text, const Asset& asset) {
         !std::filesystem::exists(text, failure)) {
         std::vector<std::string> names;
         for (const AssetPart& part : asset.parts) names.push_back(part.name);
-        throw UsageError("--material {}: there is no part \"{}\"; the bake has {}", text,
-                         text.substr(0, equals), fmt::join(names, ", "));
+        throw UsageError(fmt::format("--material {}: there is no part \"{}\"; the bake has {}", text,
+                                     text.substr(0, equals), fmt::join(names, ", ")));
     }
     return longest;
 }
@@ -71,8 +71,8 @@ std::vector<std::string> materialsFor(const Asset& asset, const Arguments& argum
         if (!chosen.empty()) readMaterials(joined.back()); // says early what is wrong
     }
     if (!isUsed)
-        throw UsageError("--material {}: no part is left for it; for the ground say -m {}={}", others.front(),
-                         kGround, others.front());
+        throw UsageError(fmt::format("--material {}: no part is left for it; for the ground say -m {}={}",
+                                     others.front(), kGround, others.front()));
     if (arguments.separate && most < 2) throw UsageError("--separate: needs several --material for a part");
     return joined;
 }
@@ -98,8 +98,8 @@ void run(Arguments& arguments) {
     CommandFiles files;
     KeptVisibility kept(arguments.input);
     if (kept.key().empty())
-        throw Error("{}: keeps no visibility; bake it again with `relume bake --keep-visibility`",
-                    arguments.input);
+        throw Error(fmt::format("{}: keeps no visibility; bake it again with `relume bake --keep-visibility`",
+                                arguments.input));
     Asset skeleton = kept.skeleton();
     const std::vector<std::string> materials = materialsFor(skeleton, arguments);
     BakeOptions options;
@@ -108,7 +108,7 @@ void run(Arguments& arguments) {
     } catch (const UsageError&) {
         throw;
     } catch (const Error& wrong) {
-        throw Error("{}: {}", arguments.input, wrong.what());
+        throw Error(fmt::format("{}: {}", arguments.input, wrong.what()));
     }
     job.addOutputs(files, arguments.input);
     files.check();

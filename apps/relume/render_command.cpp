@@ -5,13 +5,14 @@
 #include "apps/relume/selection_arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
+#include "engine/import/timing_file.h"
 #include "engine/render/background_pass.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "engine/vk/timing_capture.h"
 #include "precompute/bake/bake_preset.h"
-#include "precompute/residual/residuals.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -119,8 +120,7 @@ void run(const Arguments& arguments) {
         if (background) background->setLight(lit, arguments.image.backgroundBlur());
     };
     setLight(moving.at(arguments.light.seconds));
-    Relighter relighter(*device, asset,
-                        {.residuals = arguments.takesResidual() ? makeResiduals(asset) : Residuals()});
+    Relighter relighter(*device, asset, {.residual = arguments.takesResidual()});
     relighter.setMode(arguments.mode);
     ViewPass view(
         *device, asset,

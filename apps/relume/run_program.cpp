@@ -1,6 +1,7 @@
 #include "apps/relume/run_program.h"
 
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 
 #include <cstdio>
 #include <iostream>
@@ -27,6 +28,11 @@ void keepFreedMemory() {
 void logToStderr(const char* name) {
     spdlog::set_default_logger(spdlog::stderr_color_mt(name));
     spdlog::set_pattern("%^%l%$: %v");
+    setLog([](LogLevel level, const std::string& text) {
+        constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info,
+                                                         spdlog::level::warn, spdlog::level::err};
+        spdlog::log(kLevels[size_t(level)], "{}", text);
+    });
 }
 
 int runProgram(CLI::App& program, int argc, char** argv, const std::function<void()>& work) {

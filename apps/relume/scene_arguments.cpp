@@ -7,6 +7,7 @@
 #include "precompute/brdf/material_list.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -76,10 +77,11 @@ Scene SceneArguments::load(bool isRefined) const {
     const bool isScene = input.ends_with(".json");
     for (const CLI::Option* option : {mMaterialOption, mUpOption, mBrushOption})
         if (isScene && option->count() > 0)
-            throw UsageError("{}: has no effect on a scene file, whose parts say it themselves",
-                             option->get_name());
+            throw UsageError(fmt::format("{}: has no effect on a scene file, whose parts say it themselves",
+                                         option->get_name()));
     for (const CLI::Option* option : mGroundDetails)
-        if (!ground && option->count() > 0) throw UsageError("{}: needs --ground", option->get_name());
+        if (!ground && option->count() > 0)
+            throw UsageError(fmt::format("{}: needs --ground", option->get_name()));
     if (mSeparate && mMaterials.size() < 2) throw UsageError("--separate: needs several --material");
     if (isScene)
         scene = readScene(input, groundOptions);
@@ -89,7 +91,8 @@ Scene SceneArguments::load(bool isRefined) const {
         for (Part& part : scene.parts) part.brushRotation = mBrushRotation;
     if (ground) {
         for (const Part& part : scene.parts)
-            if (part.name == "ground") throw UsageError("--ground: {} has a ground already", input);
+            if (part.name == "ground")
+                throw UsageError(fmt::format("--ground: {} has a ground already", input));
         addGround(scene, groundOptions, mGroundMaterial);
     }
     checkMaterials(scene);
@@ -107,7 +110,7 @@ void SceneArguments::checkMaterials(const Scene& scene) const {
             readMaterials(part.material, part.materialFolder);
         } catch (const UsageError& wrong) {
             if (!input.ends_with(".json")) throw;
-            throw Error("{}: part \"{}\": {}", input, part.name, wrong.what());
+            throw Error(fmt::format("{}: part \"{}\": {}", input, part.name, wrong.what()));
         }
     }
 }
@@ -176,8 +179,8 @@ static std::optional<RefinementRecord> refinementOf(const std::string& text) {
     if (text == "auto") return presetOptions(BakePreset::Default).refinement;
     RefinementRecord record;
     if (!CLI::detail::lexical_cast(text, record.wanted))
-        throw UsageError("--refine: expected auto, off or an error of {} to {}, found \"{}\"",
-                         kLeastRefinementError, kMostRefinementError, text);
+        throw UsageError(fmt::format("--refine: expected auto, off or an error of {} to {}, found \"{}\"",
+                                     kLeastRefinementError, kMostRefinementError, text));
     return record;
 }
 
@@ -187,7 +190,8 @@ static size_t occluderFrom(const std::string& text) {
         !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
     const size_t triangles = number ? std::stoul(text) : 0;
     if (triangles < 4)
-        throw UsageError("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"", text);
+        throw UsageError(
+            fmt::format("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"", text));
     return triangles;
 }
 

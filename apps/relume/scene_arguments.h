@@ -3,8 +3,8 @@
 
 #include "apps/relume/factorization_arguments.h"
 #include "apps/relume/layout_arguments.h"
-#include "engine/scene/ground.h"
-#include "engine/scene/scene.h"
+#include "engine/import/ground.h"
+#include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/bake_preset.h"
 

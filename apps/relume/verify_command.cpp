@@ -2,7 +2,7 @@
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "precompute/reference/verification.h"
 #include "precompute/reference/visibility_comparison.h"
 
@@ -25,8 +25,8 @@ struct Arguments {
 void run(const Arguments& arguments) {
     if (!arguments.visibilityImage.empty()) {
         if (arguments.visibilityImage.extension() != ".png")
-            throw UsageError("--visibility-image: expected a name ending in .png, found \"{}\"",
-                             arguments.visibilityImage.string());
+            throw UsageError(fmt::format("--visibility-image: expected a name ending in .png, found \"{}\"",
+                                         arguments.visibilityImage.string()));
         expectWritable(arguments.visibilityImage);
     }
     CommandFiles files;
@@ -41,8 +41,8 @@ void run(const Arguments& arguments) {
                                       radians(arguments.light.rotationDegrees), arguments.samples);
     const std::optional<VisibilityComparison> ways = compareVisibility(*device, asset, arguments.samples);
     if (!arguments.visibilityImage.empty() && !ways)
-        throw Error("--visibility-image: {} cannot trace, so that there is nothing to compare",
-                    device->name());
+        throw Error(fmt::format("--visibility-image: {} cannot trace, so that there is nothing to compare",
+                                device->name()));
     if (!arguments.visibilityImage.empty()) writePng(arguments.visibilityImage, ways->picture);
     if (arguments.json) {
         using Json = nlohmann::ordered_json;
@@ -81,7 +81,7 @@ void run(const Arguments& arguments) {
     }
     DeviceArguments::expectNoMessages(*device);
     if (found.relightBits > 0)
-        throw Error("{} vertices relight differently on device and CPU", found.relightBits);
+        throw Error(fmt::format("{} vertices relight differently on device and CPU", found.relightBits));
 }
 
 } // namespace

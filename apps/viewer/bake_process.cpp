@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -22,8 +23,9 @@ std::filesystem::path findProgram() {
     const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", failure);
     const std::filesystem::path program = own.parent_path() / "relume";
     if (!std::filesystem::exists(program, failure))
-        throw Error("{}: expected the program that bakes, found none; install it beside relume-viewer",
-                    program.string());
+        throw Error(
+            fmt::format("{}: expected the program that bakes, found none; install it beside relume-viewer",
+                        program.string()));
     return program;
 }
 
@@ -50,12 +52,13 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
     arguments.push_back(nullptr);
 
     int events[2], errors[2];
-    if (pipe2(events, O_CLOEXEC) != 0) throw Error("a bake cannot be begun: {}", std::strerror(errno));
+    if (pipe2(events, O_CLOEXEC) != 0)
+        throw Error(fmt::format("a bake cannot be begun: {}", std::strerror(errno)));
     if (pipe2(errors, O_CLOEXEC) != 0) {
         const std::string why = std::strerror(errno);
         close(events[0]);
         close(events[1]);
-        throw Error("a bake cannot be begun: {}", why);
+        throw Error(fmt::format("a bake cannot be begun: {}", why));
     }
     mProcess = fork();
     if (mProcess == 0) {
@@ -72,7 +75,7 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
     fcntl(mEvents, F_SETFL, O_NONBLOCK);
     fcntl(mWords, F_SETFL, O_NONBLOCK);
     mProgress.stage = "starting";
-    if (mProcess < 0) throw Error("a bake cannot be begun: {}", std::strerror(errno));
+    if (mProcess < 0) throw Error(fmt::format("a bake cannot be begun: {}", std::strerror(errno)));
 }
 
 void BakeProcess::stop() {

@@ -1,8 +1,9 @@
 #include "apps/viewer/content.h"
+#include "engine/import/environment_file.h"
 
 #include "apps/viewer/opened_file.h"
 #include "engine/base/error.h"
-#include "engine/light/light_file.h"
+#include "engine/import/light_file.h"
 
 #include <algorithm>
 #include <utility>

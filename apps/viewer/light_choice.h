@@ -1,8 +1,8 @@
 // What lights the object, as hands choose it, and the light that it stands for.
 #pragma once
 
+#include "engine/import/moving_light.h"
 #include "engine/light/light_selection.h"
-#include "engine/light/moving_light.h"
 
 #include <filesystem>
 #include <memory>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/viewer/worker.h"
-#include "engine/light/moving_light.h"
+#include "engine/import/moving_light.h"
 
 #include <optional>
 

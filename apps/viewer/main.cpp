@@ -4,6 +4,8 @@
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 
+#include <fmt/format.h>
+
 using namespace relume;
 
 int main(int argc, char** argv) {
@@ -24,8 +26,8 @@ int main(int argc, char** argv) {
             char rest;
             if (std::sscanf(text.c_str(), "%dx%d%c", &found.x, &found.y, &rest) != 2 || found.x < 320 ||
                 found.y < 240 || found.x > 16384 || found.y > 16384)
-                throw UsageError("--size: expected WIDTHxHEIGHT, from 320x240 to 16384x16384, found \"{}\"",
-                                 text);
+                throw UsageError(fmt::format(
+                    "--size: expected WIDTHxHEIGHT, from 320x240 to 16384x16384, found \"{}\"", text));
             options.size = found;
         });
     program.add_flag_callback(
@@ -53,8 +55,8 @@ int main(int argc, char** argv) {
     return runProgram(program, argc, argv, [&] {
         const std::string image = options.screenshot.extension();
         if (!options.screenshot.empty() && image != ".png" && image != ".exr")
-            throw UsageError("--screenshot: expected a name ending in .png or .exr, found \"{}\"",
-                             options.screenshot.string());
+            throw UsageError(fmt::format("--screenshot: expected a name ending in .png or .exr, found \"{}\"",
+                                         options.screenshot.string()));
         options.device = device.options;
         runViewer(options);
         if (caughtInterrupt()) throw CLI::RuntimeError(kExitStopped + caughtInterrupt());

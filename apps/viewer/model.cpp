@@ -1,7 +1,6 @@
 #include "apps/viewer/model.h"
 
 #include "precompute/reference/dressed_asset.h"
-#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 
@@ -18,9 +17,8 @@ RayTracer occluderOf(const Asset& asset) {
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
     : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), groundFade(makeGroundFade(asset)),
-      appearance(defaultAppearance(asset)), light(device, asset.faceSize),
-      relighter(device, asset, {.residuals = makeResiduals(asset)}), view(device, asset),
-      surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
+      appearance(defaultAppearance(asset)), light(device, asset.faceSize), relighter(device, asset, {}),
+      view(device, asset), surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

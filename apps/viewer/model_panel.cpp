@@ -2,6 +2,7 @@
 #include "apps/viewer/panels.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 

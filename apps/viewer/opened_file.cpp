@@ -6,6 +6,7 @@
 #include "engine/base/hash.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -35,7 +36,8 @@ std::string datesOf(const json& value, const std::filesystem::path& folder) {
 
 bool isScene(const std::filesystem::path& file) {
     const json content = parse(file);
-    if (!content.is_object()) throw Error("{}: expected a JSON object: a scene or a light", file.string());
+    if (!content.is_object())
+        throw Error(fmt::format("{}: expected a JSON object: a scene or a light", file.string()));
     return content.contains("parts");
 }
 
@@ -55,21 +57,21 @@ FileKind kindOf(const std::filesystem::path& file) {
     if (extension == ".json") return isScene(file) ? FileKind::Bakeable : FileKind::Light;
     for (const char* mesh : {".obj", ".ply", ".gltf", ".glb"})
         if (extension == mesh) return FileKind::Bakeable;
-    throw Error(
+    throw Error(fmt::format(
         "{}: expected a bake (.relume), a mesh (.obj, .ply, .gltf, .glb), a scene or light (.json) or an "
         "environment (.exr, .hdr)",
-        file.string());
+        file.string()));
 }
 
 std::filesystem::path bakePath(const std::filesystem::path& input) {
     std::error_code failure;
     const std::filesystem::path folder = cacheFolder() / "bakes";
     std::filesystem::create_directories(folder, failure);
-    if (failure) throw Error("{}: cannot be made: {}", folder.string(), failure.message());
+    if (failure) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
     if (input.empty()) return folder / "built-in.relume";
     const std::filesystem::path whole = std::filesystem::absolute(input);
     const auto changed = std::filesystem::last_write_time(whole, failure);
-    if (failure) throw Error("{}: cannot be read: {}", input.string(), failure.message());
+    if (failure) throw Error(fmt::format("{}: cannot be read: {}", input.string(), failure.message()));
     std::string identity = fmt::format("{}\n{}", whole.string(), changed.time_since_epoch().count());
     if (extensionOf(input) == ".json") identity += datesOf(parse(input), whole.parent_path());
     const std::string hash = hashText(std::as_bytes(std::span(identity)));

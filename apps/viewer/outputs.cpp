@@ -1,12 +1,14 @@
 #include "apps/viewer/outputs.h"
+#include "engine/import/timing_file.h"
 
 #include "apps/viewer/screenshot.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 
 #include <chrono>
 #include <ctime>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -27,8 +29,8 @@ void writeLightFile(const std::filesystem::path& file, const nlohmann::json& lig
     try {
         writeFileAtomically(file, light.dump(2) + "\n");
     } catch (const nlohmann::json::exception&) {
-        throw Error("{}: a light file is UTF-8, and the name of the environment is not; rename it",
-                    file.string());
+        throw Error(fmt::format(
+            "{}: a light file is UTF-8, and the name of the environment is not; rename it", file.string()));
     }
 }
 
@@ -87,14 +89,14 @@ void Outputs::save(const SceneState& state, const Model* model, bool fadesGround
             failure = why.what();
         }
     }
-    if (!failure.empty()) throw Error("{}", failure);
+    if (!failure.empty()) throw Error(failure);
     if (mRecorder) mRecorder->add(screen);
 }
 
 void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
                              const Model* model, bool fadesGround) {
     if (file.extension() != ".exr") return writePng(file, screen);
-    if (!model) throw Error("{}: nothing is shown yet", file.string());
+    if (!model) throw Error(fmt::format("{}: nothing is shown yet", file.string()));
     writeExr(file, model->view.read());
     if (state.inspect != Inspect::Off) return; // no command draws it
     std::filesystem::path light = file;

@@ -3,6 +3,8 @@
 #include "apps/viewer/controls.h"
 #include "apps/viewer/panel_items.h"
 
+#include <fmt/format.h>
+
 namespace relume {
 
 namespace {

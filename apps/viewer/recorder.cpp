@@ -1,7 +1,9 @@
 #include "apps/viewer/recorder.h"
 
 #include "engine/base/error.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
+
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -14,7 +16,8 @@ constexpr size_t kMostWaiting = 8;
 Recorder::Recorder(std::filesystem::path folder) : mFolder(std::move(folder)), mWorker([] {}) {
     std::error_code failure;
     if (!std::filesystem::create_directories(mFolder, failure))
-        throw Error("{}: cannot be made: {}", mFolder.string(), failure ? failure.message() : "it is there");
+        throw Error(fmt::format("{}: cannot be made: {}", mFolder.string(),
+                                failure ? failure.message() : "it is there"));
 }
 
 void Recorder::add(Image frame) {
@@ -44,7 +47,7 @@ void Recorder::add(Image frame) {
 void Recorder::finish() {
     mWorker.wait();
     mWorker.apply();
-    if (!mFailure.empty()) throw Error("{}", mFailure);
+    if (!mFailure.empty()) throw Error(mFailure);
 }
 
 } // namespace relume

@@ -184,9 +184,10 @@ bool SceneView::fadesGround(const SceneState& state) const {
 
 void SceneView::recordBackground(vk::Commands& commands, const SceneState& state) {
     if (state.background == Behind::None || isFalseColor(state)) return;
-    const std::pair wanted(mLightVersion, state.backgroundBlur);
-    if (mBehind != wanted) mBackgroundPass->setLight(mLight, glm::radians(state.backgroundBlur));
-    mBehind = wanted;
+    if (!mBehind || mBehind->first != mLightVersion || mBehind->second != state.backgroundBlur) {
+        mBackgroundPass->setLight(mLight, glm::radians(state.backgroundBlur));
+        mBehind.emplace(mLightVersion, state.backgroundBlur);
+    }
     mBackgroundPass->record(commands, *mImage, mSeen->camera, glm::radians(mLit->rotation));
     mImage = &mBackgroundPass->image();
 }

@@ -5,6 +5,7 @@
 #include "engine/base/file.h"
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <map>
 
 namespace relume {
@@ -49,8 +50,8 @@ int keyOf(const std::string& name) {
     if (name == "Enter") return GLFW_KEY_ENTER;
     if (name == "Space") return GLFW_KEY_SPACE;
     if (name == "Tab") return GLFW_KEY_TAB;
-    throw Error("expected a key, found \"{}\"; A to Z, 0 to 9, -, =, F1 to F12, Enter, Space and Tab are",
-                name);
+    throw Error(fmt::format(
+        "expected a key, found \"{}\"; A to Z, 0 to 9, -, =, F1 to F12, Enter, Space and Tab are", name));
 }
 
 vec2 pairOf(const json& step, const char* name) {
@@ -64,7 +65,7 @@ Script::Script(const std::filesystem::path& file) : mFile(file) {
     const std::vector<std::byte> bytes = readFile(file, kMostBytes);
     const char* const text = reinterpret_cast<const char*>(bytes.data());
     mSteps = json::parse(text, text + bytes.size(), nullptr, false);
-    if (!mSteps.is_array()) throw Error("{}: expected a JSON array of steps", file.string());
+    if (!mSteps.is_array()) throw Error(fmt::format("{}: expected a JSON array of steps", file.string()));
 }
 
 void Script::step(ScriptTarget& target) {
@@ -72,9 +73,9 @@ void Script::step(ScriptTarget& target) {
         try {
             if (!run(target, mSteps[mStep])) return;
         } catch (const json::exception& wrong) {
-            throw Error("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what());
+            throw Error(fmt::format("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what()));
         } catch (const Error& wrong) {
-            throw Error("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what());
+            throw Error(fmt::format("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what()));
         }
         mStep++;
         mFrame = 0;
@@ -82,7 +83,8 @@ void Script::step(ScriptTarget& target) {
 }
 
 bool Script::run(ScriptTarget& target, const json& step) {
-    if (!step.is_object() || step.empty()) throw Error("expected an object, found {}", step.dump());
+    if (!step.is_object() || step.empty())
+        throw Error(fmt::format("expected an object, found {}", step.dump()));
     if (step.contains("drag")) return drag(target, step);
     const bool isFirst = mFrame++ == 0;
     if (step.contains("frames")) return mFrame > step["frames"].get<int>();
@@ -116,10 +118,11 @@ bool Script::run(ScriptTarget& target, const json& step) {
     } else if (step.contains("quit")) {
         target.quit();
     } else
-        throw Error("expected one of double-click, drag, drop, frames, key, quit, resize, screenshot, set, "
-                    "wait, wheel; "
-                    "found {}",
-                    step.dump());
+        throw Error(fmt::format(
+            "expected one of double-click, drag, drop, frames, key, quit, resize, screenshot, set, "
+            "wait, wheel; "
+            "found {}",
+            step.dump()));
     return false;
 }
 
@@ -131,10 +134,11 @@ bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
         return std::chrono::steady_clock::now() - mWaitsSince >=
                std::chrono::duration<double>(wait.get<double>());
     if (!wait.is_object() || !wait.contains("passes"))
-        throw Error("\"wait\": expected \"settled\", seconds, or {{\"passes\": N}} of a comparison");
+        throw Error(
+            fmt::format("\"wait\": expected \"settled\", seconds, or {{\"passes\": N}} of a comparison"));
     const int passes = wait["passes"].get<int>();
     if (passes > Comparison::kPasses)
-        throw Error("\"passes\": expected at most {}, found {}", Comparison::kPasses, passes);
+        throw Error(fmt::format("\"passes\": expected at most {}, found {}", Comparison::kPasses, passes));
     return target.comparedPasses() >= passes;
 }
 
@@ -143,7 +147,8 @@ bool Script::drag(ScriptTarget& target, const json& step) {
     const auto [name, modifiers] = splitModifiers(step["drag"].get<std::string>());
     const auto button = buttons().find(name);
     if (button == buttons().end())
-        throw Error("\"drag\": expected left, middle or right, after shift+ or ctrl+; found \"{}\"", name);
+        throw Error(fmt::format(
+            "\"drag\": expected left, middle or right, after shift+ or ctrl+; found \"{}\"", name));
     const vec2 from = pairOf(step, "from"), by = pairOf(step, "by");
     const int frames = std::max(1, step.value("over", 1));
     using Kind = InputEvent::Kind;

@@ -16,13 +16,14 @@ using nlohmann::json;
 
 float numberOf(const std::string& name, const json& value, float low, float high) {
     if (!value.is_number() || !(value.get<float>() >= low && value.get<float>() <= high))
-        throw Error("\"{}\": expected a number from {} to {}, found {}", name, low, high, value.dump());
+        throw Error(
+            fmt::format("\"{}\": expected a number from {} to {}, found {}", name, low, high, value.dump()));
     return value.get<float>();
 }
 
 vec3 colorOf(const std::string& name, const json& value, float high) {
     if (!value.is_array() || value.size() != 3)
-        throw Error("\"{}\": expected three numbers, found {}", name, value.dump());
+        throw Error(fmt::format("\"{}\": expected three numbers, found {}", name, value.dump()));
     return {numberOf(name, value[0], 0, high), numberOf(name, value[1], 0, high),
             numberOf(name, value[2], 0, high)};
 }
@@ -63,7 +64,8 @@ Setting number(const std::string& name, Number Owner::*member, float low, float 
 template <typename Owner>
 Setting flag(const std::string& name, bool Owner::*member, bool isKept = false) {
     return ofMember(name, member, isKept, [](const std::string& key, const json& value) {
-        if (!value.is_boolean()) throw Error("\"{}\": expected true or false, found {}", key, value.dump());
+        if (!value.is_boolean())
+            throw Error(fmt::format("\"{}\": expected true or false, found {}", key, value.dump()));
         return value.get<bool>();
     });
 }
@@ -72,13 +74,14 @@ Setting flag(const std::string& name, bool Owner::*member, bool isKept = false) 
 template <typename Owner, typename Choice>
 Setting choice(const std::string& name, Choice Owner::*member, const std::vector<std::string>& names,
                bool isKept = false) {
-    Setting setting{
-        name, [=](SceneState& state, const json& value) {
-            const auto found = std::ranges::find(names, value.is_string() ? value.get<std::string>() : "");
-            if (found == names.end())
-                throw Error("\"{}\": expected {}, found {}", name, fmt::join(names, " or "), value.dump());
-            memberOf(state, member) = Choice(found - names.begin());
-        }};
+    Setting setting{name, [=](SceneState& state, const json& value) {
+                        const auto found =
+                            std::ranges::find(names, value.is_string() ? value.get<std::string>() : "");
+                        if (found == names.end())
+                            throw Error(fmt::format("\"{}\": expected {}, found {}", name,
+                                                    fmt::join(names, " or "), value.dump()));
+                        memberOf(state, member) = Choice(found - names.begin());
+                    }};
     if (isKept)
         setting.get = [=](const SceneState& state) { return json(names[size_t(memberOf(state, member))]); };
     return setting;
@@ -87,10 +90,12 @@ Setting choice(const std::string& name, Choice Owner::*member, const std::vector
 // Calls `read` with every key of an object.
 template <typename Read>
 void forEachKey(const std::string& name, const json& object, Read read) {
-    if (!object.is_object()) throw Error("\"{}\": expected an object, found {}", name, object.dump());
+    if (!object.is_object())
+        throw Error(fmt::format("\"{}\": expected an object, found {}", name, object.dump()));
     for (const auto& [key, value] : object.items())
         if (!read(key, value))
-            throw Error("\"{}\": there is no \"{}\"; docs/viewer.md lists what there is", name, key);
+            throw Error(
+                fmt::format("\"{}\": there is no \"{}\"; docs/viewer.md lists what there is", name, key));
 }
 
 LampChoice lampFrom(const json& values) {
@@ -175,7 +180,7 @@ json coefficientsOf(const SceneState& state) {
 
 void setSamples(SceneState& state, const json& value) {
     if (value != 1 && value != 2 && value != 4 && value != 8)
-        throw Error("\"samples\": expected 1, 2, 4 or 8, found {}", value.dump());
+        throw Error(fmt::format("\"samples\": expected 1, 2, 4 or 8, found {}", value.dump()));
     state.samples = value.get<int>();
 }
 
@@ -187,10 +192,11 @@ void setMaterial(SceneState& state, const json& value) {
         for (const auto& [name, weight] : value.items())
             blend.push_back({name, numberOf(name, weight, 0, 1e6f)});
     if (!value.is_string() && blend.empty())
-        throw Error("\"material\": expected a name, or weights by name, found {}", value.dump());
+        throw Error(fmt::format("\"material\": expected a name, or weights by name, found {}", value.dump()));
     if (!blend.empty() &&
         std::ranges::all_of(blend, [](const WeightedMaterial& worn) { return worn.weight == 0; }))
-        throw Error("\"material\": expected at least one weight above 0, found {}", value.dump());
+        throw Error(
+            fmt::format("\"material\": expected at least one weight above 0, found {}", value.dump()));
     state.material = blend;
 }
 
@@ -206,7 +212,7 @@ template <typename Element>
 void setList(const std::string& name, std::vector<Element>& list, Element (*from)(const json&),
              const json& values) {
     if (!values.is_array() || values.size() > kMostSources)
-        throw Error("\"{}\": expected a list of at most {} objects", name, kMostSources);
+        throw Error(fmt::format("\"{}\": expected a list of at most {} objects", name, kMostSources));
     list.clear();
     for (const json& value : values) list.push_back(from(value));
 }
@@ -258,7 +264,7 @@ const std::vector<Setting>& settings() {
 // True: it was one of the camera.
 bool applyToCamera(SceneState& state, const std::string& name, const json& value, const Bounds* model) {
     if (name != "azimuth" && name != "elevation" && name != "distance" && name != "fov") return false;
-    if (!model) throw Error("\"{}\": nothing is shown yet; \"wait\" for it", name);
+    if (!model) throw Error(fmt::format("\"{}\": nothing is shown yet; \"wait\" for it", name));
     Orbit& orbit = *state.orbit;
     if (name == "azimuth") orbit.azimuth = glm::radians(numberOf(name, value, -360, 360));
     if (name == "elevation") orbit.elevation = glm::radians(numberOf(name, value, -89.5f, 89.5f));
@@ -278,8 +284,8 @@ void applySetting(SceneState& state, const std::string& name, const json& value,
     if (setting != settings().end()) return setting->set(state, value);
     std::vector<std::string_view> names = {"azimuth", "elevation", "distance", "fov", "environment"};
     for (const Setting& known : settings()) names.push_back(known.name);
-    throw Error("no setting is called \"{}\"; did you mean \"{}\"? docs/viewer.md lists them", name,
-                nearestName(name, names));
+    throw Error(fmt::format("no setting is called \"{}\"; did you mean \"{}\"? docs/viewer.md lists them",
+                            name, nearestName(name, names)));
 }
 
 json keptSettings(const SceneState& state) {

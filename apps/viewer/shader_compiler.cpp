@@ -6,6 +6,7 @@
 #include "shaders/frame_shaders.h"
 
 #include <cstdlib>
+#include <fmt/format.h>
 #include <memory>
 
 #ifdef RELUME_GLSLANG
@@ -77,7 +78,7 @@ EShLanguage stageOf(const std::filesystem::path& source) {
     if (extension == ".comp") return EShLangCompute;
     if (extension == ".vert") return EShLangVertex;
     if (extension == ".frag") return EShLangFragment;
-    throw Error("{}: expected a shader that ends in .comp, .vert or .frag", source.string());
+    throw Error(fmt::format("{}: expected a shader that ends in .comp, .vert or .frag", source.string()));
 }
 
 // The errors in the compiler's log, a line each: "FILE:LINE: …".
@@ -119,10 +120,10 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source,
     constexpr auto kMessages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     Includer includer(std::filesystem::absolute(source).lexically_normal().parent_path().parent_path());
     if (!shader.parse(GetDefaultResources(), 100, false, kMessages, includer))
-        throw Error("{}", errorsIn(shader.getInfoLog()));
+        throw Error(errorsIn(shader.getInfoLog()));
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(kMessages)) throw Error("{}: {}", name, errorsIn(program.getInfoLog()));
+    if (!program.link(kMessages)) throw Error(fmt::format("{}: {}", name, errorsIn(program.getInfoLog())));
     std::vector<uint32_t> spirv;
     glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
     return spirv;
@@ -131,8 +132,9 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source,
 #else
 
 std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::span<const std::string_view>) {
-    throw Error("{}: cannot be compiled: this program was built without glslang (on Debian: glslang-dev)",
-                source.string());
+    throw Error(
+        fmt::format("{}: cannot be compiled: this program was built without glslang (on Debian: glslang-dev)",
+                    source.string()));
 }
 
 #endif
@@ -140,8 +142,8 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source, std::sp
 size_t reloadShaders(vk::Device& device, const std::filesystem::path& folder) {
     std::error_code failure;
     if (!std::filesystem::is_directory(folder, failure))
-        throw Error("{}: the shaders' sources are not there; RELUME_SHADERS names their folder",
-                    folder.string());
+        throw Error(fmt::format("{}: the shaders' sources are not there; RELUME_SHADERS names their folder",
+                                folder.string()));
     std::vector<vk::ShaderReplacement> replacements;
     for (const FrameShader& shader : kFrameShaders) {
         const std::filesystem::path source = folder / shader.file;

@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 
 #include <cstdlib>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -15,7 +16,8 @@ std::filesystem::path folder(const char* variable, const char* inHome) {
     if (const char* set = std::getenv(variable); set && *set == '/') base = set;
     std::error_code failure;
     std::filesystem::create_directories(base / "relume", failure);
-    if (failure) throw Error("{}: cannot be made: {}", (base / "relume").string(), failure.message());
+    if (failure)
+        throw Error(fmt::format("{}: cannot be made: {}", (base / "relume").string(), failure.message()));
     return base / "relume";
 }
 

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -171,7 +172,8 @@ Viewer::Viewer(const ViewerOptions& options)
     if (!options.timings.empty()) mOutputs.beginCapture(options.timings);
     bool hasModel = false;
     for (const std::filesystem::path& file : options.files) {
-        if (!std::filesystem::exists(file)) throw Error("{}: there is no such file", file.string());
+        if (!std::filesystem::exists(file))
+            throw Error(fmt::format("{}: there is no such file", file.string()));
         const FileKind kind = kindOf(file);
         hasModel |= kind == FileKind::Bake || kind == FileKind::Bakeable;
         mContent.open(file);
@@ -216,7 +218,8 @@ void Viewer::input(InputEvent event) {
 
 void Viewer::screenshot(const std::filesystem::path& file) {
     if (file.extension() != ".png" && file.extension() != ".exr")
-        throw Error("\"screenshot\": expected a name ending in .png or .exr, found \"{}\"", file.string());
+        throw Error(fmt::format("\"screenshot\": expected a name ending in .png or .exr, found \"{}\"",
+                                file.string()));
     mOutputs.wantScreenshot(file);
 }
 
@@ -419,7 +422,7 @@ void Viewer::poll() {
 // Nobody is there to open something else.
 void Viewer::expectSomething() const {
     const bool isReplayed = mOptions.exitFrame || (mScript && mScript->isWaiting());
-    if (isReplayed && !mContent.shown() && mIsFailure && mContent.isSettled()) throw Error("{}", mNotice);
+    if (isReplayed && !mContent.shown() && mIsFailure && mContent.isSettled()) throw Error(mNotice);
 }
 
 bool Viewer::moves() const { return mState.turns || mState.light.plays; }
@@ -436,10 +439,10 @@ double Viewer::waitSeconds() const {
 
 int Viewer::comparedPasses() const {
     if (!SceneView::compares(mState))
-        throw Error(
-            "\"passes\": nothing is compared; {{\"set\": {{\"compare\": \"split\"}}}} before, inspect off");
+        throw Error(fmt::format(
+            "\"passes\": nothing is compared; {{\"set\": {{\"compare\": \"split\"}}}} before, inspect off"));
     const Comparison::Result& compared = mView.compared();
-    if (!compared.failure.empty()) throw Error("\"passes\": {}", compared.failure);
+    if (!compared.failure.empty()) throw Error(fmt::format("\"passes\": {}", compared.failure));
     return compared.passes;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/base/error.h"
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume {
@@ -38,7 +39,7 @@ Window::Window(const std::string& title, ivec2 size) {
     constexpr const char* kNoDisplay =
         "no window can be opened: {}; is a display there (DISPLAY or WAYLAND_DISPLAY)? `relume render` draws "
         "without one";
-    if (!glfwInit()) throw NoDeviceError(kNoDisplay, lastError());
+    if (!glfwInit()) throw NoDeviceError(fmt::format(kNoDisplay, lastError()));
     if (!glfwVulkanSupported()) {
         glfwTerminate();
         throw NoDeviceError("this display cannot show what Vulkan draws; `relume render` draws without one");
@@ -49,7 +50,7 @@ Window::Window(const std::string& title, ivec2 size) {
     if (!mWindow) {
         const std::string why = lastError();
         glfwTerminate();
-        throw NoDeviceError(kNoDisplay, why);
+        throw NoDeviceError(fmt::format(kNoDisplay, why));
     }
     glfwSetWindowSizeLimits(mWindow, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwSetWindowUserPointer(mWindow, this);
@@ -86,14 +87,15 @@ Window::~Window() {
 std::vector<std::string> Window::surfaceExtensions() const {
     uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
-    if (!names) throw NoDeviceError("this display cannot show what Vulkan draws: {}", lastError());
+    if (!names)
+        throw NoDeviceError(fmt::format("this display cannot show what Vulkan draws: {}", lastError()));
     return {names, names + count};
 }
 
 VkSurfaceKHR Window::makeSurface(VkInstance instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (glfwCreateWindowSurface(instance, mWindow, nullptr, &surface) != VK_SUCCESS)
-        throw NoDeviceError("Vulkan cannot draw on this window: {}", lastError());
+        throw NoDeviceError(fmt::format("Vulkan cannot draw on this window: {}", lastError()));
     return surface;
 }
 

@@ -6,8 +6,8 @@
 namespace relume {
 
 void failCheck(std::string_view condition, std::string_view values, const char* file, int line) {
-    fmt::print(stderr, "{}:{}: check failed: {}{}{}\n", file, line, condition, values.empty() ? "" : ": ",
-               values);
+    std::fprintf(stderr, "%s:%d: check failed: %s%s%s\n", file, line, std::string(condition).c_str(),
+                 values.empty() ? "" : ": ", std::string(values).c_str());
     std::abort();
 }
 

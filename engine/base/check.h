@@ -2,13 +2,23 @@
 // They stay on in every build, print both values and abort. Bad input is not a bug: see error.h.
 #pragma once
 
-#include <fmt/format.h>
+#include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace relume {
 
 // Prints the failed condition with its place and aborts.
 [[noreturn]] void failCheck(std::string_view condition, std::string_view values, const char* file, int line);
+
+// A value as the message of a failed check has it.
+template <typename T>
+std::string printed(const T& value) {
+    if constexpr (std::is_arithmetic_v<T>)
+        return std::to_string(value);
+    else
+        return std::string(value);
+}
 
 } // namespace relume
 
@@ -22,7 +32,8 @@ namespace relume {
         const auto& checkLeft = (a);                                                                         \
         const auto& checkRight = (b);                                                                        \
         if (!(checkLeft op checkRight))                                                                      \
-            ::relume::failCheck(#a " " #op " " #b, fmt::format("{} against {}", checkLeft, checkRight),      \
+            ::relume::failCheck(#a " " #op " " #b,                                                           \
+                                ::relume::printed(checkLeft) + " against " + ::relume::printed(checkRight),  \
                                 __FILE__, __LINE__);                                                         \
     } while (false)
 

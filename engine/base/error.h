@@ -2,7 +2,6 @@
 // what to do. Thrown where found, caught in main only, where the type decides the exit code.
 #pragma once
 
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace relume {
@@ -20,9 +19,7 @@ enum ExitCode : int {
 // Bad input or a failing environment: exit code 1.
 class Error : public std::runtime_error {
   public:
-    template <typename... Args>
-    explicit Error(fmt::format_string<Args...> text, Args&&... args)
-        : std::runtime_error(fmt::format(text, std::forward<Args>(args)...)) {}
+    using std::runtime_error::runtime_error;
 };
 
 // Options that cannot be used as given: exit code 2.

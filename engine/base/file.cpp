@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,29 +18,32 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit)
     std::error_code failure;
     const auto status = std::filesystem::status(path, failure);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        throw Error("{}: expected a regular file, found a folder, pipe or device", path.string());
+        throw Error(
+            fmt::format("{}: expected a regular file, found a folder, pipe or device", path.string()));
     std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) throw Error("{}: cannot be read: {}", path.string(), std::strerror(errno));
+    if (!file) throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
     const std::streamoff size = file.tellg();
-    if (size < 0) throw Error("{}: expected a regular file", path.string());
+    if (size < 0) throw Error(fmt::format("{}: expected a regular file", path.string()));
     if (size_t(size) > limit)
-        throw Error("{}: holds {} bytes, more than the {} that such a file may have", path.string(), size,
-                    limit);
+        throw Error(fmt::format("{}: holds {} bytes, more than the {} that such a file may have",
+                                path.string(), size, limit));
     std::vector<std::byte> bytes(size_t(size), std::byte(0));
     file.seekg(0);
     if (!bytes.empty() && !file.read(reinterpret_cast<char*>(bytes.data()), size))
-        throw Error("{}: cannot be read to its end", path.string());
+        throw Error(fmt::format("{}: cannot be read to its end", path.string()));
     return bytes;
 }
 
 FileReader::FileReader(std::filesystem::path path) : mPath(std::move(path)) {
     ReadFiles::add(mPath);
     mDescriptor = open(mPath.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (mDescriptor < 0) throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
+    if (mDescriptor < 0)
+        throw Error(fmt::format("{}: cannot be read: {}", mPath.string(), std::strerror(errno)));
     struct stat status {};
     if (fstat(mDescriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
         close(mDescriptor);
-        throw Error("{}: expected a regular file, found a folder, pipe or device", mPath.string());
+        throw Error(
+            fmt::format("{}: expected a regular file, found a folder, pipe or device", mPath.string()));
     }
     mSize = uint64_t(status.st_size);
 }
@@ -50,8 +54,9 @@ void FileReader::read(uint64_t offset, std::span<std::byte> bytes) const {
     while (!bytes.empty()) {
         const ssize_t count = pread(mDescriptor, bytes.data(), bytes.size(), off_t(offset));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
-        if (count == 0) throw Error("{}: became shorter while it was read", mPath.string());
+        if (count < 0)
+            throw Error(fmt::format("{}: cannot be read: {}", mPath.string(), std::strerror(errno)));
+        if (count == 0) throw Error(fmt::format("{}: became shorter while it was read", mPath.string()));
         offset += uint64_t(count);
         bytes = bytes.subspan(size_t(count));
     }
@@ -62,8 +67,8 @@ static std::filesystem::path replacedFile(std::filesystem::path path) {
     std::error_code failure;
     const auto status = std::filesystem::status(path, failure);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        throw Error("{}: cannot be written: it is a folder, pipe or device; name a regular file",
-                    path.string());
+        throw Error(fmt::format("{}: cannot be written: it is a folder, pipe or device; name a regular file",
+                                path.string()));
     if (std::filesystem::is_symlink(path, failure)) return std::filesystem::weakly_canonical(path);
     return path;
 }
@@ -76,8 +81,8 @@ AtomicFile::AtomicFile(std::filesystem::path path) : mPath(replacedFile(std::mov
     std::string pattern = mPath.string() + ".XXXXXX";
     mDescriptor = mkstemp(pattern.data());
     if (mDescriptor < 0)
-        throw Error("{}: cannot be written: {}; is its folder there and writable?", mPath.string(),
-                    std::strerror(errno));
+        throw Error(fmt::format("{}: cannot be written: {}; is its folder there and writable?",
+                                mPath.string(), std::strerror(errno)));
     mTemporary = pattern;
     // mkstemp makes private files; the result gets the permissions that any new file would have.
     const mode_t mask = umask(0);
@@ -90,8 +95,8 @@ AtomicFile::AtomicFile(std::filesystem::path path, const std::string& suffix)
     mTemporary = mPath.string() + suffix;
     mDescriptor = open(mTemporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (mDescriptor < 0)
-        throw Error("{}: cannot be written: {}; is its folder there and writable?", mTemporary.string(),
-                    std::strerror(errno));
+        throw Error(fmt::format("{}: cannot be written: {}; is its folder there and writable?",
+                                mTemporary.string(), std::strerror(errno)));
 }
 
 AtomicFile::~AtomicFile() {
@@ -104,7 +109,8 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(mDescriptor, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) throw Error("{}: cannot be written: {}", mPath.string(), std::strerror(errno));
+        if (written <= 0)
+            throw Error(fmt::format("{}: cannot be written: {}", mPath.string(), std::strerror(errno)));
         bytes = bytes.subspan(size_t(written));
     }
 }
@@ -115,7 +121,7 @@ void AtomicFile::commit() {
     const bool flushed = current >= 0 && fsync(current) == 0;
     if (current >= 0) close(current);
     if (!flushed || rename(mTemporary.c_str(), mPath.c_str()) != 0)
-        throw Error("{}: cannot be written: {}", mPath.string(), std::strerror(errno));
+        throw Error(fmt::format("{}: cannot be written: {}", mPath.string(), std::strerror(errno)));
     close(mDescriptor);
     mDescriptor = -1;
     // The new name outlives a crash of the machine only once its folder is on the disk.

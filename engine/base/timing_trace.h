@@ -1,8 +1,7 @@
-// What a run of frames spent its time on: spans of CPU and GPU on one clock, and the files they go to.
+// What a run of frames spent its time on: spans of CPU and GPU on one clock.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,22 +33,5 @@ struct TimingTrace {
     // inside it. Spans of a track nest or are disjoint.
     std::vector<TimingSpan> spans;
 };
-
-// "none", "calibrated" or "anchored".
-const char* nameOf(ClockMatch clock);
-
-// Trace events that Perfetto and chrome://tracing open: complete events on two threads, CPU and GPU, times in
-// microseconds; device, driver and clock in "otherData".
-std::string chromeTrace(const TimingTrace& trace);
-
-// A table: frame (empty outside frames), track, name, start_us, duration_us.
-std::string csvTable(const TimingTrace& trace);
-
-// Throws UsageError, before long work, unless `path` ends in .json or .csv, and Error if it cannot be
-// written.
-void expectTimingFile(const std::filesystem::path& path);
-
-// chromeTrace() to a .json, csvTable() to a .csv; whole or not at all. Throws Error.
-void writeTimings(const std::filesystem::path& path, const TimingTrace& trace);
 
 } // namespace relume

@@ -3,7 +3,6 @@
 
 #include "engine/image/image.h"
 
-#include <filesystem>
 #include <memory>
 
 namespace relume {
@@ -27,12 +26,6 @@ struct Environment {
     MapTaps taps(vec3 direction) const; // wrapping in longitude, clamped in latitude
     vec3 lookup(vec3 direction) const;  // bilinear, wrapping in longitude
 };
-
-// Reads .exr (latlong, or cube by its envmap attribute) or .hdr. A file without the attribute is a
-// latlong with pixel centres; one with it has its first and last rows on the poles, and is resampled; a
-// cube becomes a latlong of four times a face's width. Negative values become 0, those above 1e12 become
-// that; both are counted in the log. Throws Error, also for a latlong that is not twice as wide as high.
-Environment readEnvironment(const std::filesystem::path& path);
 
 // Most columns of what is kept of a map for looking at: a degree in 22 of them.
 constexpr int kMostPictureColumns = 8192;

@@ -28,11 +28,11 @@ constexpr size_t kMostSources = 512;
 // Environments and sky are summed; strokes painted over them, in their order; the sun, lamps and distant
 // lights added.
 struct Light {
-    std::vector<EnvironmentLight> environments;
+    std::vector<EnvironmentLight> environments = {};
     std::optional<DaySky> sky = std::nullopt;
-    std::vector<Stroke> strokes;
-    std::vector<Lamp> lamps;
-    std::vector<DistantLight> distant;
+    std::vector<Stroke> strokes = {};
+    std::vector<Lamp> lamps = {};
+    std::vector<DistantLight> distant = {};
 };
 
 // Unit vector at an azimuth (0: +Z, 90: +X) and an elevation, in degrees.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <string_view>
 
 namespace relume {
@@ -52,10 +53,10 @@ double refraction(double elevation) {
 Moment parseMoment(const std::string& text) {
     Moment moment{};
     const auto refuse = [&] {
-        throw UsageError(
+        throw UsageError(fmt::format(
             "expected a moment of 1901 to 2099 like \"2026-06-21T14:30:00+02:00\", with its offset from "
             "UTC or Z, found \"{}\"",
-            text.substr(0, 40));
+            text.substr(0, 40)));
     };
     // A digit for each 0 of `shape`, and all else as it is there.
     const auto isLike = [](std::string_view part, std::string_view shape) {

@@ -56,9 +56,9 @@ void wear(Appearance& appearance, const Asset& asset, std::span<const WeightedMa
     for (const WeightedMaterial& part : blend)
         if (std::ranges::find(names, part.name) == names.end())
             throw UsageError(
-                "no part has a material \"{}\"; did you mean \"{}\"? There are {}", part.name,
-                nearestName(part.name, std::vector<std::string_view>(names.begin(), names.end())),
-                fmt::join(names, ", "));
+                fmt::format("no part has a material \"{}\"; did you mean \"{}\"? There are {}", part.name,
+                            nearestName(part.name, std::vector<std::string_view>(names.begin(), names.end())),
+                            fmt::join(names, ", ")));
     bool worn = false;
     for (size_t i = 0; i < asset.parts.size(); i++)
         for (size_t set = 0; set < asset.parts[i].sets.size(); set++) {
@@ -69,8 +69,9 @@ void wear(Appearance& appearance, const Asset& asset, std::span<const WeightedMa
             break;
         }
     if (!worn)
-        throw UsageError("no part has these materials in one set, where they could be blended: bake them as "
-                         "one: {{\"set\": […]}}");
+        throw UsageError(
+            fmt::format("no part has these materials in one set, where they could be blended: bake them as "
+                        "one: {{\"set\": […]}}"));
 }
 
 std::vector<WornLayer> wornLayers(const AssetPart& part, const PartAppearance& appearance) {

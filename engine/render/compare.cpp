@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace relume {
@@ -16,16 +17,16 @@ void checkFinite(const Image& image, const char* which) {
     for (size_t i = 0; i < image.pixels.size(); i++)
         for (int c = 0; c < 3; c++)
             if (!std::isfinite(image.pixels[i][c]))
-                throw Error("the {} is not finite at pixel ({}, {})", which, i % size_t(image.width),
-                            i / size_t(image.width));
+                throw Error(fmt::format("the {} is not finite at pixel ({}, {})", which,
+                                        i % size_t(image.width), i / size_t(image.width)));
 }
 
 } // namespace
 
 ImageDifference compareImages(const Image& image, const Image& reference) {
     if (image.width != reference.width || image.height != reference.height)
-        throw Error("expected images of equal size, found {} x {} against {} x {}", image.width, image.height,
-                    reference.width, reference.height);
+        throw Error(fmt::format("expected images of equal size, found {} x {} against {} x {}", image.width,
+                                image.height, reference.width, reference.height));
     checkFinite(image, "image");
     checkFinite(reference, "reference");
     double squares = 0, referenceSquares = 0, peak = 0, largest = 0;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -85,8 +86,9 @@ LightSources::Map LightSources::upload(std::shared_ptr<const Environment> enviro
     const uint64_t entries = map.footprints->pixels.bytes() / sizeof(shared::FootprintPixel);
     if (pixels.size() > mDevice.mostTexels(sizeof(vec4)) ||
         entries > mDevice.mostTexels(sizeof(shared::FootprintPixel)))
-        throw Error("environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width",
-                    size.x, size.y, mDevice.name());
+        throw Error(fmt::format(
+            "environment: {} x {} pixels are more than {} can bind; prepare it at a smaller width", size.x,
+            size.y, mDevice.name()));
     map.environment = std::move(environment);
     return map;
 }

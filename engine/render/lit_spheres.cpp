@@ -13,6 +13,7 @@
 #include "shaders/unshadowed_tuples_comp.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -103,22 +104,20 @@ std::vector<vec4> readImage(const vk::Device& device, const vk::Image& image) {
 
 } // namespace
 
-LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, Residuals residuals)
-    : mDevice(device), mResiduals(std::move(residuals)),
-      mSampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-               "sphere cube"),
+LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesResiduals)
+    : mDevice(device), mSampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, "sphere cube"),
       mPolarSampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                     "polar light maps") {
-    mResiduals.resize(asset.parts.size());
     std::vector<float> weights;
     for (size_t part = 0; part < asset.parts.size(); part++) {
-        mResiduals[part].resize(asset.parts[part].sets.size());
-        const bool hasTangents = !asset.parts[part].mesh.tangents.empty();
-        for (size_t set = 0; set < mResiduals[part].size(); set++) {
-            const ResidualSet* residual = mResiduals[part][set].get();
+        auto& residuals = mResiduals.emplace_back();
+        for (const MaterialSet& set : asset.parts[part].sets) {
+            const auto& residual = residuals.emplace_back(takesResiduals ? set.residual : nullptr);
             if (!residual) continue;
-            if (!mSets.contains(residual)) addSet(*residual, asset.parts[part].sets[set].brdf, weights);
-            if (hasTangents) mSets.at(residual).isTurned = 1, mTupleRows = kTurnedRows;
+            if (!mSets.contains(residual.get())) addSet(*residual, set.brdf, weights);
+            if (!asset.parts[part].mesh.tangents.empty())
+                mSets.at(residual.get()).isTurned = 1, mTupleRows = kTurnedRows;
         }
     }
     if (!mSets.empty()) makePrograms();
@@ -223,10 +222,10 @@ void LitSpheres::makeRoom(size_t spheres) {
     if (spheres <= mSlotCount) return;
     const uint32_t most = mDevice.limits().maxImageArrayLayers;
     if (spheres > most)
-        throw Error(
+        throw Error(fmt::format(
             "{} lit spheres are needed, {} holds at most {} layers in an image; draw fewer materials at "
             "once, or without the residual",
-            spheres, mDevice.name(), most);
+            spheres, mDevice.name(), most));
     mSlotCount = std::min(most, roundUp(uint32_t(spheres + spheres / 4), 16) * 16);
     mRetired.push_back(std::move(mImage));
     mImage = vk::Image(mDevice, imageOptions(kSphereAzimuths, mMostParts * kSphereRings, mSlotCount),

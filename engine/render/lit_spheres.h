@@ -1,11 +1,11 @@
 // Lit spheres: what a material reflects of light that nothing shadows, for every mirror direction, from a
 // grid of view directions (Sloan, Martin, Gooch, Gooch: The Lit Sphere, 2001). Made when first needed, and
-// anew when the light has changed. engine/render/residual.h has the mathematics.
+// anew when the light has changed. engine/scene/residual.h has the mathematics.
 #pragma once
 
 #include "engine/render/light_pass.h"
 #include "engine/render/map_texture.h"
-#include "engine/render/residual.h"
+#include "engine/scene/residual.h"
 #include "engine/transport/asset.h"
 
 #include <map>
@@ -16,9 +16,9 @@ namespace relume {
 
 class LitSpheres {
   public:
-    // Makes buffers for all parts and sets of `asset`, and keeps `residuals`, which may be empty. Throws
-    // OutOfMemory.
-    LitSpheres(const vk::Device& device, const Asset& asset, Residuals residuals);
+    // Makes buffers for all parts and sets of `asset` that have a residual; for none unless `takesResiduals`.
+    // Throws OutOfMemory.
+    LitSpheres(const vk::Device& device, const Asset& asset, bool takesResiduals);
 
     // Records pass "unshadowed": it sets the light of all spheres made from now on, and sums the unshadowed
     // tuples.
@@ -77,7 +77,7 @@ class LitSpheres {
     void freeSlots();
 
     const vk::Device& mDevice;
-    Residuals mResiduals;
+    std::vector<std::vector<std::shared_ptr<const ResidualSet>>> mResiduals; // by part, then by set
     std::map<const SphereKernel*, uint32_t> mKernelNumbers;
     std::map<const ResidualSet*, Set> mSets;
     std::vector<Kernel> mKernels;

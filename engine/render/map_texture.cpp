@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -16,10 +17,10 @@ ViewMapTexture makeViewMapTexture(const vk::Device& device, const FactoredBrdf& 
     packed.imagesPerLayer = uint32_t(channels * brdf.terms + 3) / 4;
     const uint32_t images = uint32_t(brdf.layers) * packed.imagesPerLayer;
     if (images > device.limits().maxImageArrayLayers)
-        throw Error("{}: {} layers of {} terms need {} images, {} holds at most {}; bake fewer materials or "
-                    "terms in a set",
-                    name, brdf.layers, brdf.terms, images, device.name(),
-                    device.limits().maxImageArrayLayers);
+        throw Error(fmt::format(
+            "{}: {} layers of {} terms need {} images, {} holds at most {}; bake fewer materials or "
+            "terms in a set",
+            name, brdf.layers, brdf.terms, images, device.name(), device.limits().maxImageArrayLayers));
     std::vector<vec4> texels(images * brdf.mapTexels(), vec4(0));
     for (int layer = 0; layer < brdf.layers; layer++)
         for (int value = 0; value < channels * brdf.terms; value++) {

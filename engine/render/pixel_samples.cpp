@@ -4,12 +4,13 @@
 #include "shaders/shared/render.h"
 
 #include <bit>
+#include <fmt/format.h>
 
 namespace relume {
 
 void expectSamples(int samples) {
     if (samples < 1 || samples > kMostSamples || !std::has_single_bit(unsigned(samples)))
-        throw UsageError("{} samples a pixel: must be 1, 2, 4 or 8", samples);
+        throw UsageError(fmt::format("{} samples a pixel: must be 1, 2, 4 or 8", samples));
 }
 
 vec2 samplePosition(int samples, int i) {

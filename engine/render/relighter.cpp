@@ -19,7 +19,7 @@ Relighter::Relighter(const vk::Device& device, const Asset& asset, const Relight
         for (const MaterialSet& set : part.sets)
             sets.push_back(makeSet(set.transport, part.name, largestShard));
     }
-    mSpheres = std::make_unique<LitSpheres>(device, asset, options.residuals);
+    mSpheres = std::make_unique<LitSpheres>(device, asset, options.residual);
 }
 
 std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, const std::string& name,

@@ -14,8 +14,7 @@ namespace relume {
 struct RelighterOptions {
     // Bytes of the largest buffer of transport; the device's own limit holds as well.
     uint64_t largestShard = std::numeric_limits<uint64_t>::max();
-    // The residuals by part and set; empty to draw the K terms alone.
-    Residuals residuals = {};
+    bool residual = true; // whether sets that have one are drawn with it; else by their K terms alone
 };
 
 // Holds the transport of every part and set of materials on the device, each in its layout.

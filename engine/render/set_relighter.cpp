@@ -4,16 +4,17 @@
 #include "engine/vk/upload.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
 SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name) {
     const uint64_t bytes = std::max<uint64_t>(rows, 1) * sizeof(vec3);
     if (bytes > device.largestStorageBuffer())
-        throw Error(
+        throw Error(fmt::format(
             "{}: {} vertices times terms need {} bytes of tuples; {} binds at most {}; split the mesh "
             "into several parts",
-            name, rows, bytes, device.name(), device.largestStorageBuffer());
+            name, rows, bytes, device.name(), device.largestStorageBuffer()));
     mRows = uint32_t(rows);
     mTuples = vk::uploadBytes(device, std::vector<std::byte>(bytes), name + " tuples");
 }

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <span>
 #include <utility>
 
@@ -40,9 +41,10 @@ float pixelFraction(const vk::Device& device) {
 void expectTexels(const vk::Device& device, uint64_t texels, uint64_t texelBytes, const std::string& name,
                   const std::string& orElse = "") {
     if (texels > device.mostTexels(texelBytes))
-        throw Error("{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several "
-                    "parts{}",
-                    name, texels, device.name(), device.mostTexels(texelBytes), orElse);
+        throw Error(fmt::format(
+            "{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several "
+            "parts{}",
+            name, texels, device.name(), device.mostTexels(texelBytes), orElse));
 }
 
 // Options of passes that shade pixels whose stencil equals the part's value in these bits.
@@ -72,8 +74,9 @@ template <typename T>
 vk::Buffer uploadBindable(const vk::Device& device, const std::vector<T>& values, const std::string& name) {
     const uint64_t bytes = std::span(values).size_bytes();
     if (bytes > device.largestStorageBuffer())
-        throw Error("{}: {} bytes are needed, {} binds at most {}; split the mesh into several parts", name,
-                    bytes, device.name(), device.largestStorageBuffer());
+        throw Error(
+            fmt::format("{}: {} bytes are needed, {} binds at most {}; split the mesh into several parts",
+                        name, bytes, device.name(), device.largestStorageBuffer()));
     return vk::upload<T>(device, values, name);
 }
 
@@ -191,8 +194,9 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
     const NumberedTriangles numbered = numberTriangles(source.mesh);
     const uint64_t mostVertices = uint64_t(mDevice.limits().maxDrawIndexedIndexValue) + 1;
     if (numbered.positions.size() > mostVertices)
-        throw Error("{}: {} vertices are drawn, {} counts at most {}; split the mesh into several parts",
-                    source.name, numbered.positions.size(), mDevice.name(), mostVertices);
+        throw Error(
+            fmt::format("{}: {} vertices are drawn, {} counts at most {}; split the mesh into several parts",
+                        source.name, numbered.positions.size(), mDevice.name(), mostVertices));
     part.drawnPositions = vk::upload<vec3>(mDevice, numbered.positions, source.name + " drawn positions");
     part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
     expectTexels(mDevice, shared::kVertexTexels * source.mesh.vertexCount(), sizeof(vec4),
@@ -298,7 +302,7 @@ void ViewPass::makeImages(int width, int height) {
     options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     mSurfaces = vk::Image(mDevice, options, "view surfaces");
     options.format = mDepthFormat;
-    options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     mDepth = vk::Image(mDevice, options, "view depth");
     mPixelDepth = {};
     mDrawn.reset();
@@ -508,8 +512,7 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
         const auto shadeAll = [&](Pixels pixels) {
             for (size_t i = 0; i < mParts.size(); i++) shade(commands, frame, i, relighter, pixels);
         };
-        const vk::Image& depth = mSamples > 1 ? mPixelDepth : mDepth;
-        commands.render({.color = &mColor, .depth = &depth, .keepsDepth = true}, [&] {
+        commands.render({.color = &mColor, .depth = &depth(), .keepsDepth = true}, [&] {
             if (mInspect != Inspect::Off) {
                 for (const Part& part : mParts) inspect(commands, frame, part);
             } else if (mSamples == 1) {

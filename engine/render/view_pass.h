@@ -60,6 +60,10 @@ class ViewPass {
     // RGBA32F, linear, premultiplied by alpha: the share of a pixel's samples that are covered. In
     // TRANSFER_SRC_OPTIMAL after record(). It can be sampled as well.
     const vk::Image& image() const { return mColor; }
+    // Depth of the first sample of every pixel, by the camera's clipFromWorld() with the asset's bounds, 1
+    // where nothing is seen; with a stencil that means nothing to others. It is in
+    // DEPTH_STENCIL_ATTACHMENT_OPTIMAL after record(), can be copied from, and is to be left in that layout.
+    const vk::Image& depth() const { return mSamples > 1 ? mPixelDepth : mDepth; }
 
     // The image of the last submission. Waits for the device.
     Image read() const;

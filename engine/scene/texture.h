@@ -12,7 +12,6 @@
 namespace relume {
 
 constexpr int kLongestTextureSide = 8192;
-constexpr size_t kLargestTextureFile = size_t(1) << 29; // bytes
 
 struct Texture {
     int width = 0, height = 0;
@@ -20,12 +19,6 @@ struct Texture {
     bool srgb = false;            // whether R, G and B are encoded; A never is
 
     size_t texelCount() const { return size_t(width) * size_t(height); }
-};
-
-// A file that something was made of: for provenance.
-struct InputFile {
-    std::string file;
-    std::string hash; // hashText of its bytes
 };
 
 // One texel, linear, in [0, 1].
@@ -37,13 +30,5 @@ vec4 sample(const Texture& texture, vec2 uv);
 
 // The mean of all texels, linear.
 vec4 meanOf(const Texture& texture);
-
-// Reads PNG or JPEG by content. Where the file has no alpha it is 1 in an sRGB image, and 0 in a linear one,
-// whose channels are weights. Throws Error for anything truncated, corrupt, empty or absurd (more than
-// kLongestTextureSide a side, more than the bytes can hold).
-Texture readTexture(const std::filesystem::path& path, bool srgb);
-
-// The same from a file's bytes; `name` stands for the file in errors.
-Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name, bool srgb);
 
 } // namespace relume

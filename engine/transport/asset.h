@@ -3,10 +3,12 @@
 
 #include "engine/scene/factored_brdf.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/residual.h"
 #include "engine/scene/texture.h"
 #include "engine/transport/transport.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +32,10 @@ struct MaterialSet {
     std::vector<AssetMaterial> materials;
     FactoredBrdf brdf;
     Transport transport; // terms == brdf.terms, vertices == the part's
+    // Null where the K terms are the BRDF, as of diffuse materials. Sets of the same light maps and materials
+    // share it, but those of parts with tangents with no others: their unshadowed tuples are laid out
+    // differently.
+    std::shared_ptr<const ResidualSet> residual = nullptr;
 };
 
 // One surface of the scene. Vertices are in bake order (precompute/bake/vertex_order.h).

@@ -4,6 +4,8 @@
 #include "engine/transport/asset.h"
 #include "engine/transport/chunk_file.h"
 
+#include <set>
+
 namespace relume {
 
 constexpr ChunkTag kMeta = chunkTag("META");
@@ -13,6 +15,7 @@ constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), k
 constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
+constexpr ChunkTag kResidualKernels = chunkTag("RKER"), kIrradianceWeights = chunkTag("RIRR");
 constexpr ChunkTag kTransport = chunkTag("TRAN"), kClusters = chunkTag("TRCL"), kBases = chunkTag("TRBS");
 constexpr ChunkTag kLayoutTags[] = {kTransport, kClusters, kBases}; // in the order of TransportLayout
 static_assert(std::size(kLayoutTags) == std::variant_size_v<Transport>);
@@ -27,6 +30,7 @@ void forEachArray(const Asset& asset, const Array& array, const Transport& trans
     array(kOccluderPositions, kWholeFile, asset.occluder.positions);
     array(kOccluderTriangles, kWholeFile, asset.occluder.triangles);
     uint32_t setNumber = 0;
+    std::set<const ResidualSet*> residuals; // the first set of several has it
     for (uint32_t number = 0; number < asset.parts.size(); number++) {
         const AssetPart& part = asset.parts[number];
         array(kPositions, number, part.mesh.positions);
@@ -41,6 +45,13 @@ void forEachArray(const Asset& asset, const Array& array, const Transport& trans
             array(kLightMaps, setNumber, set.brdf.lightMaps);
             array(kViewMaps, setNumber, set.brdf.viewMaps);
             array(kEigenvalues, setNumber, set.brdf.eigenvalues);
+            if (set.residual && residuals.insert(set.residual.get()).second) {
+                std::vector<vec3> values;
+                for (const auto& kernel : set.residual->layers)
+                    values.insert(values.end(), kernel->values.begin(), kernel->values.end());
+                array(kResidualKernels, setNumber, values);
+                array(kIrradianceWeights, setNumber, set.residual->irradianceWeights);
+            }
             transport(setNumber, set);
             setNumber++;
         }

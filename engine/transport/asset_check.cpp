@@ -6,22 +6,25 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
+#include <map>
 
 namespace relume {
 
 namespace {
 
 void expect(bool holds, const std::string& where, const char* what) {
-    if (!holds) throw Error("{}: expected {}", where, what);
+    if (!holds) throw Error(fmt::format("{}: expected {}", where, what));
 }
 
 void expectRange(int64_t value, int64_t low, int64_t high, const std::string& where, const char* what) {
     if (value < low || value > high)
-        throw Error("{}: expected {} of {} to {}, found {}", where, what, low, high, value);
+        throw Error(fmt::format("{}: expected {} of {} to {}, found {}", where, what, low, high, value));
 }
 
 void expectCount(size_t count, size_t expected, const std::string& where, const char* what) {
-    if (count != expected) throw Error("{}: expected {} {}, found {}", where, expected, what, count);
+    if (count != expected)
+        throw Error(fmt::format("{}: expected {} {}, found {}", where, expected, what, count));
 }
 
 bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -141,6 +144,40 @@ void checkMaterials(const AssetPart& part, const std::string& where) {
     expect(std::ranges::adjacent_find(names) == names.end(), where, "materials of different names");
 }
 
+void checkResidual(const ResidualSet& residual, const FactoredBrdf& brdf, const std::string& where) {
+    expectCount(residual.layers.size(), size_t(brdf.layers), where, "layers of a residual");
+    for (const auto& kernel : residual.layers) {
+        expectRange(kernel->frequencies, 0, shared::kMostFrequencies, where, "a kernel's frequencies");
+        expectRange(kernel->harmonics, 0, shared::kMostHarmonics, where, "a kernel's harmonics");
+        expectCount(kernel->values.size(), kernel->valueCount(), where, "values of a kernel");
+        expect(allFinite(kernel->values), where, "finite kernels");
+    }
+    expectCount(residual.irradianceWeights.size(), size_t(brdf.terms), where, "irradiance weights");
+    expect(allFinite(residual.irradianceWeights), where, "finite irradiance weights");
+    expect(!residual.hasNonnegativeTerms || isNonnegative(brdf), where, "maps without negative texels");
+}
+
+// Sets that share a residual must be drawn alike.
+void checkResiduals(const Asset& asset, const std::string& name) {
+    std::map<const ResidualSet*, std::pair<const AssetPart*, const FactoredBrdf*>> owners;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets) {
+            if (!set.residual) continue;
+            const std::string where = fmt::format("{}: part \"{}\"", name, part.name);
+            const auto [owner, isFirst] = owners.emplace(set.residual.get(), std::pair(&part, &set.brdf));
+            if (isFirst) {
+                checkResidual(*set.residual, set.brdf, where);
+                continue;
+            }
+            const auto& [first, brdf] = owner->second;
+            expect(first->mesh.tangents.empty() == part.mesh.tangents.empty() &&
+                       brdf->mapping == set.brdf.mapping && brdf->layers == set.brdf.layers &&
+                       brdf->size == set.brdf.size && brdf->lightMaps == set.brdf.lightMaps &&
+                       brdf->viewMaps == set.brdf.viewMaps,
+                   where, "a residual shared with sets of the same maps and frames alone");
+        }
+}
+
 std::string partName(const Asset& asset, size_t number, const std::string& name) {
     return fmt::format("{}: part {} (\"{}\")", name, number, asset.parts[number].name);
 }
@@ -159,6 +196,7 @@ void checkSkeleton(const Asset& asset, const std::string& name) {
         for (const MaterialSet& set : part.sets) checkBrdf(set.brdf, where);
         checkMaterials(part, where);
     }
+    checkResiduals(asset, name);
 }
 
 void checkAsset(const Asset& asset, const std::string& name) {

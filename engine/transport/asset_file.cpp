@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fmt/format.h>
+#include <map>
 
 namespace relume {
 
@@ -22,7 +24,8 @@ constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals,  kTriangles, kUvs,
                                   kColors,    kTangents, kBaseColor, kMaterialMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
-constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kTransport, kClusters, kBases};
+constexpr ChunkTag kSetTags[] = {kLightMaps,         kViewMaps,  kEigenvalues, kResidualKernels,
+                                 kIrradianceWeights, kTransport, kClusters,    kBases};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
 
@@ -79,7 +82,8 @@ std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t 
     for (const ChunkEntry& run : runs) found += run.rawSize;
     const uint64_t expected = contentBytes + chunkBytes * runs.size();
     if (found != expected)
-        throw Error("{}: expected {} bytes, found {}", whereOf(file, tag, owner), expected, found);
+        throw Error(
+            fmt::format("{}: expected {} bytes, found {}", whereOf(file, tag, owner), expected, found));
     return runs;
 }
 
@@ -90,8 +94,8 @@ std::vector<Element> readArray(const ChunkFile& file, ChunkTag tag, uint32_t own
     size_t read = 0;
     for (const ChunkEntry& run : runs) {
         if (run.rawSize % sizeof(Element) != 0)
-            throw Error("{}: {} bytes are not a multiple of {}", whereOf(file, run), run.rawSize,
-                        sizeof(Element));
+            throw Error(fmt::format("{}: {} bytes are not a multiple of {}", whereOf(file, run), run.rawSize,
+                                    sizeof(Element)));
         const std::string where = whereOf(file, run);
         const std::vector<std::byte> raw = file.load(run);
         const auto words = ByteReader(raw, where).getPlanes<uint32_t>(raw.size() / sizeof(uint32_t));
@@ -139,7 +143,8 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint
     for (const ChunkEntry& run : file.find(kBases, owner)) {
         const size_t next = transport.clusters.size();
         if (next >= transport.clusterCount())
-            throw Error("{}: expected {} clusters, found more", whereOf(file, run), transport.clusterCount());
+            throw Error(fmt::format("{}: expected {} clusters, found more", whereOf(file, run),
+                                    transport.clusterCount()));
         transport.clusters.push_back(decodeBasisCluster(file.load(run), uint32_t(next),
                                                         transport.verticesOf(next), transport.kinds.size(),
                                                         coefficients, whereOf(file, run)));
@@ -147,9 +152,9 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint
     uint64_t found = 0;
     for (const BasisCluster& cluster : transport.clusters) found += cluster.columns();
     if (transport.clusters.size() != transport.clusterCount() || found != columns)
-        throw Error("{}: expected {} clusters with {} columns, found {} with {}",
-                    whereOf(file, kBases, owner), transport.clusterCount(), columns,
-                    transport.clusters.size(), found);
+        throw Error(fmt::format("{}: expected {} clusters with {} columns, found {} with {}",
+                                whereOf(file, kBases, owner), transport.clusterCount(), columns,
+                                transport.clusters.size(), found));
 }
 
 void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& sizes, AssetPart& part) {
@@ -174,31 +179,60 @@ void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {
         readArray<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(set.brdf.terms));
 }
 
+// Residuals with values, by those without.
+using Residuals = std::map<std::shared_ptr<const ResidualSet>, std::shared_ptr<const ResidualSet>>;
+
+// Values of a residual that no set before has.
+void readResidual(const ChunkFile& file, uint32_t number, Residuals& residuals, MaterialSet& set) {
+    if (!set.residual) return;
+    std::shared_ptr<const ResidualSet>& read = residuals[set.residual];
+    if (!read) {
+        uint64_t count = 0;
+        for (const auto& kernel : set.residual->layers) count += kernel->valueCount();
+        const auto values = readArray<vec3>(file, kResidualKernels, number, count);
+        const auto residual = std::make_shared<ResidualSet>();
+        auto next = values.begin();
+        for (const auto& empty : set.residual->layers) {
+            const auto kernel = std::make_shared<SphereKernel>(*empty);
+            kernel->values.assign(next, next + ptrdiff_t(empty->valueCount()));
+            next += ptrdiff_t(empty->valueCount());
+            residual->layers.push_back(kernel);
+        }
+        residual->hasNonnegativeTerms = isNonnegative(set.brdf);
+        residual->irradianceWeights =
+            readArray<vec3>(file, kIrradianceWeights, number, uint64_t(set.brdf.terms));
+        read = residual;
+    }
+    set.residual = read;
+}
+
 // A set has transport in its own layout alone.
 void expectNoOtherLayout(const ChunkFile& file, uint32_t set, TransportLayout own) {
     for (const ChunkTag tag : kLayoutTags)
         if (tag != kLayoutTags[size_t(own)] && !file.find(tag, set).empty())
-            throw Error("{}: expected none in a set of the layout {}; the file is damaged",
-                        whereOf(file, tag, set), layoutName(own));
+            throw Error(fmt::format("{}: expected none in a set of the layout {}; the file is damaged",
+                                    whereOf(file, tag, set), layoutName(own)));
 }
 
 AssetMeta readMeta(const ChunkFile& file) {
     const auto runs = file.find(kMeta, kWholeFile);
     if (runs.size() != 1 || runs[0].rawSize > kLargestMeta)
-        throw Error("{}: expected one chunk META of at most {} bytes", file.name(), kLargestMeta);
-    const std::vector<std::byte> raw = file.load(runs[0]);
-    return decodeMeta({reinterpret_cast<const char*>(raw.data()), raw.size()}, file.name());
+        throw Error(
+            fmt::format("{}: expected one chunk META of at most {} bytes", file.name(), kLargestMeta));
+    return decodeMeta(file.load(runs[0]), file.name());
 }
 
 // Whether every required chunk is one that this program reads, of a part or set that there is.
 void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t sets) {
     const bool isShard = file.findRun(kShard, kWholeFile, 0);
     if (isShard && kind == AssetFileKind::Bake)
-        throw Error("{}: is a shard of a bake, not a whole one; join all its shards with `relume merge`",
-                    file.name());
+        throw Error(
+            fmt::format("{}: is a shard of a bake, not a whole one; join all its shards with `relume merge`",
+                        file.name()));
     if (!isShard && kind == AssetFileKind::Shard)
-        throw Error("{}: is a whole bake, not a shard of one; shards are made with `relume bake --shard I/N`",
-                    file.name());
+        throw Error(fmt::format(
+            "{}: is a whole bake, not a shard of one; shards are made with `relume bake --shard I/N`",
+            file.name()));
     for (const ChunkEntry& entry : file.entries()) {
         if (!isRequired(entry.tag)) continue;
         const bool ofSet = isIn(entry.tag, kSetTags);
@@ -206,13 +240,13 @@ void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t s
                                ? isIn(entry.tag, kWholeTags) || (isShard && isIn(entry.tag, kShardTags))
                                : ofSet || isIn(entry.tag, kPartTags);
         if (!known)
-            throw Error(
+            throw Error(fmt::format(
                 "{}: is not a chunk that this program knows, and needed to read the file; update the program "
                 "or bake again",
-                whereOf(file, entry));
+                whereOf(file, entry)));
         if (entry.owner != kWholeFile && entry.owner >= (ofSet ? sets : parts))
-            throw Error("{}: the file has {} {}", whereOf(file, entry), ofSet ? sets : parts,
-                        ofSet ? "sets" : "parts");
+            throw Error(fmt::format("{}: the file has {} {}", whereOf(file, entry), ofSet ? sets : parts,
+                                    ofSet ? "sets" : "parts"));
     }
 }
 
@@ -220,8 +254,7 @@ void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t s
 
 void addChunks(ChunkWriter& file, const Asset& asset, std::span<const uint64_t> setEntries,
                const std::function<void(uint32_t set)>& addTransport, const std::string& visibilityKey) {
-    const std::string meta = encodeMeta(asset, setEntries, visibilityKey);
-    file.add(kMeta, kWholeFile, 0, std::as_bytes(std::span(meta)));
+    file.add(kMeta, kWholeFile, 0, encodeMeta(asset, sizesOf(asset, setEntries), visibilityKey));
     forEachArray(
         asset,
         [&](ChunkTag tag, uint32_t owner, const auto& elements) { addArray(file, tag, owner, elements); },
@@ -250,18 +283,25 @@ std::vector<std::byte> encodeAsset(const Asset& asset) { return chunksOf(asset).
 
 AssetMeta readMeta(const ChunkFile& file, AssetFileKind kind) {
     AssetMeta meta = readMeta(file);
-    checkTags(file, kind, meta.asset.parts.size(), meta.setEntries.size());
+    checkTags(file, kind, meta.asset.parts.size(), meta.sizes.setEntries.size());
     return meta;
 }
 
 void readArrays(const ChunkFile& file, AssetMeta& meta) {
     Asset& asset = meta.asset;
-    asset.occluder.positions = readArray<vec3>(file, kOccluderPositions, kWholeFile, meta.occluderVertices);
-    asset.occluder.triangles = readArray<uvec3>(file, kOccluderTriangles, kWholeFile, meta.occluderTriangles);
+    asset.occluder.positions =
+        readArray<vec3>(file, kOccluderPositions, kWholeFile, meta.sizes.occluderVertices);
+    asset.occluder.triangles =
+        readArray<uvec3>(file, kOccluderTriangles, kWholeFile, meta.sizes.occluderTriangles);
     uint32_t setNumber = 0;
+    Residuals residuals;
     for (uint32_t number = 0; number < asset.parts.size(); number++) {
-        readPart(file, number, meta.sizes[number], asset.parts[number]);
-        for (MaterialSet& set : asset.parts[number].sets) readFactors(file, setNumber++, set);
+        readPart(file, number, meta.sizes.parts[number], asset.parts[number]);
+        for (MaterialSet& set : asset.parts[number].sets) {
+            readFactors(file, setNumber, set);
+            readResidual(file, setNumber, residuals, set);
+            setNumber++;
+        }
     }
 }
 
@@ -276,7 +316,7 @@ Asset decodeAsset(std::span<const std::byte> bytes, const std::string& name) {
             expectNoOtherLayout(file, setNumber, layoutOf(set.transport));
             std::visit(
                 [&](auto& transport) {
-                    readTransport(file, setNumber, meta.setEntries[setNumber], coefficients, transport);
+                    readTransport(file, setNumber, meta.sizes.setEntries[setNumber], coefficients, transport);
                 },
                 set.transport);
             setNumber++;

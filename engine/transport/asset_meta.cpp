@@ -2,275 +2,327 @@
 
 #include "engine/base/error.h"
 #include "engine/transport/asset_check.h"
+#include "engine/transport/byte_stream.h"
 
+#include <bit>
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
+#include <map>
 
 namespace relume {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
 constexpr uint64_t kAnyCount = 0xffffffff;          // of vertices or triangles
 constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // of transport
 
-// A JSON object with a name for errors; reads typed members.
-class Reader {
+// Fields one after the other, as docs/asset_format.md lists them.
+class FieldWriter {
   public:
-    Reader(const Json& object, std::string where) : mObject(object), mWhere(std::move(where)) {
-        if (!object.is_object()) throw Error("{}: expected an object, found {}", mWhere, object.type_name());
+    void flag(bool value) { mBytes.put(uint8_t(value)); }
+    void whole(uint64_t value) { mBytes.put(uint32_t(value)); }
+    void longWhole(uint64_t value) { mBytes.put(value); }
+    void real(float value) { mBytes.put(std::bit_cast<uint32_t>(value)); }
+    void number(double value) { mBytes.put(std::bit_cast<uint64_t>(value)); }
+    void text(std::string_view value) {
+        whole(value.size());
+        mBytes.put(std::as_bytes(std::span(value)));
+    }
+    std::vector<std::byte> take() { return mBytes.take(); }
+
+  private:
+    ByteWriter mBytes;
+};
+
+// Reads them; what does not fit a field is an Error that names it.
+class FieldReader {
+  public:
+    FieldReader(std::span<const std::byte> bytes, const std::string& where)
+        : mBytes(bytes, where), mWhere(where) {}
+
+    bool flag(const char* field) {
+        const auto value = mBytes.get<uint8_t>();
+        if (value > 1) fail(field, "0 or 1");
+        return value == 1;
+    }
+    uint64_t whole(const char* field, uint64_t low, uint64_t high) {
+        return inRange(field, mBytes.get<uint32_t>(), low, high);
+    }
+    int integer(const char* field, int low, int high) {
+        return int(whole(field, uint64_t(low), uint64_t(high)));
+    }
+    uint64_t longWhole(const char* field, uint64_t low, uint64_t high) {
+        return inRange(field, mBytes.get<uint64_t>(), low, high);
+    }
+    float real(const char* field) {
+        const float value = std::bit_cast<float>(mBytes.get<uint32_t>());
+        if (!std::isfinite(value)) fail(field, "a finite number");
+        return value;
+    }
+    double number(const char* field) {
+        const double value = std::bit_cast<double>(mBytes.get<uint64_t>());
+        if (!std::isfinite(value)) fail(field, "a finite number");
+        return value;
+    }
+    std::string text() {
+        const auto bytes = mBytes.take(mBytes.get<uint32_t>());
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+    size_t left() const { return mBytes.left(); }
+
+    [[noreturn]] void fail(const char* field, const std::string& expected) const {
+        throw Error(fmt::format("{}: {}: expected {}; the file is damaged", mWhere, field, expected));
     }
 
-    uint64_t whole(const char* key, uint64_t low, uint64_t high) const {
-        const Json& value = member(key);
-        if (!value.is_number_unsigned() || value.get<uint64_t>() < low || value.get<uint64_t>() > high)
-            throw Error("{}: \"{}\": expected a whole number of {} to {}", mWhere, key, low, high);
-        return value.get<uint64_t>();
-    }
-
-    int integer(const char* key, int low, int high) const {
-        return int(whole(key, uint64_t(low), uint64_t(high)));
-    }
-
-    double number(const char* key) const {
-        const Json& value = member(key);
-        if (!value.is_number() ||
-            !(std::abs(value.get<double>()) <= double(std::numeric_limits<float>::max())))
-            throw Error("{}: \"{}\": expected a number", mWhere, key);
-        return value.get<double>();
-    }
-    float real(const char* key) const { return float(number(key)); }
-
-    std::string text(const char* key) const {
-        const Json& value = member(key);
-        if (!value.is_string()) throw Error("{}: \"{}\": expected text", mWhere, key);
-        return value.get<std::string>();
-    }
-
-    bool boolean(const char* key) const {
-        const Json& value = member(key);
-        if (!value.is_boolean()) throw Error("{}: \"{}\": expected true or false", mWhere, key);
-        return value.get<bool>();
-    }
-
-    bool has(const char* key) const { return mObject.contains(key); }
-
-    Reader object(const char* key) const { return {member(key), fmt::format("{}: \"{}\"", mWhere, key)}; }
-
-    const Json& array(const char* key) const {
-        const Json& value = member(key);
-        if (!value.is_array()) throw Error("{}: \"{}\": expected an array", mWhere, key);
+  private:
+    uint64_t inRange(const char* field, uint64_t value, uint64_t low, uint64_t high) const {
+        if (value < low || value > high)
+            fail(field, fmt::format("a whole number of {} to {}, found {}", low, high, value));
         return value;
     }
 
-    const std::string& where() const { return mWhere; }
-
-  private:
-    const Json& member(const char* key) const {
-        const auto found = mObject.find(key);
-        if (found == mObject.end()) throw Error("{}: expected a member \"{}\"", mWhere, key);
-        return *found;
-    }
-
-    const Json& mObject;
-    std::string mWhere;
+    ByteReader mBytes;
+    const std::string& mWhere;
 };
 
-Json setJson(const MaterialSet& set, uint64_t entries) {
-    Json materials = Json::array();
-    for (const AssetMaterial& material : set.materials)
-        materials.push_back({{"name", material.name},
-                             {"description", material.description},
-                             {"layer", material.layer},
-                             {"base", material.hasBase}});
-    Json json = {{"materials", materials},
-                 {"terms", set.brdf.terms},
-                 {"layers", set.brdf.layers},
-                 {"mapSize", set.brdf.size},
-                 {"mapping", diskMappingName(set.brdf.mapping)},
-                 {"layout", layoutName(layoutOf(set.transport))},
-                 {"entries", entries}};
+// The number of the first set that has a residual, by residual.
+using ResidualOwners = std::map<const ResidualSet*, uint32_t>;
+
+void write(FieldWriter& out, const SphereKernel& kernel) {
+    out.whole(uint64_t(kernel.frequencies));
+    out.whole(uint64_t(kernel.harmonics));
+}
+
+void writeResidual(FieldWriter& out, const MaterialSet& set, uint32_t number, ResidualOwners& owners) {
+    out.flag(set.residual != nullptr);
+    if (!set.residual) return;
+    const auto [owner, isFirst] = owners.emplace(set.residual.get(), number);
+    out.whole(owner->second);
+    if (!isFirst) return;
+    for (const auto& kernel : set.residual->layers) write(out, *kernel);
+}
+
+void writeSet(FieldWriter& out, const MaterialSet& set, uint64_t entries) {
+    out.whole(set.materials.size());
+    for (const AssetMaterial& material : set.materials) {
+        out.text(material.name);
+        out.text(material.description);
+        out.whole(uint64_t(material.layer));
+        out.flag(material.hasBase);
+    }
+    out.whole(uint64_t(set.brdf.terms));
+    out.whole(uint64_t(set.brdf.layers));
+    out.whole(uint64_t(set.brdf.size));
+    out.text(diskMappingName(set.brdf.mapping));
+    out.text(layoutName(layoutOf(set.transport)));
+    out.longWhole(entries);
     if (const auto* bases = std::get_if<BasisTransport>(&set.transport)) {
-        json["kinds"] = Json::array();
-        for (const auto& [term, color] : bases->kinds)
-            json["kinds"].push_back(
-                {{"term", term}, {"red", color.x}, {"green", color.y}, {"blue", color.z}});
-    }
-    return json;
-}
-
-Json layoutJson(const LayoutRecord& layout) {
-    Json json = Json::object();
-    if (layout.wantedBytes) json["wantedBytes"] = *layout.wantedBytes;
-    if (layout.wantedError) json["wantedError"] = *layout.wantedError;
-    json["error"] = layout.error;
-    return json;
-}
-
-LayoutRecord readLayout(const Reader& in) {
-    LayoutRecord layout;
-    if (in.has("wantedBytes")) layout.wantedBytes = in.number("wantedBytes");
-    if (in.has("wantedError")) layout.wantedError = in.number("wantedError");
-    layout.error = in.number("error");
-    return layout;
-}
-
-Json textureJson(const Texture& texture) {
-    return {{"width", texture.width}, {"height", texture.height}, {"srgb", texture.srgb}};
-}
-
-// Takes the entries of the part's sets off the front of `setEntries`.
-Json partJson(const AssetPart& part, std::span<const uint64_t>& setEntries) {
-    Json json = {{"name", part.name},
-                 {"vertices", part.mesh.vertexCount()},
-                 {"triangles", part.mesh.triangleCount()},
-                 {"uvs", !part.mesh.uvs.empty()},
-                 {"colors", !part.mesh.colors.empty()},
-                 {"paintedByColors", part.paintedByColors}};
-    if (!part.mesh.tangents.empty()) json["tangents"] = true;
-    if (part.baseColor) json["baseColor"] = textureJson(*part.baseColor);
-    if (part.materialMap) json["materialMap"] = textureJson(*part.materialMap);
-    json["sets"] = Json::array();
-    for (const MaterialSet& set : part.sets) {
-        json["sets"].push_back(setJson(set, setEntries.front()));
-        setEntries = setEntries.subspan(1);
-    }
-    return json;
-}
-
-void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
-    MaterialSet set;
-    set.brdf.terms = in.integer("terms", 1, kLargestTerms);
-    set.brdf.layers = in.integer("layers", 1, kLargestLayers);
-    set.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
-    const std::string mapping = in.text("mapping");
-    if (!diskMappingFromName(mapping)) throw Error("{}: \"mapping\": \"{}\" is unknown", in.where(), mapping);
-    set.brdf.mapping = *diskMappingFromName(mapping);
-    const std::string layout = in.has("layout") ? in.text("layout") : layoutName(TransportLayout::Rows);
-    if (!layoutFromName(layout)) throw Error("{}: \"layout\": \"{}\" is unknown", in.where(), layout);
-    set.transport = emptyTransport(*layoutFromName(layout), uint32_t(vertices), uint32_t(set.brdf.terms));
-    if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
-        const Json& kinds = in.array("kinds");
-        for (size_t i = 0; i < kinds.size() && i <= 3 * kLargestTerms; i++) {
-            const Reader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
-            bases->kinds.push_back({uint32_t(kind.integer("term", 0, kLargestTerms - 1)),
-                                    {kind.real("red"), kind.real("green"), kind.real("blue")}});
+        out.whole(bases->kinds.size());
+        for (const auto& [term, color] : bases->kinds) {
+            out.whole(term);
+            for (int channel = 0; channel < 3; channel++) out.real(color[channel]);
         }
     }
-    const Json& materials = in.array("materials");
-    for (size_t i = 0; i < materials.size(); i++) {
-        const Reader material(materials[i], fmt::format("{}: material {}", in.where(), i));
-        set.materials.push_back({material.text("name"), material.text("description"),
-                                 material.integer("layer", 0, kLargestLayers), material.boolean("base")});
-    }
-    meta.setEntries.push_back(in.whole("entries", 0, kAnyEntries));
-    meta.asset.parts.back().sets.push_back(std::move(set));
 }
 
-Texture textureOf(const Reader& in) {
+void writeTexture(FieldWriter& out, const std::optional<Texture>& texture) {
+    out.flag(texture.has_value());
+    if (!texture) return;
+    out.whole(uint64_t(texture->width));
+    out.whole(uint64_t(texture->height));
+    out.flag(texture->srgb);
+}
+
+void writePart(FieldWriter& out, const AssetPart& part, const AssetPartSizes& sizes) {
+    out.text(part.name);
+    out.whole(sizes.vertices);
+    out.whole(sizes.triangles);
+    out.flag(sizes.uvs > 0);
+    out.flag(sizes.colors > 0);
+    out.flag(sizes.tangents > 0);
+    out.flag(part.paintedByColors);
+    writeTexture(out, part.baseColor);
+    writeTexture(out, part.materialMap);
+    out.whole(part.sets.size());
+}
+
+void writeOptional(FieldWriter& out, const std::optional<double>& value) {
+    out.flag(value.has_value());
+    if (value) out.number(*value);
+}
+
+std::optional<double> readOptional(FieldReader& in, const char* field) {
+    return in.flag(field) ? std::optional(in.number(field)) : std::nullopt;
+}
+
+std::optional<Texture> readTexture(FieldReader& in, const char* field) {
+    if (!in.flag(field)) return std::nullopt;
     Texture texture;
-    texture.width = in.integer("width", 1, kLongestTextureSide);
-    texture.height = in.integer("height", 1, kLongestTextureSide);
-    texture.srgb = in.boolean("srgb");
+    texture.width = in.integer(field, 1, kLongestTextureSide);
+    texture.height = in.integer(field, 1, kLongestTextureSide);
+    texture.srgb = in.flag(field);
     return texture;
 }
 
-void readPart(const Reader& in, AssetMeta& meta) {
-    AssetPart& part = meta.asset.parts.emplace_back();
-    AssetPartSizes sizes;
-    part.name = in.text("name");
-    sizes.vertices = in.whole("vertices", 1, kAnyCount);
-    sizes.triangles = in.whole("triangles", 1, kAnyCount);
-    sizes.uvs = in.boolean("uvs") ? sizes.vertices : 0;
-    sizes.colors = in.boolean("colors") ? sizes.vertices : 0;
-    sizes.tangents = in.has("tangents") && in.boolean("tangents") ? sizes.vertices : 0;
-    part.paintedByColors = in.boolean("paintedByColors");
-    if (in.has("baseColor")) part.baseColor = textureOf(in.object("baseColor"));
-    if (in.has("materialMap")) part.materialMap = textureOf(in.object("materialMap"));
-    meta.sizes.push_back(sizes);
-    const Json& sets = in.array("sets");
-    for (size_t i = 0; i < sets.size(); i++)
-        readSet({sets[i], fmt::format("{}: set {}", in.where(), i)}, sizes.vertices, meta);
+// `before`: those of all sets that came before, of whatever part. Kernels have no values yet.
+void readResidual(FieldReader& in, std::span<const std::shared_ptr<const ResidualSet>> before,
+                  MaterialSet& set) {
+    if (!in.flag("residual")) return;
+    const uint64_t owner = in.whole("residual", 0, before.size());
+    if (owner < before.size()) {
+        set.residual = before[owner];
+        if (!set.residual) in.fail("residual", "a set that has one");
+        return;
+    }
+    const auto residual = std::make_shared<ResidualSet>();
+    for (int layer = 0; layer < set.brdf.layers; layer++) {
+        const auto kernel = std::make_shared<SphereKernel>();
+        kernel->frequencies = in.integer("frequencies", 0, shared::kMostFrequencies);
+        kernel->harmonics = in.integer("harmonics", 0, shared::kMostHarmonics);
+        residual->layers.push_back(kernel);
+    }
+    set.residual = residual;
 }
 
-Json parseBounded(std::string_view text, const std::string& where) {
-    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
-        if (size_t(depth) > kLargestMetaDepth) throw Error("{}: nested too deep", where);
-        return true;
-    };
-    try {
-        return Json::parse(text.begin(), text.end(), bound);
-    } catch (const Json::exception& failure) {
-        throw Error("{}: is not JSON: {}", where, failure.what());
+MaterialSet readSet(FieldReader& in, uint64_t vertices, std::vector<uint64_t>& setEntries) {
+    MaterialSet set;
+    const uint64_t materials = in.whole("materials", 1, in.left());
+    for (uint64_t i = 0; i < materials; i++) {
+        AssetMaterial& material = set.materials.emplace_back();
+        material.name = in.text();
+        material.description = in.text();
+        material.layer = in.integer("layer", 0, kLargestLayers);
+        material.hasBase = in.flag("base");
     }
+    set.brdf.terms = in.integer("terms", 1, kLargestTerms);
+    set.brdf.layers = in.integer("layers", 1, kLargestLayers);
+    set.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
+    const auto mapping = diskMappingFromName(in.text());
+    if (!mapping) in.fail("mapping", "one that this program knows");
+    set.brdf.mapping = *mapping;
+    const auto layout = layoutFromName(in.text());
+    if (!layout) in.fail("layout", "one that this program knows");
+    set.transport = emptyTransport(*layout, uint32_t(vertices), uint32_t(set.brdf.terms));
+    setEntries.push_back(in.longWhole("entries", 0, kAnyEntries));
+    if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
+        const uint64_t kinds = in.whole("kinds", 0, 3 * kLargestTerms);
+        for (uint64_t i = 0; i < kinds; i++) {
+            const auto term = uint32_t(in.integer("term", 0, kLargestTerms - 1));
+            const float red = in.real("red"), green = in.real("green"), blue = in.real("blue");
+            bases->kinds.push_back({term, {red, green, blue}});
+        }
+    }
+    return set;
 }
 
 } // namespace
 
-std::string encodeMeta(const Asset& asset, std::span<const uint64_t> setEntries,
-                       const std::string& visibilityKey) {
-    Json parts = Json::array();
-    for (const AssetPart& part : asset.parts) parts.push_back(partJson(part, setEntries));
-    Json meta = {
-        {"faceSize", asset.faceSize},
-        {"visibilitySize", asset.visibilitySize},
-        {"coefficients", asset.coefficients},
-        {"transportSamples", asset.transportSamples},
-        {"visibilityOffset", asset.visibilityOffset},
-        {"quantisationError", asset.quantisationError},
-        {"truncationError", asset.truncationError},
-        {"occluder",
-         {{"vertices", asset.occluder.vertexCount()}, {"triangles", asset.occluder.triangleCount()}}},
-        {"parts", parts},
-        {"provenance",
-         {{"program", asset.provenance.program},
-          {"device", asset.provenance.device},
-          {"options", asset.provenance.options},
-          {"inputs", asset.provenance.inputs}}}};
-    if (asset.layout) meta["layout"] = layoutJson(*asset.layout);
-    if (!visibilityKey.empty()) meta["visibilityKey"] = visibilityKey;
-    const std::optional<float> share = asset.provenance.bakedShare;
-    if (share) meta["provenance"]["bakedShare"] = *share;
-    std::string text = meta.dump(-1, ' ', false, Json::error_handler_t::replace);
-    if (text.size() > kLargestMeta)
-        throw Error(
-            "names, materials and provenance take {} bytes, more than the {} that a bake can hold; use "
-            "fewer or shorter ones",
-            text.size(), kLargestMeta);
-    return text;
+AssetSizes sizesOf(const Asset& asset, std::span<const uint64_t> setEntries) {
+    AssetSizes sizes{asset.occluder.vertexCount(), asset.occluder.triangleCount(), {}, {}};
+    for (const AssetPart& part : asset.parts)
+        sizes.parts.push_back({part.mesh.vertexCount(), part.mesh.triangleCount(), part.mesh.uvs.size(),
+                               part.mesh.colors.size(), part.mesh.tangents.size()});
+    sizes.setEntries.assign(setEntries.begin(), setEntries.end());
+    return sizes;
 }
 
-AssetMeta decodeMeta(std::string_view text, const std::string& name) {
-    const std::string where = name + ": chunk META";
-    const Json json = parseBounded(text, where);
-    const Reader in(json, where);
-    AssetMeta meta;
-    meta.asset.faceSize = in.integer("faceSize", kSmallestFace, kLargestFace);
-    meta.asset.visibilitySize = in.integer("visibilitySize", kSmallestFace, kLargestVisibility);
-    meta.asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
-    meta.asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
-    meta.asset.visibilityOffset = in.real("visibilityOffset");
-    meta.asset.quantisationError = in.real("quantisationError");
-    meta.asset.truncationError = in.real("truncationError");
-    if (in.has("layout")) meta.asset.layout = readLayout(in.object("layout"));
-    const Reader occluder = in.object("occluder");
-    meta.occluderVertices = occluder.whole("vertices", 0, kAnyCount);
-    meta.occluderTriangles = occluder.whole("triangles", 0, kAnyCount);
-    const Json& parts = in.array("parts");
-    for (size_t i = 0; i < parts.size(); i++)
-        readPart({parts[i], fmt::format("{}: part {}", where, i)}, meta);
-    const Reader provenance = in.object("provenance");
-    meta.asset.provenance = {provenance.text("program"), provenance.text("device"),
-                             provenance.text("options"), provenance.text("inputs")};
-    if (in.has("visibilityKey")) {
-        meta.visibilityKey = in.text("visibilityKey");
-        if (meta.visibilityKey.size() != kVisibilityKeyDigits ||
-            meta.visibilityKey.find_first_not_of("0123456789abcdef") != std::string::npos)
-            throw Error("{}: \"visibilityKey\": expected {} hexadecimal digits", where, kVisibilityKeyDigits);
+std::vector<std::byte> encodeMeta(const Asset& asset, const AssetSizes& sizes,
+                                  const std::string& visibilityKey) {
+    FieldWriter out;
+    out.whole(uint64_t(asset.faceSize));
+    out.whole(uint64_t(asset.visibilitySize));
+    out.whole(uint64_t(asset.coefficients));
+    out.whole(uint64_t(asset.transportSamples));
+    out.real(asset.visibilityOffset);
+    out.real(asset.quantisationError);
+    out.real(asset.truncationError);
+    out.flag(asset.layout.has_value());
+    if (asset.layout) {
+        writeOptional(out, asset.layout->wantedBytes);
+        writeOptional(out, asset.layout->wantedError);
+        out.number(asset.layout->error);
     }
-    if (provenance.has("bakedShare")) meta.asset.provenance.bakedShare = provenance.real("bakedShare");
+    out.whole(sizes.occluderVertices);
+    out.whole(sizes.occluderTriangles);
+    out.whole(asset.parts.size());
+    uint32_t setNumber = 0;
+    ResidualOwners owners;
+    for (size_t number = 0; number < asset.parts.size(); number++) {
+        writePart(out, asset.parts[number], sizes.parts[number]);
+        for (const MaterialSet& set : asset.parts[number].sets) {
+            writeSet(out, set, sizes.setEntries[setNumber]);
+            writeResidual(out, set, setNumber, owners);
+            setNumber++;
+        }
+    }
+    const Provenance& provenance = asset.provenance;
+    for (const std::string& text :
+         {provenance.program, provenance.device, provenance.options, provenance.inputs})
+        out.text(text);
+    out.flag(provenance.bakedShare.has_value());
+    if (provenance.bakedShare) out.real(*provenance.bakedShare);
+    out.text(visibilityKey);
+    std::vector<std::byte> bytes = out.take();
+    if (bytes.size() > kLargestMeta)
+        throw Error(fmt::format(
+            "names, materials and provenance take {} bytes, more than the {} that a bake can hold; use "
+            "fewer or shorter ones",
+            bytes.size(), kLargestMeta));
+    return bytes;
+}
+
+AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name) {
+    const std::string where = name + ": chunk META";
+    FieldReader in(bytes, where);
+    AssetMeta meta;
+    Asset& asset = meta.asset;
+    asset.faceSize = in.integer("faceSize", kSmallestFace, kLargestFace);
+    asset.visibilitySize = in.integer("visibilitySize", kSmallestFace, kLargestVisibility);
+    asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
+    asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
+    asset.visibilityOffset = in.real("visibilityOffset");
+    asset.quantisationError = in.real("quantisationError");
+    asset.truncationError = in.real("truncationError");
+    if (in.flag("layout")) {
+        LayoutRecord& layout = asset.layout.emplace();
+        layout.wantedBytes = readOptional(in, "wantedBytes");
+        layout.wantedError = readOptional(in, "wantedError");
+        layout.error = in.number("error");
+    }
+    meta.sizes.occluderVertices = in.whole("occluder vertices", 0, kAnyCount);
+    meta.sizes.occluderTriangles = in.whole("occluder triangles", 0, kAnyCount);
+    const uint64_t parts = in.whole("parts", 1, in.left());
+    std::vector<std::shared_ptr<const ResidualSet>> residuals; // of the sets so far
+    for (uint64_t number = 0; number < parts; number++) {
+        AssetPart& part = asset.parts.emplace_back();
+        AssetPartSizes& sizes = meta.sizes.parts.emplace_back();
+        part.name = in.text();
+        sizes.vertices = in.whole("vertices", 1, kAnyCount);
+        sizes.triangles = in.whole("triangles", 1, kAnyCount);
+        sizes.uvs = in.flag("uvs") ? sizes.vertices : 0;
+        sizes.colors = in.flag("colors") ? sizes.vertices : 0;
+        sizes.tangents = in.flag("tangents") ? sizes.vertices : 0;
+        part.paintedByColors = in.flag("paintedByColors");
+        part.baseColor = readTexture(in, "baseColor");
+        part.materialMap = readTexture(in, "materialMap");
+        const uint64_t sets = in.whole("sets", 1, in.left());
+        for (uint64_t i = 0; i < sets; i++) {
+            part.sets.push_back(readSet(in, sizes.vertices, meta.sizes.setEntries));
+            readResidual(in, residuals, part.sets.back());
+            residuals.push_back(part.sets.back().residual);
+        }
+    }
+    Provenance& provenance = asset.provenance;
+    for (std::string* text :
+         {&provenance.program, &provenance.device, &provenance.options, &provenance.inputs})
+        *text = in.text();
+    if (in.flag("bakedShare")) provenance.bakedShare = in.real("bakedShare");
+    meta.visibilityKey = in.text();
+    if (!meta.visibilityKey.empty() &&
+        (meta.visibilityKey.size() != kVisibilityKeyDigits ||
+         meta.visibilityKey.find_first_not_of("0123456789abcdef") != std::string::npos))
+        in.fail("visibilityKey", fmt::format("{} hexadecimal digits", kVisibilityKeyDigits));
+    if (in.left() > 0) in.fail("end", "no more bytes");
     return meta;
 }
 

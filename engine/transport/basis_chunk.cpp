@@ -5,6 +5,7 @@
 #include "engine/transport/transport_chunk.h"
 
 #include <bit>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -66,18 +67,19 @@ BasisCluster decodeBasisCluster(std::span<const std::byte> raw, uint32_t number,
     BasisCluster cluster;
     cluster.components = in.get<uint32_t>();
     if (foundNumber != number || foundVertices != vertices)
-        throw Error("{}: expected cluster {} of {} vertices, found {} of {}", where, number, vertices,
-                    foundNumber, foundVertices);
+        throw Error(fmt::format("{}: expected cluster {} of {} vertices, found {} of {}", where, number,
+                                vertices, foundNumber, foundVertices));
     if (columns > kMostBasisColumns || cluster.components > kMostBasisComponents)
-        throw Error("{}: expected at most {} columns and {} components, found {} and {}", where,
-                    kMostBasisColumns, kMostBasisComponents, columns, cluster.components);
+        throw Error(fmt::format("{}: expected at most {} columns and {} components, found {} and {}", where,
+                                kMostBasisColumns, kMostBasisComponents, columns, cluster.components));
     cluster.counts = in.getPlanes<uint16_t>(kinds);
     size_t scales = 0;
     for (const size_t count : cluster.counts) scales += count;
     const size_t basis = size_t(columns) * cluster.components;
     if (in.left() != scales * sizeof(float) + columns * sizeof(uint16_t) + basis + scales * vertices)
-        throw Error("{}: {} bytes do not hold {} columns of {} components and {} weights a vertex", where,
-                    raw.size(), columns, cluster.components, scales);
+        throw Error(
+            fmt::format("{}: {} bytes do not hold {} columns of {} components and {} weights a vertex", where,
+                        raw.size(), columns, cluster.components, scales));
     for (const uint32_t scale : in.getPlanes<uint32_t>(scales))
         cluster.scales.push_back(std::bit_cast<float>(scale));
     decodeIndices(in.getPlanes<uint16_t>(columns), coefficients, where, cluster.indices);

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <fmt/format.h>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -48,8 +49,8 @@ class ByteReader {
 
     std::span<const std::byte> take(size_t count) {
         if (count > mRest.size())
-            throw Error("{}: expected {} more bytes, found {}; the file is damaged", mWhere, count,
-                        mRest.size());
+            throw Error(fmt::format("{}: expected {} more bytes, found {}; the file is damaged", mWhere,
+                                    count, mRest.size()));
         const auto taken = mRest.first(count);
         mRest = mRest.subspan(count);
         return taken;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <memory>
 #include <zstd.h>
 
@@ -43,8 +44,8 @@ ChunkEntry getEntry(ByteReader& in, const std::string& name) {
     entry.run = in.get<uint32_t>();
     const auto reserved = in.get<uint32_t>();
     if (reserved != 0)
-        throw Error("{}: chunk {}: expected 0 in a reserved field, found {}", name, tagText(entry.tag),
-                    reserved);
+        throw Error(fmt::format("{}: chunk {}: expected 0 in a reserved field, found {}", name,
+                                tagText(entry.tag), reserved));
     entry.offset = in.get<uint64_t>();
     entry.storedSize = in.get<uint64_t>();
     entry.rawSize = in.get<uint64_t>();
@@ -73,7 +74,7 @@ StoredChunk storeChunk(ChunkTag tag, uint32_t owner, uint32_t run, std::span<con
     std::vector<std::byte> bytes(ZSTD_compressBound(raw.size()));
     const size_t stored =
         ZSTD_compress(bytes.data(), bytes.size(), raw.data(), raw.size(), kCompressionLevel);
-    if (ZSTD_isError(stored)) throw Error("compression failed: {}", ZSTD_getErrorName(stored));
+    if (ZSTD_isError(stored)) throw Error(fmt::format("compression failed: {}", ZSTD_getErrorName(stored)));
     if (stored >= raw.size() || !withinRatio(raw.size(), stored))
         bytes.assign(raw.begin(), raw.end());
     else
@@ -138,18 +139,19 @@ std::vector<std::byte> unpackChunk(const ChunkEntry& entry, std::span<const std:
     if (entry.storedSize == entry.rawSize) return {stored.begin(), stored.end()};
     const unsigned long long content = ZSTD_getFrameContentSize(stored.data(), stored.size());
     if (content != entry.rawSize)
-        throw Error("{}: chunk {}: is not a zstd frame of {} bytes", name, tagText(entry.tag), entry.rawSize);
+        throw Error(fmt::format("{}: chunk {}: is not a zstd frame of {} bytes", name, tagText(entry.tag),
+                                entry.rawSize));
     std::vector<std::byte> raw(entry.rawSize);
     const size_t size = ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size());
     if (size != raw.size())
-        throw Error("{}: chunk {}: cannot be decompressed: {}", name, tagText(entry.tag),
-                    ZSTD_isError(size) ? ZSTD_getErrorName(size) : "too short");
+        throw Error(fmt::format("{}: chunk {}: cannot be decompressed: {}", name, tagText(entry.tag),
+                                ZSTD_isError(size) ? ZSTD_getErrorName(size) : "too short"));
     return raw;
 }
 
-ChunkFile::ChunkFile(ByteSource source, std::string name)
+ChunkFile::ChunkFile(ByteSource source, std::string name, uint32_t version)
     : mSource(std::move(source)), mName(std::move(name)) {
-    readTable();
+    readTable(version);
     uint64_t offset = kHeaderBytes + mEntries.size() * kEntryBytes;
     std::vector<std::byte> room;
     for (size_t i = 0; i < mEntries.size(); i++) {
@@ -157,41 +159,50 @@ ChunkFile::ChunkFile(ByteSource source, std::string name)
         checkEntry(entry, offset, room);
         offset += entry.storedSize;
         if (!mIndex.try_emplace({entry.tag, entry.owner, entry.run}, i).second)
-            throw Error("{}: chunk {} of part or set {}, run {}, appears twice", mName, tagText(entry.tag),
-                        entry.owner, entry.run);
+            throw Error(fmt::format("{}: chunk {} of part or set {}, run {}, appears twice", mName,
+                                    tagText(entry.tag), entry.owner, entry.run));
     }
     if (offset != mSource.size)
-        throw Error("{}: {} bytes are left over behind the last chunk", mName, mSource.size - offset);
+        throw Error(
+            fmt::format("{}: {} bytes are left over behind the last chunk", mName, mSource.size - offset));
 }
 
-void ChunkFile::readTable() {
+bool hasAssetMagic(std::span<const std::byte> bytes) {
+    return bytes.size() >= kMagic.size() &&
+           std::ranges::equal(bytes.first(kMagic.size()), std::as_bytes(std::span(kMagic)));
+}
+
+void ChunkFile::readTable(uint32_t expectedVersion) {
     std::vector<std::byte> headerRoom, tableRoom;
     const auto header = mSource.read(0, size_t(std::min<uint64_t>(mSource.size, kHeaderBytes)), headerRoom);
-    if (header.size() < kHeaderBytes ||
-        !std::ranges::equal(header.first(kMagic.size()), std::as_bytes(std::span(kMagic))))
-        throw Error("{}: not a .relume file ({} bytes, and no header of one); make one with `relume bake`",
-                    mName, mSource.size);
+    if (header.size() < kHeaderBytes || !hasAssetMagic(header))
+        throw Error(fmt::format(
+            "{}: not a .relume file ({} bytes, and no header of one); make one with `relume bake`", mName,
+            mSource.size));
     ByteReader in(header, mName);
     in.take(kMagic.size());
     const auto version = in.get<uint32_t>();
-    if (version != kAssetFormatVersion)
-        throw Error(
-            "{}: has format version {}, this program reads version {}; update the program or bake again",
-            mName, version, kAssetFormatVersion);
+    if (version != expectedVersion)
+        throw Error(fmt::format("{}: has format version {}, this program reads version {}; {}", mName,
+                                version, expectedVersion,
+                                version == expectedVersion - 1 ? "`relume convert` updates it"
+                                : version > expectedVersion    ? "update the program"
+                                                               : "bake again"));
     const auto count = in.get<uint32_t>();
     const auto fileBytes = in.get<uint64_t>();
     const auto checksum = in.get<uint64_t>();
     if (fileBytes != mSource.size)
-        throw Error(
+        throw Error(fmt::format(
             "{}: expected {} bytes, found {}; the file is cut short or damaged: copy or bake it again", mName,
-            fileBytes, mSource.size);
+            fileBytes, mSource.size));
     if (count > (mSource.size - kHeaderBytes) / kEntryBytes)
-        throw Error("{}: names {} chunks, more than its {} bytes can hold", mName, count, mSource.size);
+        throw Error(
+            fmt::format("{}: names {} chunks, more than its {} bytes can hold", mName, count, mSource.size));
     const auto table = mSource.read(kHeaderBytes, count * kEntryBytes, tableRoom);
     if (headerChecksum(header, table) != checksum)
-        throw Error(
+        throw Error(fmt::format(
             "{}: header or chunk table fails its checksum; the file is damaged: copy or bake it again",
-            mName);
+            mName));
     ByteReader rows(table, mName);
     mEntries.reserve(count);
     for (uint32_t i = 0; i < count; i++) mEntries.push_back(getEntry(rows, mName));
@@ -202,23 +213,23 @@ void ChunkFile::checkEntry(const ChunkEntry& entry, uint64_t expectedOffset,
                            std::vector<std::byte>& room) const {
     const std::string tag = tagText(entry.tag);
     if (entry.offset != expectedOffset)
-        throw Error("{}: chunk {}: expected at byte {}, found at {}", mName, tag, expectedOffset,
-                    entry.offset);
+        throw Error(fmt::format("{}: chunk {}: expected at byte {}, found at {}", mName, tag, expectedOffset,
+                                entry.offset));
     if (entry.storedSize == 0 || entry.storedSize > mSource.size - entry.offset)
-        throw Error("{}: chunk {}: {} bytes at {} do not fit a file of {}", mName, tag, entry.storedSize,
-                    entry.offset, mSource.size);
+        throw Error(fmt::format("{}: chunk {}: {} bytes at {} do not fit a file of {}", mName, tag,
+                                entry.storedSize, entry.offset, mSource.size));
     if (entry.rawSize < entry.storedSize || entry.rawSize > kLargestChunk ||
         !withinRatio(entry.rawSize, entry.storedSize))
-        throw Error("{}: chunk {}: {} bytes cannot stand for {}", mName, tag, entry.storedSize,
-                    entry.rawSize);
+        throw Error(fmt::format("{}: chunk {}: {} bytes cannot stand for {}", mName, tag, entry.storedSize,
+                                entry.rawSize));
     expectChecksum(entry, mSource.read(entry.offset, entry.storedSize, room));
 }
 
 void ChunkFile::expectChecksum(const ChunkEntry& entry, std::span<const std::byte> stored) const {
     if (hash64(stored) != entry.checksum)
-        throw Error(
+        throw Error(fmt::format(
             "{}: chunk {} of part or set {} fails its checksum; the file is damaged: copy or bake it again",
-            mName, tagText(entry.tag), entry.owner);
+            mName, tagText(entry.tag), entry.owner));
 }
 
 std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
@@ -227,8 +238,8 @@ std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
         const ChunkEntry& entry = mEntries[at->second];
         if (entry.tag != tag || entry.owner != owner) break;
         if (entry.run != runs.size())
-            throw Error("{}: chunk {} of part or set {}: run {} is missing", mName, tagText(tag), owner,
-                        runs.size());
+            throw Error(fmt::format("{}: chunk {} of part or set {}: run {} is missing", mName, tagText(tag),
+                                    owner, runs.size()));
         runs.push_back(entry);
     }
     return runs;

@@ -14,7 +14,7 @@
 
 namespace relume {
 
-constexpr uint32_t kAssetFormatVersion = 2;
+constexpr uint32_t kAssetFormatVersion = 3;
 
 // Four letters. A reader that does not know a tag refuses the file if the first letter is a capital, and
 // skips the chunk otherwise.
@@ -89,12 +89,15 @@ ByteSource sourceOf(std::span<const std::byte> bytes); // which must outlive it
 std::vector<std::byte> unpackChunk(const ChunkEntry& entry, std::span<const std::byte> stored,
                                    const std::string& name);
 
+// Whether these bytes begin as a .relume file of any version does.
+bool hasAssetMagic(std::span<const std::byte> bytes);
+
 // A checked view of a file.
 class ChunkFile {
   public:
     // Verifies everything but the chunks' contents: magic, version, every checksum, sizes, limits, order of
     // runs. Holds the table and one chunk at a time. `name` stands for the file in errors. Throws Error.
-    ChunkFile(ByteSource source, std::string name);
+    ChunkFile(ByteSource source, std::string name, uint32_t version = kAssetFormatVersion);
     ChunkFile(std::span<const std::byte> bytes, std::string name) // which must outlive it
         : ChunkFile(sourceOf(bytes), std::move(name)) {}
 
@@ -117,7 +120,7 @@ class ChunkFile {
     const std::string& name() const { return mName; }
 
   private:
-    void readTable();
+    void readTable(uint32_t version);
     void checkEntry(const ChunkEntry& entry, uint64_t expectedOffset, std::vector<std::byte>& room) const;
     void expectChecksum(const ChunkEntry& entry, std::span<const std::byte> stored) const;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -55,12 +56,14 @@ void decodeCluster(std::span<const std::byte> raw, uint32_t coefficients, size_t
     if (groupsRead >= transport.groups() || cluster < offset ||
         size_t(cluster - offset) * transport.terms != groupsRead ||
         count != clusterSize(transport, cluster - offset))
-        throw Error("{}: cluster {} of {} vertices does not follow those before it", where, cluster, count);
+        throw Error(fmt::format("{}: cluster {} of {} vertices does not follow those before it", where,
+                                cluster, count));
     const size_t rows = size_t(count) * transport.terms;
     if (columns > columnLimit - transport.columns() || columns > kMostClusterColumns ||
         in.left() != transport.terms * kClusterGroupBytes + rows * kClusterRowBytes +
                          size_t(columns) * kClusterColumnBytes)
-        throw Error("{}: {} bytes do not hold {} rows and {} columns", where, raw.size(), rows, columns);
+        throw Error(
+            fmt::format("{}: {} bytes do not hold {} rows and {} columns", where, raw.size(), rows, columns));
 
     const auto lengths = in.getPlanes<uint16_t>(transport.terms);
     const auto scales = in.getPlanes<uint32_t>(rows);
@@ -68,12 +71,13 @@ void decodeCluster(std::span<const std::byte> raw, uint32_t coefficients, size_t
     const auto values = in.getPlanes<uint32_t>(size_t(columns) * kClusterVertices);
     size_t read = 0;
     for (const uint16_t length : lengths) {
-        if (length > columns - read) throw Error("{}: groups are longer than the {} columns", where, columns);
+        if (length > columns - read)
+            throw Error(fmt::format("{}: groups are longer than the {} columns", where, columns));
         decodeIndices(std::span(gaps).subspan(read, length), coefficients, where, transport.indices);
         read += length;
         transport.columnStarts.push_back(transport.indices.size());
     }
-    if (read != columns) throw Error("{}: groups hold {} of {} columns", where, read, columns);
+    if (read != columns) throw Error(fmt::format("{}: groups hold {} of {} columns", where, read, columns));
     for (const uint32_t scale : scales) transport.scales.push_back(std::bit_cast<float>(scale));
     transport.values.resize(transport.indices.size() * kClusterVertices);
     std::ranges::transform(values, transport.values.end() - ptrdiff_t(values.size()), correlate);

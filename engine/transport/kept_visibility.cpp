@@ -8,6 +8,7 @@
 #include "engine/transport/visibility_chunk.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -26,7 +27,8 @@ KeptVisibility::KeptVisibility(const std::filesystem::path& path)
 KeptVisibility::KeptVisibility(ByteSource source, const std::string& name)
     : mFile(std::move(source), name), mMeta(readMeta(mFile, AssetFileKind::Bake)),
       mRun(visibilityRunVertices(mMeta.asset)) {
-    for (uint32_t part = 0; part < mMeta.sizes.size(); part++) mRuns.push_back(mFile.find(kVisibility, part));
+    for (uint32_t part = 0; part < mMeta.sizes.parts.size(); part++)
+        mRuns.push_back(mFile.find(kVisibility, part));
 }
 
 Asset KeptVisibility::skeleton() const {
@@ -37,29 +39,33 @@ Asset KeptVisibility::skeleton() const {
 }
 
 uint32_t KeptVisibility::runVertices(uint32_t part, uint32_t run) const {
-    return uint32_t(std::min<uint64_t>(mRun, mMeta.sizes[part].vertices - uint64_t(run) * mRun));
+    return uint32_t(std::min<uint64_t>(mRun, mMeta.sizes.parts[part].vertices - uint64_t(run) * mRun));
 }
 
 void KeptVisibility::verify(const Asset& asset) const {
     const auto isAsLong = [](const AssetPart& part, const AssetPartSizes& sizes) {
         return part.mesh.vertexCount() == sizes.vertices;
     };
-    if (size() != uint32_t(asset.visibilitySize) || !std::ranges::equal(asset.parts, mMeta.sizes, isAsLong))
-        throw Error("{}: its visibility is not that of its parts; the file is damaged", mFile.name());
+    if (size() != uint32_t(asset.visibilitySize) ||
+        !std::ranges::equal(asset.parts, mMeta.sizes.parts, isAsLong))
+        throw Error(
+            fmt::format("{}: its visibility is not that of its parts; the file is damaged", mFile.name()));
     if (size() % kSmallestKeptVisibility != 0)
-        throw Error("{}: visibility of {} texels a side cannot be kept", mFile.name(), size());
+        throw Error(fmt::format("{}: visibility of {} texels a side cannot be kept", mFile.name(), size()));
     for (uint32_t part = 0; part < mRuns.size(); part++) {
-        const uint64_t expected = (mMeta.sizes[part].vertices + mRun - 1) / mRun;
+        const uint64_t expected = (mMeta.sizes.parts[part].vertices + mRun - 1) / mRun;
         if (mRuns[part].size() != expected)
-            throw Error("{}: visibility of part {}: expected {} chunks, found {}; the file is damaged",
-                        mFile.name(), part, expected, mRuns[part].size());
+            throw Error(
+                fmt::format("{}: visibility of part {}: expected {} chunks, found {}; the file is damaged",
+                            mFile.name(), part, expected, mRuns[part].size()));
         for (const ChunkEntry& entry : mRuns[part]) {
             const uint32_t vertices = runVertices(part, entry.run);
             if (entry.rawSize < smallestVisibilityChunk(vertices, size()) ||
                 entry.rawSize > largestVisibilityChunk(vertices, size()))
-                throw Error("{}: visibility of part {}, run {}: {} bytes cannot be that of {} vertices; the "
-                            "file is damaged",
-                            mFile.name(), part, entry.run, entry.rawSize, vertices);
+                throw Error(fmt::format(
+                    "{}: visibility of part {}, run {}: {} bytes cannot be that of {} vertices; the "
+                    "file is damaged",
+                    mFile.name(), part, entry.run, entry.rawSize, vertices));
         }
     }
 }
@@ -68,7 +74,7 @@ const std::vector<uint32_t>& KeptVisibility::run(uint32_t part, uint32_t run) {
     if (!mLast || mLast->part != part || mLast->run != run) {
         mLast.reset();
         const std::string where = fmt::format("{}: visibility of part {}, run {}", mFile.name(), part, run);
-        if (run >= mRuns[part].size()) throw Error("{}: is missing; the file is damaged", where);
+        if (run >= mRuns[part].size()) throw Error(fmt::format("{}: is missing; the file is damaged", where));
         mLast = {part, run,
                  decodeVisibility(mFile.load(mRuns[part][run]), runVertices(part, run), size(), where)};
     }
@@ -76,7 +82,7 @@ const std::vector<uint32_t>& KeptVisibility::run(uint32_t part, uint32_t run) {
 }
 
 std::vector<uint32_t> KeptVisibility::bits(uint32_t part, uint32_t first, uint32_t end) {
-    RELUME_CHECK(first <= end && end <= mMeta.sizes[part].vertices);
+    RELUME_CHECK(first <= end && end <= mMeta.sizes.parts[part].vertices);
     const size_t words = 6 * size_t(size()) * size() / 32;
     std::vector<uint32_t> found;
     found.reserve((end - first) * words);

@@ -5,17 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
 namespace {
 
 void expect(bool holds, const std::string& where, const char* what) {
-    if (!holds) throw Error("{}: expected {}", where, what);
+    if (!holds) throw Error(fmt::format("{}: expected {}", where, what));
 }
 
 void expectCount(size_t count, size_t expected, const std::string& where, const char* what) {
-    if (count != expected) throw Error("{}: expected {} {}, found {}", where, expected, what, count);
+    if (count != expected)
+        throw Error(fmt::format("{}: expected {} {}, found {}", where, expected, what, count));
 }
 
 bool isMagnitude(float value) { return std::isfinite(value) && value >= 0; }
@@ -40,14 +42,14 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
     for (size_t row = 0; row < transport.rows(); row++) {
         const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
         if (end < start || end - start > longestRow || end > transport.entries())
-            throw Error("{}: row {}: expected at most {} entries, found entries {} to {}", where, row,
-                        longestRow, start, end);
+            throw Error(fmt::format("{}: row {}: expected at most {} entries, found entries {} to {}", where,
+                                    row, longestRow, start, end));
         uint32_t next = 0;
         for (uint64_t entry = start; entry < end; entry++) {
             const uint32_t index = transport.indices[entry];
             if (index < next || index >= coefficients)
-                throw Error("{}: row {}: expected rising indices below {}, found {}", where, row,
-                            coefficients, index);
+                throw Error(fmt::format("{}: row {}: expected rising indices below {}, found {}", where, row,
+                                        coefficients, index));
             next = index + 1;
         }
     }
@@ -66,13 +68,14 @@ void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, 
     for (size_t group = 0; group < transport.groups(); group++) {
         const uint64_t start = transport.columnStarts[group], end = transport.columnStarts[group + 1];
         if (end < start || end > transport.columns())
-            throw Error("{}: group {}: columns {} to {} are out of order", where, group, start, end);
+            throw Error(
+                fmt::format("{}: group {}: columns {} to {} are out of order", where, group, start, end));
         uint32_t next = 0;
         for (uint64_t column = start; column < end; column++) {
             const uint32_t index = transport.indices[column];
             if (index < next || index >= coefficients)
-                throw Error("{}: group {}: expected rising indices below {}, found {}", where, group,
-                            coefficients, index);
+                throw Error(fmt::format("{}: group {}: expected rising indices below {}, found {}", where,
+                                        group, coefficients, index));
             next = index + 1;
         }
     }
@@ -80,8 +83,8 @@ void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, 
         const uint64_t columns = transport.columnStarts[(cluster + 1) * transport.terms] -
                                  transport.columnStarts[cluster * transport.terms];
         if (columns > kMostClusterColumns)
-            throw Error("{}: cluster {}: expected at most {} columns, found {}", where, cluster,
-                        kMostClusterColumns, columns);
+            throw Error(fmt::format("{}: cluster {}: expected at most {} columns, found {}", where, cluster,
+                                    kMostClusterColumns, columns));
     }
     expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
            "values within ±1023 in red and green and ±511 in blue");
@@ -121,7 +124,8 @@ void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, ui
     uint32_t next = 0;
     for (const uint32_t index : cluster.indices) {
         if (index < next || index >= coefficients)
-            throw Error("{}: expected rising indices below {}, found {}", where, coefficients, index);
+            throw Error(
+                fmt::format("{}: expected rising indices below {}, found {}", where, coefficients, index));
         next = index + 1;
     }
 }

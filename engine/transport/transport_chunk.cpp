@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -70,7 +71,7 @@ void decodeIndices(std::span<const uint16_t> gaps, uint32_t coefficients, const 
     for (uint16_t gap : gaps) {
         const uint32_t index = next + gap;
         if (index >= coefficients)
-            throw Error("{}: expected indices below {}, found {}", where, coefficients, index);
+            throw Error(fmt::format("{}: expected indices below {}, found {}", where, coefficients, index));
         indices.push_back(uint16_t(index));
         next = index + 1;
     }
@@ -84,10 +85,12 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
     const size_t rows = size_t(count) * transport.terms;
     if (first < offset || size_t(first - offset) * transport.terms != rowsRead ||
         rows > transport.rows() - rowsRead)
-        throw Error("{}: its {} vertices from {} on do not follow those before it", where, count, first);
+        throw Error(
+            fmt::format("{}: its {} vertices from {} on do not follow those before it", where, count, first));
     if (entries > entryLimit - transport.entries() ||
         in.left() != rows * kRunRowBytes + size_t(entries) * kRunEntryBytes)
-        throw Error("{}: {} bytes do not hold {} rows and {} entries", where, raw.size(), rows, entries);
+        throw Error(
+            fmt::format("{}: {} bytes do not hold {} rows and {} entries", where, raw.size(), rows, entries));
 
     const auto lengths = in.getPlanes<uint16_t>(rows);
     const auto scales = in.getPlanes<uint32_t>(rows);
@@ -96,13 +99,13 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
     size_t read = 0;
     for (size_t row = 0; row < rows; row++) {
         if (lengths[row] > entries - read)
-            throw Error("{}: rows are longer than the {} entries", where, entries);
+            throw Error(fmt::format("{}: rows are longer than the {} entries", where, entries));
         decodeIndices(std::span(gaps).subspan(read, lengths[row]), coefficients, where, transport.indices);
         read += lengths[row];
         transport.rowStarts.push_back(transport.indices.size());
         transport.scales.push_back(std::bit_cast<float>(scales[row]));
     }
-    if (read != entries) throw Error("{}: rows hold {} of {} entries", where, read, entries);
+    if (read != entries) throw Error(fmt::format("{}: rows hold {} of {} entries", where, read, entries));
     transport.values.resize(transport.indices.size());
     std::ranges::transform(values, transport.values.end() - ptrdiff_t(entries), correlate);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -47,7 +48,8 @@ Bytes spread(const Bytes& flags, std::span<const std::byte>& rest, const std::st
     size_t count = 0;
     for (uint8_t flag : flags) count += size_t(std::popcount(flag));
     if (count > rest.size())
-        throw Error("{}: expected {} more bytes, found {}; the file is damaged", where, count, rest.size());
+        throw Error(fmt::format("{}: expected {} more bytes, found {}; the file is damaged", where, count,
+                                rest.size()));
     const std::byte* next = rest.data();
     rest = rest.subspan(count);
     Bytes bytes(flags.size() * 8);
@@ -96,15 +98,15 @@ std::vector<uint32_t> decodeVisibility(std::span<const std::byte> coded, uint64_
                                        const std::string& where) {
     const uint64_t flagBytes = smallestVisibilityChunk(vertices, size);
     if (coded.size() < flagBytes)
-        throw Error("{}: expected at least {} bytes, found {}; the file is damaged", where, flagBytes,
-                    coded.size());
+        throw Error(fmt::format("{}: expected at least {} bytes, found {}; the file is damaged", where,
+                                flagBytes, coded.size()));
     Bytes bytes(flagBytes);
     std::memcpy(bytes.data(), coded.data(), flagBytes);
     coded = coded.subspan(flagBytes);
     for (int level = 0; level < kLevels; level++) bytes = spread(bytes, coded, where);
     if (!coded.empty())
-        throw Error("{}: {} bytes are left over behind the last bits; the file is damaged", where,
-                    coded.size());
+        throw Error(fmt::format("{}: {} bytes are left over behind the last bits; the file is damaged", where,
+                                coded.size()));
 
     std::vector<uint32_t> bits(bytes.size() / sizeof(uint32_t));
     std::memcpy(bits.data(), bytes.data(), bytes.size());

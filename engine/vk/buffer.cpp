@@ -2,6 +2,7 @@
 
 #include "engine/vk/result.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume::vk {
@@ -34,8 +35,8 @@ Buffer::Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_
         VkMemoryRequirements requirements;
         vkGetBufferMemoryRequirements(device.handle(), mBuffer, &requirements);
         if (requirements.size > device.info().largestAllocation)
-            throw OutOfMemory("{}: {} bytes asked for, {} allows {} at once", name, requirements.size,
-                              device.name(), device.info().largestAllocation);
+            throw OutOfMemory(fmt::format("{}: {} bytes asked for, {} allows {} at once", name,
+                                          requirements.size, device.name(), device.info().largestAllocation));
         allocate.allocationSize = requirements.size;
         allocate.memoryTypeIndex = memoryTypeFor(device, requirements.memoryTypeBits, use);
         RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));

@@ -1,5 +1,6 @@
 #include "engine/vk/commands.h"
 
+#include "engine/base/check.h"
 #include "engine/vk/result.h"
 #include "engine/vk/tick_clock.h"
 #include "engine/vk/timing_capture.h"
@@ -72,14 +73,14 @@ Commands::Commands(const Device& device, std::string_view name) : mDevice(device
     allocate.commandPool = mPool;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    RELUME_VK(vkAllocateCommandBuffers(device.handle(), &allocate, &mCommands));
+    RELUME_VK(vkAllocateCommandBuffers(device.handle(), &allocate, &mOwnCommands));
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mFence));
     VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = 2 * kMaxTimedPasses;
     RELUME_VK(vkCreateQueryPool(device.handle(), &queries, nullptr, &mQueries));
-    device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(mCommands), name);
+    device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(mOwnCommands), name);
     device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<uint64_t>(mPool), name);
     device.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<uint64_t>(mFence), name);
     device.setName(VK_OBJECT_TYPE_QUERY_POOL, reinterpret_cast<uint64_t>(mQueries), name);
@@ -93,16 +94,27 @@ Commands::~Commands() {
     vkDestroyCommandPool(mDevice.handle(), mPool, nullptr);
 }
 
-void Commands::begin() {
-    RELUME_VK(vkResetCommandPool(mDevice.handle(), mPool, 0));
+void Commands::reset() {
     for (VkDescriptorPool pool : mDescriptorPools)
         RELUME_VK(vkResetDescriptorPool(mDevice.handle(), pool, 0));
     mActivePool = 0;
     dropTexelViews();
     mTimedPasses.clear();
+}
+
+void Commands::begin() {
+    reset();
+    RELUME_VK(vkResetCommandPool(mDevice.handle(), mPool, 0));
+    mCommands = mOwnCommands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     RELUME_VK(vkBeginCommandBuffer(mCommands, &begin));
+    vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxTimedPasses);
+}
+
+void Commands::begin(VkCommandBuffer hosts) {
+    reset();
+    mCommands = hosts;
     vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxTimedPasses);
 }
 
@@ -383,6 +395,7 @@ void Commands::copy(const Image& from, const Buffer& to, uint32_t layers, uint64
 
 void Commands::submitAndWait() {
     CpuSpan submission(mCapture, "submit");
+    RELUME_CHECK(mCommands == mOwnCommands);
     RELUME_VK(vkEndCommandBuffer(mCommands));
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     buffer.commandBuffer = mCommands;

@@ -65,6 +65,9 @@ class Commands {
 
     // Starts recording afresh.
     void begin();
+    // The same into a host's command buffer, which is being recorded, outside of rendering; the host submits
+    // it. What was recorded into one before must have run by then: a frame in flight has Commands of its own.
+    void begin(VkCommandBuffer hosts);
 
     // Records `work` under a debug label and, where the device has them, between two timestamps; those of a
     // submission's first 512 passes.
@@ -127,13 +130,15 @@ class Commands {
                    std::span<const std::byte> push);
     VkBufferView texelView(const Binding& binding);
     void dropTexelViews();
+    void reset();
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
     void orderAllCommands();
     void collectTimes();
 
     const Device& mDevice;
     VkCommandPool mPool = VK_NULL_HANDLE;
-    VkCommandBuffer mCommands = VK_NULL_HANDLE;
+    VkCommandBuffer mOwnCommands = VK_NULL_HANDLE;
+    VkCommandBuffer mCommands = VK_NULL_HANDLE; // what is recorded into
     VkFence mFence = VK_NULL_HANDLE;
     VkQueryPool mQueries = VK_NULL_HANDLE;
     std::vector<VkDescriptorPool> mDescriptorPools;

@@ -1,7 +1,9 @@
 #include "engine/vk/device.h"
 
 #include "engine/base/check.h"
+#include "engine/base/log.h"
 #include "engine/vk/device_list.h"
+#include "engine/vk/features.h"
 #include "engine/vk/pipeline_cache.h"
 #include "engine/vk/result.h"
 #include "engine/vk/shader_replacement.h"
@@ -9,7 +11,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 #include <sstream>
 
 namespace relume::vk {
@@ -80,7 +82,8 @@ std::vector<VkValidationFeatureEnableEXT> parseValidation(const std::string& tex
         } else if (word == "best")
             enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT);
         else
-            throw UsageError("--validation: expected some of core, sync, gpu, best; found \"{}\"", word);
+            throw UsageError(
+                fmt::format("--validation: expected some of core, sync, gpu, best; found \"{}\"", word));
     }
     return enabled;
 }
@@ -103,9 +106,9 @@ VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, Vk
                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* device) {
     static_cast<Device*>(device)->mValidationMessages++;
     if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT)
-        spdlog::error("validation: {}", data->pMessage);
+        log(LogLevel::Error, fmt::format("validation: {}", data->pMessage));
     else
-        spdlog::warn("validation: {}", data->pMessage);
+        log(LogLevel::Warning, fmt::format("validation: {}", data->pMessage));
     return VK_FALSE;
 }
 
@@ -123,7 +126,27 @@ Device::Device(const DeviceOptions& options) {
 
 Device::~Device() { destroy(); }
 
+Device::Device(const HostDevice& host) : mIsHosts(true), mInstance(host.instance), mDevice(host.device) {
+    RELUME_CHECK(host.instance && host.physical && host.device && host.created && host.queue);
+    mInfo = describeDevice(host.physical, 0);
+    std::string missing = mInfo.unsuitable;
+    if (missing.empty()) missing = missingFeature(*host.created);
+    if (!missing.empty())
+        throw NoDeviceError(fmt::format("{}: the host's device cannot be used: {}", mInfo.name, missing));
+    setPhysicalDevice(host.physical, host.queueFamily);
+    mInfo.outputsLayers = mInfo.outputsLayers && hasFeature(*host.created, "shaderOutputLayer");
+    if (!hasFeature(*host.created, "fullDrawIndexUint32"))
+        mProperties.limits.maxDrawIndexedIndexValue = (1u << 24) - 1;
+    mQueue = host.queue;
+    loadDebugUtils();
+    mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, std::filesystem::path());
+}
+
 void Device::destroy() {
+    if (mIsHosts) {
+        mPipelineCache.reset();
+        return;
+    }
     if (mDevice) {
         vkDeviceWaitIdle(mDevice);
         mPipelineCache.reset();
@@ -151,9 +174,9 @@ void Device::createInstance(const DeviceOptions& options) {
     features.pEnabledValidationFeatures = enabled.data();
     if (!validation.empty()) {
         if (!hasLayer(kValidationLayer))
-            throw Error("--validation: the layer {} is not installed; on Debian: apt install "
-                        "vulkan-validationlayers",
-                        kValidationLayer);
+            throw Error(fmt::format("--validation: the layer {} is not installed; on Debian: apt install "
+                                    "vulkan-validationlayers",
+                                    kValidationLayer));
         create.enabledLayerCount = 1;
         create.ppEnabledLayerNames = &kValidationLayer;
         create.pNext = &features;
@@ -167,13 +190,7 @@ void Device::createInstance(const DeviceOptions& options) {
     if (vkCreateInstance(&create, nullptr, &mInstance) != VK_SUCCESS)
         throw NoDeviceError("no Vulkan driver was found; on Debian, mesa-vulkan-drivers brings one that runs "
                             "everywhere");
-    if (canDebug) {
-        const auto load = [&](const char* name) { return vkGetInstanceProcAddr(mInstance, name); };
-        mSetName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
-        mBeginLabel =
-            reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
-        mEndLabel = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(load("vkCmdEndDebugUtilsLabelEXT"));
-    }
+    if (canDebug) loadDebugUtils();
     if (validation.empty()) return;
     VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     messenger.messageSeverity =
@@ -185,6 +202,14 @@ void Device::createInstance(const DeviceOptions& options) {
     const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(mInstance, "vkCreateDebugUtilsMessengerEXT"));
     RELUME_VK(createMessenger(mInstance, &messenger, nullptr, &mMessenger));
+}
+
+// The functions are null without the extension.
+void Device::loadDebugUtils() {
+    const auto load = [&](const char* name) { return vkGetInstanceProcAddr(mInstance, name); };
+    mSetName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
+    mBeginLabel = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
+    mEndLabel = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(load("vkCmdEndDebugUtilsLabelEXT"));
 }
 
 void Device::pickPhysicalDevice(const std::string& select, bool leastFeatures) {
@@ -203,22 +228,28 @@ void Device::pickPhysicalDevice(const std::string& select, bool leastFeatures) {
             best = int(i);
     }
     if (best < 0 && !select.empty())
-        throw NoDeviceError(
-            "--device {}: no device has this index, UUID or name; `relume devices` lists them", select);
+        throw NoDeviceError(fmt::format(
+            "--device {}: no device has this index, UUID or name; `relume devices` lists them", select));
     if (best < 0)
-        throw NoDeviceError("{}: cannot be used: {}; `relume devices` lists all", infos[0].name,
-                            infos[0].unsuitable);
+        throw NoDeviceError(fmt::format("{}: cannot be used: {}; `relume devices` lists all", infos[0].name,
+                                        infos[0].unsuitable));
     mInfo = infos[size_t(best)];
     if (!mInfo.unsuitable.empty())
-        throw NoDeviceError("--device {}: {} cannot be used: {}", select, mInfo.name, mInfo.unsuitable);
+        throw NoDeviceError(
+            fmt::format("--device {}: {} cannot be used: {}", select, mInfo.name, mInfo.unsuitable));
     if (leastFeatures) {
         mInfo.outputsLayers = mInfo.subgroupBallot = false;
         mInfo.largestTexelBuffer = 1u << 16;
     }
-    mPhysical = devices[size_t(best)];
+    const VkPhysicalDevice physical = devices[size_t(best)];
+    setPhysicalDevice(physical, *findQueueFamily(physical));
+}
+
+void Device::setPhysicalDevice(VkPhysicalDevice physical, uint32_t queueFamily) {
+    mPhysical = physical;
+    mQueueFamily = queueFamily;
     vkGetPhysicalDeviceProperties(mPhysical, &mProperties);
     vkGetPhysicalDeviceMemoryProperties(mPhysical, &mMemory);
-    mQueueFamily = *findQueueFamily(mPhysical);
     uint32_t families = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(mPhysical, &families, nullptr);
     std::vector<VkQueueFamilyProperties> properties(families);
@@ -227,31 +258,16 @@ void Device::pickPhysicalDevice(const std::string& select, bool leastFeatures) {
 }
 
 void Device::createDevice(bool showsImages) {
-    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    features13.synchronization2 = VK_TRUE;
-    features13.dynamicRendering = VK_TRUE;
-    features13.maintenance4 = VK_TRUE;
-    features13.subgroupSizeControl = VK_TRUE; // both are there in every Vulkan 1.3
-    features13.computeFullSubgroups = VK_TRUE;
-    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
-                                                &features13};
-    features12.scalarBlockLayout = VK_TRUE;
-    features12.shaderOutputLayer = mInfo.outputsLayers;
+    Features features;
+    enableFeatures(mPhysical, features);
+    features.vulkan12.shaderOutputLayer = mInfo.outputsLayers;
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = mQueueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkPhysicalDeviceFeatures features{};
-    features.multiDrawIndirect = VK_TRUE;
-    features.drawIndirectFirstInstance = VK_TRUE;
-    VkPhysicalDeviceFeatures offered;
-    vkGetPhysicalDeviceFeatures(mPhysical, &offered);
-    features.fullDrawIndexUint32 =
-        offered.fullDrawIndexUint32; // maxDrawIndexedIndexValue is as if it were on
-    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features12};
-    create.pEnabledFeatures = &features;
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.chain};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     std::vector<const char*> extensions;
@@ -259,7 +275,8 @@ void Device::createDevice(bool showsImages) {
     if (hasClocks) extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     if (showsImages) {
         if (!hasExtension(extensionsOf(mPhysical), VK_KHR_SWAPCHAIN_EXTENSION_NAME))
-            throw NoDeviceError("{}: cannot show images in a window; `relume devices` lists others", name());
+            throw NoDeviceError(
+                fmt::format("{}: cannot show images in a window; `relume devices` lists others", name()));
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }
     create.enabledExtensionCount = uint32_t(extensions.size());
@@ -314,7 +331,7 @@ uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
         for (uint32_t type = 0; type < mMemory.memoryTypeCount; type++)
             if ((typeBits >> type & 1) && (mMemory.memoryTypes[type].propertyFlags & wanted) == wanted)
                 return type;
-    throw Error("{}: has no memory with the properties {:#x}", name(), properties);
+    throw Error(fmt::format("{}: has no memory with the properties {:#x}", name(), properties));
 }
 
 void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) const {

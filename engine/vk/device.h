@@ -60,11 +60,43 @@ struct DeviceOptions {
     bool leastFeatures = false;
 };
 
-// Owns instance, device and queue; movable in its unique_ptr only, since everything refers to it.
+// A device of a host program, which made it and keeps it for as long as anything of ours refers to it.
+struct HostDevice {
+    VkInstance instance = VK_NULL_HANDLE; // of Vulkan 1.3
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    // What the device was made with: its features are checked against neededFeatures().
+    const VkDeviceCreateInfo* created = nullptr;
+    VkQueue queue = VK_NULL_HANDLE;
+    uint32_t queueFamily = 0; // which does graphics and compute
+};
+
+// The features that a device must have been made with, by the names of Vulkan's specification; all of them
+// are there in every device that listDevices() calls suitable. Two more are used where they are on:
+// shaderOutputLayer, by bakes that draw visibility, and fullDrawIndexUint32, by draws of more than 2^24
+// vertices. No extension is needed.
+struct Features {
+    Features();
+    Features(const Features&) = delete; // it points into itself
+    Features& operator=(const Features&) = delete;
+
+    // For VkDeviceCreateInfo::pNext, with no pEnabledFeatures beside it; the other two follow it.
+    VkPhysicalDeviceFeatures2 chain;
+    VkPhysicalDeviceVulkan12Features vulkan12;
+    VkPhysicalDeviceVulkan13Features vulkan13;
+};
+// Turns on what is needed, and what is used where `physical` offers it.
+void enableFeatures(VkPhysicalDevice physical, Features& features);
+
+// Owns instance, device and queue, or uses those of a host program. Everything refers to it: it stays where
+// it is.
 class Device {
   public:
     // Throws NoDeviceError when nothing suits, UsageError when options cannot be understood.
     explicit Device(const DeviceOptions& options = {});
+    // Works on the host's device. Its queue is used by functions that wait for the device alone, as their
+    // comments say: to upload and to read back. Throws NoDeviceError that names the feature that is missing.
+    explicit Device(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -123,11 +155,14 @@ class Device {
                                         VkDebugUtilsMessageTypeFlagsEXT,
                                         const VkDebugUtilsMessengerCallbackDataEXT*, void*);
     void createInstance(const DeviceOptions& options);
+    void loadDebugUtils();
     void pickPhysicalDevice(const std::string& select, bool leastFeatures);
+    void setPhysicalDevice(VkPhysicalDevice physical, uint32_t queueFamily);
     void createDevice(bool showsImages);
     std::span<const uint32_t> fitting(std::span<const uint32_t> builtIn) const;
     void destroy();
 
+    bool mIsHosts = false; // instance and device are the host program's
     VkInstance mInstance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
     VkPhysicalDevice mPhysical = VK_NULL_HANDLE;

@@ -4,6 +4,7 @@
 #include "engine/vk/result.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume::vk {
 

@@ -2,6 +2,7 @@
 
 #include "engine/vk/result.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume::vk {
@@ -22,16 +23,17 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
         const uint32_t side = device.limits().maxImageDimension2D;
         if (options.width > side || options.height > side ||
             options.layers > device.limits().maxImageArrayLayers)
-            throw Error("{}: {} x {} x {} texels asked for, {} allows {} x {} x {}", name, options.width,
-                        options.height, options.layers, device.name(), side, side,
-                        device.limits().maxImageArrayLayers);
+            throw Error(fmt::format("{}: {} x {} x {} texels asked for, {} allows {} x {} x {}", name,
+                                    options.width, options.height, options.layers, device.name(), side, side,
+                                    device.limits().maxImageArrayLayers));
         RELUME_VK(vkCreateImage(device.handle(), &create, nullptr, &mImage));
         VkMemoryRequirements requirements;
         vkGetImageMemoryRequirements(device.handle(), mImage, &requirements);
         if (requirements.size > device.info().largestAllocation)
-            throw OutOfMemory("{}: {} x {} x {} texels take {} bytes, {} allows {} at once; ask for fewer",
-                              name, options.width, options.height, options.layers, requirements.size,
-                              device.name(), device.info().largestAllocation);
+            throw OutOfMemory(
+                fmt::format("{}: {} x {} x {} texels take {} bytes, {} allows {} at once; ask for fewer",
+                            name, options.width, options.height, options.layers, requirements.size,
+                            device.name(), device.info().largestAllocation));
         allocate.allocationSize = requirements.size;
         allocate.memoryTypeIndex =
             device.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);

@@ -3,11 +3,12 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/log.h"
 #include "engine/vk/result.h"
 
 #include <algorithm>
 #include <cstring>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace relume::vk {
 
@@ -56,7 +57,7 @@ std::vector<std::byte> readIfThere(const std::filesystem::path& path) {
     try {
         return readFile(path, kMostBytes);
     } catch (const std::exception& error) { // a lost device is no reason to fail once more
-        spdlog::debug("pipeline cache: {}", error.what());
+        log(LogLevel::Debug, fmt::format("pipeline cache: {}", error.what()));
         return {};
     }
 }
@@ -87,8 +88,8 @@ PipelineCache::PipelineCache(VkDevice device, const VkPhysicalDeviceProperties& 
     const std::vector<std::byte> file = mPath.empty() ? std::vector<std::byte>() : readIfThere(mPath);
     const auto kept = unpackPipelineCache(mDriver, file);
     if (!mPath.empty())
-        spdlog::debug("pipeline cache: {}: {} bytes of {} are of use", mPath.string(), kept.size(),
-                      file.size());
+        log(LogLevel::Debug, fmt::format("pipeline cache: {}: {} bytes of {} are of use", mPath.string(),
+                                         kept.size(), file.size()));
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     create.initialDataSize = kept.size();
     create.pInitialData = kept.data();
@@ -116,14 +117,14 @@ void PipelineCache::save() const {
     try {
         const std::vector<std::byte> file = packPipelineCache(mDriver, data());
         if (file.size() > kMostBytes) {
-            spdlog::debug("pipeline cache: {} bytes are too many to keep", file.size());
+            log(LogLevel::Debug, fmt::format("pipeline cache: {} bytes are too many to keep", file.size()));
             return;
         }
         std::error_code failure; // writing says what is wrong with the folder
         if (mPath.has_parent_path()) std::filesystem::create_directories(mPath.parent_path(), failure);
         writeFileAtomically(mPath, file);
     } catch (const std::exception& error) { // a lost device is no reason to fail once more
-        spdlog::warn("pipelines are not kept for the next start: {}", error.what());
+        log(LogLevel::Warning, fmt::format("pipelines are not kept for the next start: {}", error.what()));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "engine/vk/result.h"
 
+#include <fmt/format.h>
 #include <string_view>
 #include <vulkan/vulkan.hpp>
 
@@ -13,14 +14,15 @@ void check(VkResult result, const char* call) {
     switch (result) {
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-        throw OutOfMemory("{}: {}: the device has too little free memory for this", name, resultName);
+        throw OutOfMemory(
+            fmt::format("{}: {}: the device has too little free memory for this", name, resultName));
     case VK_ERROR_DEVICE_LOST:
-        throw Error(
+        throw Error(fmt::format(
             "{}: the Vulkan device was lost (a driver crash or reset); start again, or pick another device "
             "with --device",
-            name);
+            name));
     default:
-        throw Error("{}: the Vulkan driver answered {}", name, resultName);
+        throw Error(fmt::format("{}: the Vulkan driver answered {}", name, resultName));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 
+#include <fmt/format.h>
 #include <memory>
 #include <spirv_cross/spirv_cross_c.h>
 
@@ -31,7 +32,8 @@ class Reflection {
   private:
     void check(spvc_result result) const {
         if (result != SPVC_SUCCESS)
-            throw Error("cannot be read as SPIR-V: {}", spvc_context_get_last_error_string(mContext));
+            throw Error(
+                fmt::format("cannot be read as SPIR-V: {}", spvc_context_get_last_error_string(mContext)));
     }
 
     // Shared by two of the same binding, say.
@@ -194,8 +196,8 @@ void expectSameInterface(const std::string& name, std::span<const uint32_t> buil
     all.insert(after.begin(), after.end());
     for (const auto& [what, text] : all)
         if (textIn(before, what) != textIn(after, what))
-            throw Error("{}: {}: found {}, but this program was built for {}; build it again", name, what,
-                        textIn(after, what), textIn(before, what));
+            throw Error(fmt::format("{}: {}: found {}, but this program was built for {}; build it again",
+                                    name, what, textIn(after, what), textIn(before, what)));
 }
 
 } // namespace relume::vk

@@ -3,6 +3,7 @@
 #include "engine/vk/result.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume::vk {
@@ -39,7 +40,9 @@ Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface, bool waitsForDi
     VkBool32 canShow = VK_FALSE;
     RELUME_VK(
         vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &canShow));
-    if (!canShow) throw NoDeviceError("{}: cannot show images in this window; name another", device.name());
+    if (!canShow)
+        throw NoDeviceError(
+            fmt::format("{}: cannot show images in this window; name another", device.name()));
     mFormat = formatOf(device.physical(), surface);
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mAcquired));
@@ -90,7 +93,8 @@ bool Swapchain::resize(uint32_t width, uint32_t height) {
     constexpr VkImageUsageFlags kUsage =
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if ((can.supportedUsageFlags & kUsage) != kUsage)
-        throw NoDeviceError("{}: images of this window cannot be drawn on and copied", mDevice.name());
+        throw NoDeviceError(
+            fmt::format("{}: images of this window cannot be drawn on and copied", mDevice.name()));
     VkSwapchainCreateInfoKHR create{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     create.surface = mSurface;
     create.minImageCount =

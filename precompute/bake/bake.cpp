@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/file.h"
+#include "engine/base/log.h"
 #include "precompute/bake/checkpoint.h"
 #include "precompute/bake/layout_sample.h"
 #include "precompute/bake/preview.h"
@@ -10,9 +11,9 @@
 #include "precompute/visibility/faster_visibility.h"
 
 #include <chrono>
+#include <fmt/format.h>
 #include <map>
 #include <numeric>
-#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -71,7 +72,7 @@ void dropUnfit(std::unique_ptr<KeptVisibility>& kept, const BakePlan& plan) {
         else
             kept->verify(plan.asset);
     } catch (const Error& damage) {
-        spdlog::warn("{}; visibility is found anew", damage.what());
+        log(LogLevel::Warning, fmt::format("{}; visibility is found anew", damage.what()));
         kept.reset();
     }
 }
@@ -117,8 +118,8 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     }
     observer.resumed(summary.resumed, summary.vertices);
     if (kept && !missing.empty())
-        spdlog::info("{}: visibility of {} vertices reused", kept->file().name(),
-                     summary.vertices - summary.resumed);
+        log(LogLevel::Info, fmt::format("{}: visibility of {} vertices reused", kept->file().name(),
+                                        summary.vertices - summary.resumed));
     const auto poll = [&] {
         if (observer.wantsStop()) throw BakeStopped("stopped");
     };
@@ -246,10 +247,10 @@ BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset s
     const std::string bakedOn = skeleton.provenance.device;
     BakePlan plan = planRebake(device, std::move(skeleton), materials, options, observer);
     if (kept.key() != plan.visibilityKey)
-        throw Error(
+        throw Error(fmt::format(
             "{}: its visibility was found by another program, driver or device ({}; this is {}) or for "
             "another mesh; `relume bake --keep-visibility` it again here",
-            kept.file().name(), bakedOn, plan.asset.provenance.device);
+            kept.file().name(), bakedOn, plan.asset.provenance.device));
     kept.verify(plan.asset);
     BakeSummary summary = bakePlanned(device, plan, &kept, {}, checkpoint, output, limits, observer);
     summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();

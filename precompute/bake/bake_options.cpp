@@ -4,18 +4,19 @@
 #include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <initializer_list>
 
 namespace relume {
 
 static void expectRange(const char* option, int value, int low, int high) {
     if (value < low || value > high)
-        throw UsageError("{}: expected {} to {}, found {}", option, low, high, value);
+        throw UsageError(fmt::format("{}: expected {} to {}, found {}", option, low, high, value));
 }
 
 static void expectOneOf(const char* option, int value, const char* names, std::initializer_list<int> valid) {
     if (std::find(valid.begin(), valid.end(), value) == valid.end())
-        throw UsageError("{}: expected {}, found {}", option, names, value);
+        throw UsageError(fmt::format("{}: expected {}, found {}", option, names, value));
 }
 
 int defaultCoefficients(TransportLayout layout) { return layout == TransportLayout::Rows ? 96 : 384; }
@@ -30,7 +31,8 @@ int BakeOptions::mostTransportSamples() const {
 void BakeOptions::validate() const {
     expectRange("--terms", factorization.terms, 1, kMaxTerms);
     if (factorization.method == Factorization::Normalized && factorization.terms != 1)
-        throw UsageError("--terms: factorization \"normalized\" has one term, not {}", factorization.terms);
+        throw UsageError(
+            fmt::format("--terms: factorization \"normalized\" has one term, not {}", factorization.terms));
     expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);
     expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});
@@ -38,13 +40,13 @@ void BakeOptions::validate() const {
     expectRange("--coefficients", coefficients, 1, 6 * faceSize * faceSize);
     if (refinement &&
         !(refinement->wanted >= kLeastRefinementError && refinement->wanted <= kMostRefinementError))
-        throw UsageError("--refine: expected an error of {} to {}, found {}", kLeastRefinementError,
-                         kMostRefinementError, refinement->wanted);
+        throw UsageError(fmt::format("--refine: expected an error of {} to {}, found {}",
+                                     kLeastRefinementError, kMostRefinementError, refinement->wanted));
     if (transportSamples > mostTransportSamples())
-        throw UsageError(
+        throw UsageError(fmt::format(
             "--transport-samples {}: expected at most {}, the visibility texels in a lighting texel; raise "
             "--visibility-size or lower --face-size",
-            transportSamples, mostTransportSamples());
+            transportSamples, mostTransportSamples()));
 }
 
 } // namespace relume

@@ -1,6 +1,7 @@
 #include "precompute/bake/bake_plan.h"
 
 #include "engine/base/check.h"
+#include "engine/base/log.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
@@ -16,13 +17,14 @@
 #include "precompute/layout/conversion.h"
 #include "precompute/layout/same_sums.h"
 #include "precompute/refine/refinement.h"
+#include "precompute/residual/residuals.h"
 #include "precompute/visibility/occluder.h"
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -41,12 +43,14 @@ void checkPaint(const AssetPart& part) {
     for (const MaterialSet& set : part.sets) {
         const std::string& first = set.materials.front().name;
         if (set.materials.size() == 1)
-            spdlog::warn("{}: painted, but \"{}\" is alone in its set; the paint changes nothing", part.name,
-                         first);
+            log(LogLevel::Warning,
+                fmt::format("{}: painted, but \"{}\" is alone in its set; the paint changes nothing",
+                            part.name, first));
         if (set.materials.size() > kPaintedMaterials)
-            spdlog::warn(
-                "{}: paint has weights for {} materials; \"{}\" and what follows it cannot be painted",
-                part.name, kPaintedMaterials, set.materials[kPaintedMaterials].name);
+            log(LogLevel::Warning,
+                fmt::format(
+                    "{}: paint has weights for {} materials; \"{}\" and what follows it cannot be painted",
+                    part.name, kPaintedMaterials, set.materials[kPaintedMaterials].name));
     }
 }
 
@@ -101,9 +105,10 @@ void setTangents(AssetPart& part, float brushRotation, BrushedParts& brushed, Ba
     if (!brushed.has(part)) {
         part.mesh.tangents.clear();
         if (brushRotation != 0)
-            spdlog::warn("{}: the brush rotation changes nothing; none of its materials is brushed "
-                         "(ashikhmin-shirley or ggx with two different widths)",
-                         part.name);
+            log(LogLevel::Warning,
+                fmt::format("{}: the brush rotation changes nothing; none of its materials is brushed "
+                            "(ashikhmin-shirley or ggx with two different widths)",
+                            part.name));
     } else if (!makeTangents(part.mesh, brushRotation, [&] { return observer.wantsStop(); }))
         throw BakeStopped("stopped");
 }
@@ -121,6 +126,7 @@ void makeParts(std::vector<Part> parts, BakePlan& plan, BakeObserver& observer) 
         checkPaint(plan.asset.parts.back());
         setTangents(plan.asset.parts.back(), part.brushRotation, brushed, observer);
     }
+    makeResiduals(plan.asset);
 }
 
 // Returns the goal of --refine ERROR (all parts) or of --refine auto (coarse parts).
@@ -170,8 +176,10 @@ std::string identityOf(const BakePlan& plan) {
     size_t sets = 0;
     for (const AssetPart& part : plan.asset.parts) sets += part.sets.size();
     ContentHash hash;
-    hash.add(encodeMeta(plan.asset, std::vector<uint64_t>(sets, 0),
-                        plan.options.keepVisibility ? plan.visibilityKey : ""));
+    const std::vector<std::byte> meta =
+        encodeMeta(plan.asset, sizesOf(plan.asset, std::vector<uint64_t>(sets, 0)),
+                   plan.options.keepVisibility ? plan.visibilityKey : "");
+    hash.add(std::span(meta));
     for (const Kernels& kernels : {visibilityKernels(VisibilityMethod::Raster),
                                    visibilityKernels(VisibilityMethod::Traced), TransportPass::kernels()})
         for (const auto kernel : kernels) hash.add(kernel);
@@ -280,6 +288,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
         checkPaint(part);
         if (part.mesh.tangents.empty() || !brushed.has(part)) setTangents(part, 0, brushed, observer);
     }
+    makeResiduals(plan.asset);
     plan.factorisationSeconds = secondsSince(stage);
     finish(plan);
     return plan;

@@ -1,7 +1,7 @@
 // What a bake will do, decided before any vertex is baked.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/import/scene.h"
 #include "engine/transport/asset.h"
 #include "engine/vk/device.h"
 #include "precompute/bake/bake_observer.h"

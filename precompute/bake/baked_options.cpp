@@ -5,6 +5,7 @@
 #include "precompute/layout/conversion.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -79,7 +80,7 @@ class OptionReader {
     }
 
     [[noreturn]] static void fail(const std::string& what) {
-        throw Error("the bake's own options: {}; {}", what, kRemedy);
+        throw Error(fmt::format("the bake's own options: {}; {}", what, kRemedy));
     }
 
   private:
@@ -182,8 +183,9 @@ std::string materialsOf(const AssetPart& part) {
             } catch (const UsageError&) {
             }
             if (!description.is_object())
-                throw Error("part \"{}\": the description of \"{}\" is no JSON object; name its material",
-                            part.name, material.name);
+                throw Error(
+                    fmt::format("part \"{}\": the description of \"{}\" is no JSON object; name its material",
+                                part.name, material.name));
             description["name"] = material.name;
             materials.push_back(std::move(description));
         }

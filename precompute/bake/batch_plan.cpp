@@ -5,6 +5,7 @@
 #include "precompute/visibility/visibility.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -33,9 +34,10 @@ uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int ter
                                    TransportPass::bytesPerPoint(terms, options) +
                                    uint64_t(terms) * uint64_t(options.coefficients) * kHostBytesPerEntry;
     if (limits.memory > 0 && limits.memory < bytesPerPoint)
-        throw UsageError("--memory: expected at least the {} KiB that baking one vertex at a time takes, "
-                         "found {} KiB",
-                         (bytesPerPoint + 1023) / 1024, limits.memory / 1024);
+        throw UsageError(
+            fmt::format("--memory: expected at least the {} KiB that baking one vertex at a time takes, "
+                        "found {} KiB",
+                        (bytesPerPoint + 1023) / 1024, limits.memory / 1024));
     const uint64_t batch = std::min({device.info().isSoftware ? kMostSoftwarePoints : kMostPoints,
                                      isDrawn ? drawnPoints : kMostPoints, memory / bytesPerPoint,
                                      uint64_t(TransportPass::largestBatch(device, options))});

@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
+#include "engine/base/log.h"
 #include "engine/transport/byte_stream.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <fcntl.h>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -95,8 +96,9 @@ Checkpoint::Checkpoint(std::filesystem::path path) : mPath(std::move(path)) {
     if (!read(0, std::span(magic).first(known)) ||
         !std::ranges::equal(std::span(magic).first(known), std::as_bytes(std::span(kMagic)).first(known))) {
         close(mFile);
-        throw Error("{}: expected a checkpoint of an earlier bake, found another file; move it away",
-                    mPath.string());
+        throw Error(
+            fmt::format("{}: expected a checkpoint of an earlier bake, found another file; move it away",
+                        mPath.string()));
     }
 }
 
@@ -109,17 +111,18 @@ void Checkpoint::lock() {
         if (mFile < 0 || fstat(mFile, &opened) != 0 || !S_ISREG(opened.st_mode)) {
             const std::string why = mFile < 0 ? std::strerror(errno) : "it is no regular file";
             if (mFile >= 0) close(mFile);
-            throw Error("{}: the bake's checkpoint cannot be written: {}", mPath.string(), why);
+            throw Error(fmt::format("{}: the bake's checkpoint cannot be written: {}", mPath.string(), why));
         }
         if (flock(mFile, LOCK_EX | LOCK_NB) != 0) {
             const bool isTaken = errno == EWOULDBLOCK;
             const std::string why = std::strerror(errno);
             close(mFile);
             if (isTaken)
-                throw Error("{}: another bake is writing this output; wait for it, stop it, or name another "
-                            "output",
-                            mPath.string());
-            throw Error("{}: cannot be locked: {}", mPath.string(), why);
+                throw Error(fmt::format(
+                    "{}: another bake is writing this output; wait for it, stop it, or name another "
+                    "output",
+                    mPath.string()));
+            throw Error(fmt::format("{}: cannot be locked: {}", mPath.string(), why));
         }
         if (stat(mPath.c_str(), &named) == 0 && named.st_ino == opened.st_ino &&
             named.st_dev == opened.st_dev) {
@@ -163,11 +166,13 @@ void Checkpoint::resume(const BakePlan& plan) {
         while (mBytes < fileBytes && readRecord(plan)) {
         }
     } else if (fileBytes > kHeaderBytes) {
-        spdlog::warn("{}: is of a bake of other inputs, options, device or program; starting over",
-                     mPath.string());
+        log(LogLevel::Warning,
+            fmt::format("{}: is of a bake of other inputs, options, device or program; starting over",
+                        mPath.string()));
     }
     if (mBytes < fileBytes && ftruncate(mFile, off_t(mBytes)) != 0)
-        throw Error("{}: cannot be cut to its valid part: {}", mPath.string(), std::strerror(errno));
+        throw Error(
+            fmt::format("{}: cannot be cut to its valid part: {}", mPath.string(), std::strerror(errno)));
     if (mBytes == 0) write(headerOf(plan));
     mSynced = std::chrono::steady_clock::now();
 }
@@ -270,8 +275,8 @@ void Checkpoint::write(std::span<const std::byte> bytes) {
     const auto fail = [&] {
         const std::string why = std::strerror(errno);
         (void)!ftruncate(mFile, off_t(mBytes));
-        throw Error("{}: cannot be written: {}; the same command goes on from here once it can",
-                    mPath.string(), why);
+        throw Error(fmt::format("{}: cannot be written: {}; the same command goes on from here once it can",
+                                mPath.string(), why));
     };
     while (!bytes.empty()) {
         const ssize_t count = pwrite(mFile, bytes.data(), bytes.size(), off_t(offset));
@@ -291,9 +296,10 @@ void Checkpoint::write(std::span<const std::byte> bytes) {
 std::vector<std::byte> Checkpoint::load(uint32_t, const ChunkEntry& entry) const {
     std::vector<std::byte> bytes(entry.storedSize);
     if (!read(entry.offset, bytes))
-        throw Error("{}: cannot be read: {}", mPath.string(), std::strerror(errno));
+        throw Error(fmt::format("{}: cannot be read: {}", mPath.string(), std::strerror(errno)));
     if (hash64(bytes) != entry.checksum)
-        throw Error("{}: a block fails its checksum; remove the file and bake again", mPath.string());
+        throw Error(
+            fmt::format("{}: a block fails its checksum; remove the file and bake again", mPath.string()));
     return bytes;
 }
 

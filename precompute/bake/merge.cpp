@@ -9,6 +9,7 @@
 #include "precompute/bake/shard_difference.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -16,13 +17,13 @@ namespace {
 
 void expectSameBake(const ShardFile& first, const ShardFile& other) {
     if (first.metaText() != other.metaText() || first.identity() != other.identity())
-        throw Error(
+        throw Error(fmt::format(
             "{}: is a shard of another bake than {}: {}; bake all shards from the same inputs with the same "
             "options, program and kind of device",
-            other.name(), first.name(), describeDifference(first, other));
+            other.name(), first.name(), describeDifference(first, other)));
     if (first.shard().count != other.shard().count)
-        throw Error("{}: is one of {} shards, and {} is one of {}; join shards of one division", other.name(),
-                    other.shard().count, first.name(), first.shard().count);
+        throw Error(fmt::format("{}: is one of {} shards, and {} is one of {}; join shards of one division",
+                                other.name(), other.shard().count, first.name(), first.shard().count));
 }
 
 // All shards of one bake, shard 0 first.
@@ -36,8 +37,9 @@ std::vector<const ShardFile*> inOrder(std::span<const ShardFile> shards) {
     std::ranges::stable_sort(ordered, {}, [](const ShardFile* file) { return file->shard().index; });
     for (size_t i = 1; i < ordered.size(); i++)
         if (ordered[i]->shard() == ordered[i - 1]->shard())
-            throw Error("{}: is shard {}/{}, and so is {}; name each shard once", ordered[i]->name(),
-                        ordered[i]->shard().index, ordered[i]->shard().count, ordered[i - 1]->name());
+            throw Error(fmt::format("{}: is shard {}/{}, and so is {}; name each shard once",
+                                    ordered[i]->name(), ordered[i]->shard().index, ordered[i]->shard().count,
+                                    ordered[i - 1]->name()));
 
     const uint32_t count = shards.front().shard().count;
     if (ordered.size() == count) return ordered;
@@ -52,8 +54,8 @@ std::vector<const ShardFile*> inOrder(std::span<const ShardFile> shards) {
         missing += fmt::format("{}{}/{}", named++ == 0 ? "" : ", ", index, count);
     }
     const size_t absent = count - ordered.size();
-    throw Error("{} of {} shards missing: {}{}; bake them and name all parts", absent, count, missing,
-                absent > named ? ", …" : "");
+    throw Error(fmt::format("{} of {} shards missing: {}{}; bake them and name all parts", absent, count,
+                            missing, absent > named ? ", …" : ""));
 }
 
 // The blocks of all shards, each read from its own.
@@ -89,10 +91,11 @@ void ShardBlocks::addShard(const ShardFile& file) {
             used += expected.tag != kVisibility;
             const ChunkEntry* entry = file.chunks().findRun(expected.tag, expected.owner, expected.run);
             if (!entry || !isPlausible(mPlan, block, chunk, *entry))
-                throw Error("{}: chunk {} of {} {}, run {}, is missing or of a wrong size; bake the "
-                            "shard again",
-                            file.name(), tagText(expected.tag), expected.tag == kVisibility ? "part" : "set",
-                            expected.owner, expected.run);
+                throw Error(
+                    fmt::format("{}: chunk {} of {} {}, run {}, is missing or of a wrong size; bake the "
+                                "shard again",
+                                file.name(), tagText(expected.tag),
+                                expected.tag == kVisibility ? "part" : "set", expected.owner, expected.run));
             mChunks[block].push_back(*entry);
         }
     }
@@ -100,10 +103,10 @@ void ShardBlocks::addShard(const ShardFile& file) {
         return std::ranges::find(kLayoutTags, entry.tag) != std::end(kLayoutTags);
     }));
     if (found != used)
-        throw Error(
+        throw Error(fmt::format(
             "{}: holds {} chunks of transport, and shard {}/{} has {}: others' blocks are in it; bake "
             "the shard again",
-            file.name(), found, file.shard().index, file.shard().count, used);
+            file.name(), found, file.shard().index, file.shard().count, used));
 }
 
 // A block's transport of a set. Throws Error.
@@ -135,7 +138,7 @@ void checkChunk(const Asset& asset, const MaterialSet& set, const BakeBlock& pla
     // No more than its size allows.
     decodeRun(raw, coefficients, raw.size() / kRunEntryBytes, where, rows, place.first);
     if (rows.rowStarts.size() != rows.rows() + 1)
-        throw Error("{}: expected {} vertices, found fewer", where, rows.vertices);
+        throw Error(fmt::format("{}: expected {} vertices, found fewer", where, rows.vertices));
     checkTransport(rows, coefficients, uint64_t(asset.coefficients), where);
 }
 

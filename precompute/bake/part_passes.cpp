@@ -1,9 +1,10 @@
 #include "precompute/bake/part_passes.h"
 
+#include "engine/base/log.h"
 #include "engine/vk/result.h"
 
 #include <algorithm>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -26,7 +27,8 @@ PartPasses::PartPasses(const vk::Device& device, const Asset& asset, const Asset
 bool PartPasses::halveBatch(const std::string& why) {
     std::string reason = why;
     while (mBatch > 1) {
-        spdlog::warn("{}; going on with batches of {} vertices instead of {}", reason, mBatch / 2, mBatch);
+        log(LogLevel::Warning, fmt::format("{}; going on with batches of {} vertices instead of {}", reason,
+                                           mBatch / 2, mBatch));
         mBatch /= 2;
         vkDeviceWaitIdle(mDevice.handle()); // a failed submission may still hold what is about to go
         try {

@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 
 #include <charconv>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -15,14 +16,14 @@ Shard parseShard(const std::string& text) {
     if (!hasSlash || count.ec != std::errc() || count.ptr != end || shard.count < 1 ||
         shard.count > kMostShards)
         throw UsageError(
-            "--shard: expected I/N, as 0/4 for the first of 4 shards, with N from 1 to {}; found "
-            "\"{}\"",
-            kMostShards, text);
+            fmt::format("--shard: expected I/N, as 0/4 for the first of 4 shards, with N from 1 to {}; found "
+                        "\"{}\"",
+                        kMostShards, text));
     if (shard.index >= shard.count)
-        throw UsageError(
+        throw UsageError(fmt::format(
             "--shard: shards are counted from 0, as ranks and completion indices are: the first of "
             "{0} is 0/{0}, the last {1}/{0}; found \"{2}\"",
-            shard.count, shard.count - 1, text);
+            shard.count, shard.count - 1, text));
     return shard;
 }
 

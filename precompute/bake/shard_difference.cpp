@@ -3,6 +3,7 @@
 #include "engine/transport/asset_arrays.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <set>
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -92,14 +93,14 @@ ShardFile::ShardFile(ByteSource source, std::string name)
     mMetaText.assign(reinterpret_cast<const char*>(meta.data()), meta.size());
     const std::vector<ChunkEntry> runs = mChunks.find(kShard, kWholeFile);
     if (runs.size() != 1 || runs[0].rawSize != kShardBytes)
-        throw Error("{}: expected one chunk SHRD of {} bytes", this->name(), kShardBytes);
+        throw Error(fmt::format("{}: expected one chunk SHRD of {} bytes", this->name(), kShardBytes));
     const std::vector<std::byte> raw = mChunks.load(runs[0]);
     ByteReader in(raw, this->name());
     mShard.index = in.get<uint32_t>();
     mShard.count = in.get<uint32_t>();
     if (mShard.count < 1 || mShard.count > kMostShards || mShard.index >= mShard.count)
-        throw Error("{}: says to be shard {} of {}; the file is damaged: bake it again", this->name(),
-                    mShard.index, mShard.count);
+        throw Error(fmt::format("{}: says to be shard {} of {}; the file is damaged: bake it again",
+                                this->name(), mShard.index, mShard.count));
     for (const std::byte letter : in.take(kIdentityBytes)) mIdentity.push_back(char(letter));
 }
 
@@ -113,10 +114,10 @@ BakePlan ShardFile::plan() const {
                 checkKinds(*bases, fmt::format("{}: transport of part \"{}\"", name(), part.name));
     BakePlan plan = planOf(std::move(meta.asset), meta.visibilityKey);
     if (plan.identity != mIdentity)
-        throw Error(
+        throw Error(fmt::format(
             "{}: holds something else than its identity says; the file was edited, or made by another "
             "program: bake it again",
-            name());
+            name()));
     return plan;
 }
 
@@ -125,8 +126,8 @@ std::vector<TransportLosses> ShardFile::losses(uint32_t blocks) const {
     uint64_t bytes = 0;
     for (const ChunkEntry& run : runs) bytes += run.rawSize;
     if (bytes != blocks * uint64_t(kLossBytes))
-        throw Error("{}: chunk LOSS: expected {} bytes for {} blocks, found {}", name(),
-                    blocks * uint64_t(kLossBytes), blocks, bytes);
+        throw Error(fmt::format("{}: chunk LOSS: expected {} bytes for {} blocks, found {}", name(),
+                                blocks * uint64_t(kLossBytes), blocks, bytes));
     std::vector<TransportLosses> losses;
     for (const ChunkEntry& run : runs) {
         const std::vector<std::byte> raw = mChunks.load(run);
@@ -135,7 +136,8 @@ std::vector<TransportLosses> ShardFile::losses(uint32_t blocks) const {
             const auto next = [&] {
                 const double sum = std::bit_cast<double>(in.get<uint64_t>());
                 if (!std::isfinite(sum) || sum < 0)
-                    throw Error("{}: chunk LOSS: expected finite sums of squares, found {}", name(), sum);
+                    throw Error(fmt::format("{}: chunk LOSS: expected finite sums of squares, found {}",
+                                            name(), sum));
                 return sum;
             };
             TransportLosses& loss = losses.emplace_back();

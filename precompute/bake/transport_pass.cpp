@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <thread>
 
 namespace relume {
@@ -41,10 +42,10 @@ vk::Buffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
                                         below[column(x - 1)][channel], below[column(x)][channel]);
             }
     if (texels.size() > device.mostTexels(sizeof(vec4)))
-        throw Error(
+        throw Error(fmt::format(
             "light maps: {} texels are more than the {} that {} allows in a buffer; use fewer terms or "
             "smaller maps",
-            texels.size(), device.mostTexels(sizeof(vec4)), device.name());
+            texels.size(), device.mostTexels(sizeof(vec4)), device.name()));
     return vk::upload<vec4>(device, texels, "light map corners");
 }
 

@@ -27,13 +27,13 @@ std::unique_ptr<Brdf> makeFromJson(const std::string& text, const std::filesyste
     }
     for (const char* list : {"set", "separate"})
         if (object.is_object() && object.contains(list))
-            throw UsageError("material in JSON: \"{}\" stands for several materials, where one is asked for",
-                             list);
+            throw UsageError(fmt::format(
+                "material in JSON: \"{}\" stands for several materials, where one is asked for", list));
     const auto model = object.is_object() ? object.find("model") : object.end();
     if (model == object.end() || !model->is_string())
-        throw UsageError(
+        throw UsageError(fmt::format(
             "material in JSON must be an object with a model's name, {{\"model\": \"plastic\", …}}, "
-            "or with measured data, {{\"measured\": \"steel.binary\"}}");
+            "or with measured data, {{\"measured\": \"steel.binary\"}}"));
     const std::string name = *model;
     object.erase("model");
     return makeModel(name, object);
@@ -45,7 +45,7 @@ std::unique_ptr<Brdf> makeFromFile(const std::string& material, const std::files
         try {
             return makeFromJson(file->text, file->folder);
         } catch (const UsageError& wrong) {
-            throw Error("{}: {}", (folder / material).generic_string(), wrong.what());
+            throw Error(fmt::format("{}: {}", (folder / material).generic_string(), wrong.what()));
         }
     }
     if (material.size() > kMaxPathLength || material.find('\0') != std::string::npos) return nullptr;
@@ -61,9 +61,10 @@ std::unique_ptr<Brdf> makeFromFile(const std::string& material, const std::files
     const std::string presets = fmt::format("{}", fmt::join(names, ", "));
     for (const std::string_view model : modelNames())
         if (std::find(names.begin(), names.end(), model) == names.end()) names.push_back(model);
-    throw UsageError("unknown material \"{}\"; did you mean \"{}\"? Presets: {}; or a JSON object: "
-                     R"({{"model": "plastic", …}}; or a file ending in .json, .binary or .brdf)",
-                     material.substr(0, 60), nearestName(material, names), presets);
+    throw UsageError(
+        fmt::format("unknown material \"{}\"; did you mean \"{}\"? Presets: {}; or a JSON object: "
+                    R"({{"model": "plastic", …}}; or a file ending in .json, .binary or .brdf)",
+                    material.substr(0, 60), nearestName(material, names), presets));
 }
 
 } // namespace

@@ -1,13 +1,14 @@
 #include "precompute/brdf/cornell.h"
 
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 #include "precompute/brdf/cornell_text.h"
 #include "precompute/brdf/spectrum.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace relume {
@@ -60,13 +61,15 @@ std::vector<Point> pointsOf(const CornellText& text, const std::string& name) {
         brightness.push_back(std::max({colour.x, colour.y, colour.z}));
     }
     std::sort(brightness.begin(), brightness.end());
-    if (!(brightness.back() > 0)) throw Error("{}: no sample has a positive value; nothing to use", name);
-    spdlog::info(
-        "{}: {} samples of {} wavelengths; {} values are negative ({:.2f} %), {} colours lie outside "
-        "sRGB ({:.2f} %): taken as zero in the channel",
-        name, text.samples.size(), weights.size(), negativeValues,
-        100 * double(negativeValues) / double(text.samples.size() * weights.size()), outsideGamut,
-        100 * double(outsideGamut) / double(text.samples.size()));
+    if (!(brightness.back() > 0))
+        throw Error(fmt::format("{}: no sample has a positive value; nothing to use", name));
+    log(LogLevel::Info,
+        fmt::format(
+            "{}: {} samples of {} wavelengths; {} values are negative ({:.2f} %), {} colours lie outside "
+            "sRGB ({:.2f} %): taken as zero in the channel",
+            name, text.samples.size(), weights.size(), negativeValues,
+            100 * double(negativeValues) / double(text.samples.size() * weights.size()), outsideGamut,
+            100 * double(outsideGamut) / double(text.samples.size())));
     // Zero has no logarithm: a thousandth of the middle sample stands for it.
     const vec3 floor(std::max(1e-3f * brightness[brightness.size() / 2], 1e-9f * brightness.back()));
     std::vector<Point> points;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -30,16 +31,18 @@ class Reader {
                 readSample(wavelengthCount);
         }
         if (mResult.samples.size() < kMinSamples)
-            throw Error("{}: {} samples; expected a Cornell BRDF file with {} or more: the number of "
-                        "wavelengths, the wavelengths, then a line per sample",
-                        mName, mResult.samples.size(), kMinSamples);
+            throw Error(
+                fmt::format("{}: {} samples; expected a Cornell BRDF file with {} or more: the number of "
+                            "wavelengths, the wavelengths, then a line per sample",
+                            mName, mResult.samples.size(), kMinSamples));
         return std::move(mResult);
     }
 
   private:
     template <typename... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
-        throw Error("{}, line {}: {}", mName, mLine, fmt::format(text, std::forward<Args>(args)...));
+        throw Error(
+            fmt::format("{}, line {}: {}", mName, mLine, fmt::format(text, std::forward<Args>(args)...)));
     }
 
     // Splits the next line into numbers. False at the end.

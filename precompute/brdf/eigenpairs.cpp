@@ -1,13 +1,14 @@
 #include "precompute/brdf/eigenpairs.h"
 
 #include "engine/base/check.h"
+#include "engine/base/log.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 #include <random>
-#include <spdlog/spdlog.h>
 #include <vector>
 
 namespace relume {
@@ -83,8 +84,9 @@ class BlockEigensolver {
             if (directions.cols() == 0) return result(ritz); // the basis is invariant
             append(directions);
         }
-        spdlog::warn("eigenvalues: not converged to {} after {} rounds; the factors are less exact",
-                     mTolerance, kMaxRounds);
+        log(LogLevel::Warning,
+            fmt::format("eigenvalues: not converged to {} after {} rounds; the factors are less exact",
+                        mTolerance, kMaxRounds));
         return result(rayleighRitz());
     }
 

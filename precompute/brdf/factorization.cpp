@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 #include "precompute/brdf/eigenpairs.h"
 #include "precompute/brdf/factorization_error.h"
 #include "precompute/brdf/light_metric.h"
@@ -9,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace relume {
@@ -210,10 +211,11 @@ int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf
     const auto enough =
         std::find_if(worst.begin(), worst.end(), [&](float error) { return error <= wanted; });
     if (enough != worst.end()) return int(enough - worst.begin()) + 1;
-    spdlog::warn(
-        "an error of {} is not reached: {} BRDF terms, all there are to choose from, leave {:.3g}; going "
-        "on with these",
-        wanted, brdf.terms, worst.back());
+    log(LogLevel::Warning,
+        fmt::format(
+            "an error of {} is not reached: {} BRDF terms, all there are to choose from, leave {:.3g}; going "
+            "on with these",
+            wanted, brdf.terms, worst.back()));
     return brdf.terms;
 }
 
@@ -237,22 +239,23 @@ TexelValue texelValueOf(Factorization method) {
 
 FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {
     if (options.terms < 1 || options.terms > kMaxTerms)
-        throw UsageError("{} BRDF terms: choose from 1 to {}", options.terms, kMaxTerms);
+        throw UsageError(fmt::format("{} BRDF terms: choose from 1 to {}", options.terms, kMaxTerms));
     if (options.wantedError && options.method == Factorization::NonNegative)
         throw UsageError(
             "terms chosen by error need terms that are good one by one, which those of factorization "
             "\"nonnegative\" are not: give their number");
     if (options.terms != 1 && options.method == Factorization::Normalized)
-        throw UsageError("factorization \"normalized\" has one term, not {}", options.terms);
+        throw UsageError(fmt::format("factorization \"normalized\" has one term, not {}", options.terms));
     RELUME_CHECK(!tables.empty());
     for (const BrdfTable& table : tables) {
         RELUME_CHECK(!table.directions.empty());
         RELUME_CHECK(table.size == tables[0].size && table.mapping == tables[0].mapping);
         if (table.asymmetry > kReciprocalAsymmetry && options.method != Factorization::Normalized)
-            spdlog::warn(
-                "BRDF is not reciprocal (asymmetry {:.2g}): factored by SVD, with light and view maps "
-                "of their own",
-                table.asymmetry);
+            log(LogLevel::Warning,
+                fmt::format(
+                    "BRDF is not reciprocal (asymmetry {:.2g}): factored by SVD, with light and view maps "
+                    "of their own",
+                    table.asymmetry));
     }
     const int wanted = std::min(options.terms, int(tables[0].directions.size()));
     const std::array<ChannelFactors, 3> channels = factorizeChannels(tables, options.method, wanted);

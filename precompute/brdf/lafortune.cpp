@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume {
@@ -68,10 +69,10 @@ void checkPeak(const Lobe& lobe) {
     for (int c = 0; c < 3; c++) {
         const float base = std::max({std::abs(lobe.x[c]), std::abs(lobe.y[c]), lobe.z[c], 0.0f});
         if (!(std::pow(base, lobe.exponent[c]) <= kMaxPeak))
-            throw UsageError(
+            throw UsageError(fmt::format(
                 "material lafortune: a lobe of base {} and exponent {} peaks above {} sr⁻¹; lower "
                 "\"n\" or the coefficients",
-                base, lobe.exponent[c], kMaxPeak);
+                base, lobe.exponent[c], kMaxPeak));
     }
 }
 

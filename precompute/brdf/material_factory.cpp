@@ -1,8 +1,10 @@
 #include "precompute/brdf/material_factory.h"
 
+#include "engine/base/log.h"
+
 #include <algorithm>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -15,9 +17,9 @@ std::vector<MaterialSet> MaterialFactory::make(const std::string& material,
     for (const MaterialSet& set : known->second)
         for (const AssetMaterial& made : set.materials)
             if (isTextured && !made.hasBase)
-                spdlog::warn(
-                    "{}: has no base colour that a texture could multiply; the texture does not show in it",
-                    made.name);
+                log(LogLevel::Warning, fmt::format("{}: has no base colour that a texture could multiply; "
+                                                   "the texture does not show in it",
+                                                   made.name));
     return known->second;
 }
 

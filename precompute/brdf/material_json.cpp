@@ -2,6 +2,10 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "precompute/brdf/brdf.h"
+#include "precompute/brdf/model_list.h"
+
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -23,17 +27,18 @@ bool looksLikeJson(const std::string& text) {
 
 json parseMaterial(const std::string& text) {
     if (text.size() > kMaxTextSize)
-        throw UsageError("material of {} bytes: expected a name, or a JSON object of at most {} bytes",
-                         text.size(), kMaxTextSize);
+        throw UsageError(
+            fmt::format("material of {} bytes: expected a name, or a JSON object of at most {} bytes",
+                        text.size(), kMaxTextSize));
     const auto checkDepth = [](int depth, json::parse_event_t, const json&) {
         if (depth > kMaxDepth)
-            throw UsageError("material in JSON is nested more than {} levels deep", kMaxDepth);
+            throw UsageError(fmt::format("material in JSON is nested more than {} levels deep", kMaxDepth));
         return true;
     };
     try {
         return json::parse(text, checkDepth);
     } catch (const json::exception& error) {
-        throw UsageError("material is not valid JSON: {}", error.what());
+        throw UsageError(fmt::format("material is not valid JSON: {}", error.what()));
     }
 }
 
@@ -44,10 +49,31 @@ std::optional<MaterialFile> readMaterialFile(const std::string& material,
     const std::filesystem::path path = folder / material;
     std::error_code failure;
     if (!std::filesystem::exists(path, failure))
-        throw Error("{}: material file not found; give the path of a file that holds a material in JSON",
-                    path.generic_string());
+        throw Error(
+            fmt::format("{}: material file not found; give the path of a file that holds a material in JSON",
+                        path.generic_string()));
     const std::vector<std::byte> bytes = readFile(path, kMaxTextSize);
     return MaterialFile{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.parent_path()};
+}
+
+nlohmann::ordered_json describeMaterials() {
+    nlohmann::ordered_json presets = nlohmann::ordered_json::array(), models = presets;
+    for (const MaterialPreset& preset : materialPresets())
+        presets.push_back({{"name", preset.name},
+                           {"description", preset.description},
+                           {"material", makeBrdf(preset.name)->describe()}});
+    for (const MaterialModel& model : materialModels()) {
+        nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+        for (const MaterialParameter& parameter : model.parameters)
+            parameters.push_back({{"name", parameter.name},
+                                  {"values", parameter.values},
+                                  {"default", parameter.fallback.empty()
+                                                  ? nlohmann::ordered_json(nullptr)
+                                                  : nlohmann::ordered_json::parse(parameter.fallback)}});
+        models.push_back(
+            {{"name", model.name}, {"description", model.description}, {"parameters", parameters}});
+    }
+    return {{"presets", presets}, {"models", models}};
 }
 
 } // namespace relume

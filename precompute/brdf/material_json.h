@@ -22,4 +22,7 @@ struct MaterialFile {
 std::optional<MaterialFile> readMaterialFile(const std::string& material,
                                              const std::filesystem::path& folder);
 
+// All presets and models with their parameters: what `relume materials --json` prints.
+nlohmann::ordered_json describeMaterials();
+
 } // namespace relume

@@ -4,6 +4,7 @@
 #include "precompute/brdf/material_json.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -28,10 +29,11 @@ Source resolve(const json& value, const std::filesystem::path& folder) {
     const std::string path = (folder / text).generic_string();
     try {
         json content = parseMaterial(file->text);
-        if (!content.is_object()) throw UsageError("expected an object, found {}", content.type_name());
+        if (!content.is_object())
+            throw UsageError(fmt::format("expected an object, found {}", content.type_name()));
         return {std::move(content), file->folder, path};
     } catch (const UsageError& wrong) {
-        throw Error("{}: {}", path, wrong.what());
+        throw Error(fmt::format("{}: {}", path, wrong.what()));
     }
 }
 
@@ -61,10 +63,12 @@ class ListReader {
         if (!value.is_object() || !value.contains(key)) return nullptr;
         const json& list = value[key];
         if (value.size() != 1)
-            throw UsageError("materials in JSON: expected {{\"{}\": [MATERIAL, …]}} and nothing else", key);
+            throw UsageError(
+                fmt::format("materials in JSON: expected {{\"{}\": [MATERIAL, …]}} and nothing else", key));
         if (!list.is_array() || list.empty())
-            throw UsageError("materials in JSON: \"{}\": expected a list of one material or more, found {}",
-                             key, list.is_array() ? "an empty one" : list.type_name());
+            throw UsageError(
+                fmt::format("materials in JSON: \"{}\": expected a list of one material or more, found {}",
+                            key, list.is_array() ? "an empty one" : list.type_name()));
         return &list;
     }
 
@@ -74,23 +78,26 @@ class ListReader {
         if (!list) return add(source);
         for (const json& element : *list) add(resolve(element, source.folder));
         if (mSets.back().size() > kMostSetMaterials)
-            throw UsageError("{} materials in a set, which can hold {}: make several sets of them, "
-                             "{{\"separate\": [{{\"set\": […]}}, …]}}",
-                             mSets.back().size(), kMostSetMaterials);
+            throw UsageError(
+                fmt::format("{} materials in a set, which can hold {}: make several sets of them, "
+                            "{{\"separate\": [{{\"set\": […]}}, …]}}",
+                            mSets.back().size(), kMostSetMaterials));
     }
 
     void add(const Source& source) {
         const json& value = source.value;
         if (mNames.size() == kMostMaterials)
-            throw UsageError("more than {} materials for a part", kMostMaterials);
+            throw UsageError(fmt::format("more than {} materials for a part", kMostMaterials));
         if (!value.is_string() && !value.is_object())
-            throw UsageError("materials in JSON: expected a name or an object, found {}", value.type_name());
+            throw UsageError(
+                fmt::format("materials in JSON: expected a name or an object, found {}", value.type_name()));
         std::string name;
         if (value.is_object() && value.contains("name")) {
             if (value["name"].is_string()) name = value["name"];
             checkName(name);
             if (std::ranges::find(mNames, name) != mNames.end())
-                throw UsageError("two materials are called \"{}\": give one another \"name\"", name);
+                throw UsageError(
+                    fmt::format("two materials are called \"{}\": give one another \"name\"", name));
         } else {
             name = unusedName(source.file.empty() ? defaultName(value)
                                                   : std::filesystem::path(source.file).stem().string());
@@ -102,7 +109,7 @@ class ListReader {
                 {name, makeBrdf(value.is_string() ? value.get<std::string>() : value.dump(), source.folder)});
         } catch (const UsageError& wrong) {
             if (source.file.empty()) throw;
-            throw Error("{}: {}", source.file, wrong.what());
+            throw Error(fmt::format("{}: {}", source.file, wrong.what()));
         }
     }
 

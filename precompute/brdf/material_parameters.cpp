@@ -4,6 +4,7 @@
 #include "engine/base/nearest_name.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume {
@@ -33,8 +34,8 @@ vec3 readColour(const std::string& owner, const std::string& key, const json& va
     if (isNumberInRange(value, range)) return vec3(value.get<float>());
     const auto inRange = [&](const json& item) { return isNumberInRange(item, range); };
     if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), inRange))
-        throw UsageError("material {}: \"{}\" must be a {}, but is {}", owner, key, colourValues(range),
-                         excerpt(value));
+        throw UsageError(fmt::format("material {}: \"{}\" must be a {}, but is {}", owner, key,
+                                     colourValues(range), excerpt(value)));
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
@@ -43,8 +44,8 @@ vec3 readColour(const std::string& owner, const std::string& key, const json& va
 MaterialParameters::MaterialParameters(std::string owner, json object)
     : mOwner(std::move(owner)), mObject(std::move(object)) {
     if (!mObject.is_object())
-        throw UsageError("material {}: expected a JSON object of parameters, found {}", mOwner,
-                         excerpt(mObject));
+        throw UsageError(fmt::format("material {}: expected a JSON object of parameters, found {}", mOwner,
+                                     excerpt(mObject)));
 }
 
 const json* MaterialParameters::find(const std::string& key, std::string values, std::string fallback) {
@@ -58,7 +59,8 @@ float MaterialParameters::number(const std::string& key, float fallback, Paramet
     const json* value = find(key, values, fmt::format("{}", fallback));
     if (!value) return fallback;
     if (!isNumberInRange(*value, range))
-        throw UsageError("material {}: \"{}\" must be a {}, but is {}", mOwner, key, values, excerpt(*value));
+        throw UsageError(
+            fmt::format("material {}: \"{}\" must be a {}, but is {}", mOwner, key, values, excerpt(*value)));
     return value->get<float>();
 }
 
@@ -72,16 +74,17 @@ vec3 MaterialParameters::colour(const std::string& key, vec3 fallback, Parameter
 vec3 MaterialParameters::requiredColour(const std::string& key, ParameterRange range) {
     const json* value = find(key, colourValues(range), "");
     if (!value)
-        throw UsageError("material {}: \"{}\" is missing; give a number from {} to {}, or [red, green, blue]",
-                         mOwner, key, range.low, range.high);
+        throw UsageError(
+            fmt::format("material {}: \"{}\" is missing; give a number from {} to {}, or [red, green, blue]",
+                        mOwner, key, range.low, range.high));
     return readColour(mOwner, key, *value, range);
 }
 
 std::string MaterialParameters::requiredText(const std::string& key) {
     const json* value = find(key, "text", "");
     if (!value || !value->is_string())
-        throw UsageError("material {}: \"{}\" must be a text, but {}", mOwner, key,
-                         value ? "is " + excerpt(*value) : std::string("is missing"));
+        throw UsageError(fmt::format("material {}: \"{}\" must be a text, but {}", mOwner, key,
+                                     value ? "is " + excerpt(*value) : std::string("is missing")));
     return *value;
 }
 
@@ -95,8 +98,8 @@ std::vector<MaterialParameters> MaterialParameters::list(const std::string& key,
     const std::string values = fmt::format("array of at most {} objects", limit);
     const json* value = find(key, values, "");
     if (!value || !value->is_array() || value->size() > limit)
-        throw UsageError("material {}: \"{}\" must be an {}, but {}", mOwner, key, values,
-                         value ? "is " + excerpt(*value) : std::string("is missing"));
+        throw UsageError(fmt::format("material {}: \"{}\" must be an {}, but {}", mOwner, key, values,
+                                     value ? "is " + excerpt(*value) : std::string("is missing")));
     std::vector<MaterialParameters> items;
     for (size_t i = 0; i < value->size(); i++)
         items.emplace_back(fmt::format("{}, {}[{}]", mOwner, key, i), (*value)[i]);
@@ -108,8 +111,8 @@ void MaterialParameters::rejectUnknownKeys() const {
     for (const MaterialParameter& parameter : mAsked) known.push_back(parameter.name);
     for (const auto& [key, value] : mObject.items())
         if (std::find(known.begin(), known.end(), key) == known.end())
-            throw UsageError("material {}: unknown parameter \"{}\"; did you mean \"{}\"?", mOwner,
-                             key.substr(0, 60), nearestName(key, known));
+            throw UsageError(fmt::format("material {}: unknown parameter \"{}\"; did you mean \"{}\"?",
+                                         mOwner, key.substr(0, 60), nearestName(key, known)));
 }
 
 json numberToJson(float value) { return json::parse(fmt::format("{}", value)); }

@@ -6,6 +6,7 @@
 #include "precompute/brdf/cornell.h"
 #include "precompute/brdf/merl.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume {
@@ -38,7 +39,8 @@ class Measured final : public Brdf {
 std::filesystem::path readPath(MaterialParameters& parameters) {
     const std::string text = parameters.requiredText("measured");
     if (text.empty() || text.size() > kMaxPathLength || text.find('\0') != std::string::npos)
-        throw UsageError("material: \"measured\" must be a path of 1 to {} characters", kMaxPathLength);
+        throw UsageError(
+            fmt::format("material: \"measured\" must be a path of 1 to {} characters", kMaxPathLength));
     try {
         (void)nlohmann::json(text).dump();
     } catch (const nlohmann::json::exception&) {
@@ -64,17 +66,18 @@ std::unique_ptr<Brdf> makeMeasured(MaterialParameters& parameters, const std::fi
     parameters.rejectUnknownKeys();
     std::error_code failure;
     if (!std::filesystem::exists(path, failure))
-        throw Error("{}: measured material not found; give the path of a MERL (.binary) or Cornell (.brdf) "
-                    "file, or put "
-                    "the one that a bake was made of back there",
-                    path.generic_string());
+        throw Error(fmt::format(
+            "{}: measured material not found; give the path of a MERL (.binary) or Cornell (.brdf) "
+            "file, or put "
+            "the one that a bake was made of back there",
+            path.generic_string()));
     const std::vector<std::byte> bytes = readFile(path, kMaxFileSize);
     const std::string hash = hashText(bytes);
     if (!expected.empty() && hash != expected)
-        throw Error(
+        throw Error(fmt::format(
             "{}: is not the file that the material was made from: its hash is {}, not {}; restore that "
             "file, or make the material from this one (bake again, or leave \"hash\" out)",
-            path.generic_string(), hash, expected.substr(0, 60));
+            path.generic_string(), hash, expected.substr(0, 60)));
     return std::make_unique<Measured>(parse(bytes, path), scale, path.generic_string(), hash);
 }
 

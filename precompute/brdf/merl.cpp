@@ -1,6 +1,7 @@
 #include "precompute/brdf/merl.h"
 
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 #include "precompute/brdf/table_repair.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -31,8 +32,9 @@ std::vector<bool> readValues(std::span<const std::byte> bytes, const std::string
             std::memcpy(&value, bytes.data() + sizeof(kCells) + index * sizeof(double), sizeof(double));
             value *= kScales[channel];
             if (!(std::abs(value) <= kMaxValue))
-                throw Error("{}: value {} is {} sr^-1: expected numbers up to {}; is the file damaged?", name,
-                            index, value, kMaxValue);
+                throw Error(
+                    fmt::format("{}: value {} is {} sr^-1: expected numbers up to {}; is the file damaged?",
+                                name, index, value, kMaxValue));
             if (value < 0) isMissing[cell] = true;
             table[cell][int(channel)] = float(value);
         }
@@ -58,10 +60,11 @@ bool looksLikeMerl(std::span<const std::byte> bytes) {
 
 IsotropicTable parseMerl(std::span<const std::byte> bytes, const std::string& name) {
     if (!looksLikeMerl(bytes))
-        throw Error("{}: not a MERL file: it does not begin with the sizes 90, 90, 180 in binary", name);
+        throw Error(
+            fmt::format("{}: not a MERL file: it does not begin with the sizes 90, 90, 180 in binary", name));
     if (bytes.size() != kFileSize)
-        throw Error("{}: a MERL file has {} bytes, this one has {}; is it cut short?", name, kFileSize,
-                    bytes.size());
+        throw Error(fmt::format("{}: a MERL file has {} bytes, this one has {}; is it cut short?", name,
+                                kFileSize, bytes.size()));
     IsotropicTable table(kCells[0], kCells[1], kCells[2]);
     std::vector<bool> isMissing = readValues(bytes, name, table);
     const std::vector<bool> isBelow = cellsBelowHorizon(table);
@@ -73,17 +76,20 @@ IsotropicTable parseMerl(std::span<const std::byte> bytes, const std::string& na
         isMissing[cell] = isMissing[cell] || isBelow[cell];
     }
     if (negativeAbove == above)
-        throw Error("{}: every value above the horizon is negative (not measured); nothing to use", name);
+        throw Error(fmt::format(
+            "{}: every value above the horizon is negative (not measured); nothing to use", name));
     fillMissing(table, std::move(isMissing));
     const GrazingRepair grazing = limitGrazing(table);
     const auto percent = [](size_t part, size_t whole) { return 100 * double(part) / double(whole); };
-    spdlog::info(
-        "{}: {} of {} cells are negative ({:.2f} %), {} of them above the horizon ({:.2f} %); filled "
-        "from their neighbours",
-        name, negative, kCellCount, percent(negative, kCellCount), negativeAbove,
-        percent(negativeAbove, above));
-    spdlog::info("{}: {} of {} cells beyond 80 degrees were lowered ({:.2f} %)", name, grazing.lowered,
-                 grazing.cells, percent(grazing.lowered, std::max(grazing.cells, size_t(1))));
+    log(LogLevel::Info,
+        fmt::format(
+            "{}: {} of {} cells are negative ({:.2f} %), {} of them above the horizon ({:.2f} %); filled "
+            "from their neighbours",
+            name, negative, kCellCount, percent(negative, kCellCount), negativeAbove,
+            percent(negativeAbove, above)));
+    log(LogLevel::Info,
+        fmt::format("{}: {} of {} cells beyond 80 degrees were lowered ({:.2f} %)", name, grazing.lowered,
+                    grazing.cells, percent(grazing.lowered, std::max(grazing.cells, size_t(1)))));
     return table;
 }
 

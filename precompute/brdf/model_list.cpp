@@ -50,8 +50,8 @@ std::unique_ptr<Brdf> makeModel(const std::string& name, const json& parameters)
         return brdf;
     }
     const std::vector<std::string_view> names = modelNames();
-    throw UsageError("unknown model \"{}\"; did you mean \"{}\"? Models: {}", name.substr(0, 60),
-                     nearestName(name, names), fmt::join(names, ", "));
+    throw UsageError(fmt::format("unknown model \"{}\"; did you mean \"{}\"? Models: {}", name.substr(0, 60),
+                                 nearestName(name, names), fmt::join(names, ", ")));
 }
 
 std::vector<MaterialModel> materialModels() {

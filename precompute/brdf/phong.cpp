@@ -2,6 +2,7 @@
 #include "precompute/brdf/models.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -40,8 +41,9 @@ std::unique_ptr<Brdf> makePhong(MaterialParameters& parameters) {
     const vec3 specular = parameters.colour("ks", vec3(0.3f), {0, 1});
     for (int c = 0; c < 3; c++)
         if (diffuse[c] + specular[c] > 1.00001f) // what decimals that add to one may round to
-            throw UsageError("material phong: \"kd\" + \"ks\" must be at most 1 per channel, but is {} + {}",
-                             diffuse[c], specular[c]);
+            throw UsageError(
+                fmt::format("material phong: \"kd\" + \"ks\" must be at most 1 per channel, but is {} + {}",
+                            diffuse[c], specular[c]));
     const float exponent = parameters.number("exponent", 30, {0, 1e5f});
     return std::make_unique<Phong>(diffuse, specular, exponent);
 }

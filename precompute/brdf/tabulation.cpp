@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <tbb/parallel_for.h>
 
@@ -116,8 +117,8 @@ float asymmetryOf(const Eigen::MatrixXf& matrix) {
 
 BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value, BrdfPart part) {
     if (size < kMinMapSize || size > kMaxMapSize)
-        throw UsageError("a BRDF map of {} texels a side: choose from {} to {}", size, kMinMapSize,
-                         kMaxMapSize);
+        throw UsageError(fmt::format("a BRDF map of {} texels a side: choose from {} to {}", size,
+                                     kMinMapSize, kMaxMapSize));
     BrdfTable table;
     table.size = size;
     table.mapping = mapping;

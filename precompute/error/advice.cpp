@@ -3,11 +3,11 @@
 #include "engine/base/check.h"
 #include "precompute/error/error_grid.h"
 #include "precompute/error/layout_costs.h"
-#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -30,9 +30,10 @@ std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
         for (size_t i = 0; i < own; i++) seen.hits.push_back(hits[(2 * i + 1) * hits.size() / (2 * own)]);
     }
     if (std::ranges::all_of(views, [](const SeenPoints& seen) { return seen.hits.empty(); }))
-        throw UsageError("advise: none of {} views shows the scene: it is a surface seen from its edge, or "
-                         "too small for its distance from the origin",
-                         kViews);
+        throw UsageError(
+            fmt::format("advise: none of {} views shows the scene: it is a surface seen from its edge, or "
+                        "too small for its distance from the origin",
+                        kViews));
     return views;
 }
 
@@ -148,8 +149,8 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     const std::vector<SeenPoints> points = seenPoints(plan.asset, request.points);
     const std::vector<vec3> exact =
         exactRadiance(plan.asset, appearance, points, light.fine, shareOf(report, 0, 0.2));
-    const ErrorGrid grid = errorGrid(plan.asset, appearance, makeResiduals(plan.asset), points, exact,
-                                     gridLight, shareOf(report, 0.2, 0.8));
+    const ErrorGrid grid =
+        errorGrid(plan.asset, appearance, points, exact, gridLight, shareOf(report, 0.2, 0.8));
 
     MeshAdvice advice;
     advice.vertices = plan.vertices();

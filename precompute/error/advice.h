@@ -1,7 +1,7 @@
 // The least that a bake must be for images of an error.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/import/scene.h"
 #include "engine/vk/device.h"
 #include "precompute/bake/bake_plan.h"
 #include "precompute/error/error_study.h"

@@ -149,9 +149,8 @@ std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, con
 
 // Returns the residuals of the part's bound set cut to its first 1, 2, … K terms; empty if terms are drawn
 // alone.
-std::vector<ResidualSet> residualsOfPrefixes(const Asset& asset, const Appearance& appearance,
-                                             const Residuals& residuals, size_t part) {
-    if (residuals.empty() || !residuals[part][appearance[part].set]) return {};
+std::vector<ResidualSet> residualsOfPrefixes(const Asset& asset, const Appearance& appearance, size_t part) {
+    if (!asset.parts[part].sets[appearance[part].set].residual) return {};
     FactoredBrdf factors = wornFactors(asset, appearance, part);
     std::vector<ResidualSet> prefixes;
     for (; factors.terms > 0; factors.terms--) {
@@ -193,8 +192,8 @@ std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance
     return radiance;
 }
 
-ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
-                    std::span<const SeenPoints> points, std::span<const vec3> exact, const GridLight& light,
+ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
+                    std::span<const vec3> exact, const GridLight& light,
                     const std::function<void(double)>& progress) {
     const std::vector<SeenPoint> list = listPoints(points);
     RELUME_CHECK_EQ(list.size(), exact.size());
@@ -230,7 +229,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, const Resi
     const std::span<const vec3> cube(light.cube.radiance);
     std::vector<std::vector<ResidualSet>> prefixes;
     for (size_t part = 0; part < asset.parts.size(); part++)
-        prefixes.push_back(residualsOfPrefixes(asset, appearance, residuals, part));
+        prefixes.push_back(residualsOfPrefixes(asset, appearance, part));
     double level = 0;
     grid.errors.resize(size_t(grid.terms));
     for (size_t i = 0; i < list.size(); i++) {

@@ -1,7 +1,7 @@
 // What error images would have, over K and N, predicted from a sample of points without a bake.
 #pragma once
 
-#include "engine/render/residual.h"
+#include "engine/scene/residual.h"
 #include "precompute/error/stage_radiance.h"
 
 namespace relume {
@@ -43,8 +43,8 @@ struct GridLight {
 // not looked at. Parts and sets that have a residual are drawn with it. Throws Error where `exact` is black.
 // Factors are nested: the first K terms are those of a factorization into K (Factorization::NonNegative's are
 // not). `exact`: of the points. On all cores; the same input gives the same grid.
-ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
-                    std::span<const SeenPoints> points, std::span<const vec3> exact, const GridLight& light,
+ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
+                    std::span<const vec3> exact, const GridLight& light,
                     const std::function<void(double)>& progress = {});
 
 } // namespace relume

@@ -3,9 +3,9 @@
 #include "engine/base/error.h"
 #include "engine/render/view_pass.h"
 #include "precompute/error/low_order_light.h"
-#include "precompute/residual/residuals.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -13,10 +13,9 @@ namespace {
 
 // The device's images, one a light.
 std::vector<Image> draw(const vk::Device& device, const Asset& asset, const Appearance& appearance,
-                        std::span<const StudiedLight> lights, const Residuals& residuals,
-                        const ErrorView& look) {
+                        std::span<const StudiedLight> lights, bool addsResidual, const ErrorView& look) {
     LightPass lightPass(device, asset.faceSize);
-    Relighter relighter(device, asset, {.residuals = residuals});
+    Relighter relighter(device, asset, {.residual = addsResidual});
     ViewPass view(device, asset, {look.width, look.height, 1});
     view.setAppearance(appearance);
     std::vector<Image> images;
@@ -97,10 +96,9 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
     ErrorStudies studies{viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height), {}};
     const ViewPoints& points = studies.points;
     if (points.hits.empty())
-        throw UsageError("none of {} x {} pixels shows the asset: choose another view", view.width,
-                         view.height);
-    const Residuals residuals = options.residual ? makeResiduals(asset) : Residuals();
-    const std::vector<Image> drawn = draw(device, asset, appearance, lights, residuals, view);
+        throw UsageError(fmt::format("none of {} x {} pixels shows the asset: choose another view",
+                                     view.width, view.height));
+    const std::vector<Image> drawn = draw(device, asset, appearance, lights, options.residual, view);
 
     std::vector<StageLight> stageLights;
     for (const StudiedLight& studied : lights)
@@ -113,7 +111,7 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
         if (progress) progress(kStagesShare * share);
     };
     std::vector<std::vector<StageRadiance>> stages =
-        StageTracer(asset, appearance, residuals)
+        StageTracer(asset, appearance, options.residual)
             .trace(points.hits, view.camera.eye, stageLights, stagesProgress);
 
     ProgressiveReference reference(asset);

@@ -66,9 +66,9 @@ struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
 };
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, bool addsResidual,
                          const BakeOptions& options)
-    : mAsset(asset), mAppearance(appearance), mResiduals(residuals),
+    : mAsset(asset), mAppearance(appearance), mAddsResidual(addsResidual),
       mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs), mBaked(asset), mTruth(kTruthFaceSize),
       mFull(mergedMesh(asset), asset.visibilitySize), mFullFine(mergedMesh(asset), kTruthVisibility),
       mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {
@@ -78,8 +78,8 @@ StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const
                              mBrdfs);
 }
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals)
-    : StageTracer(asset, appearance, residuals, optionsOf(asset)) {}
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, bool addsResidual)
+    : StageTracer(asset, appearance, addsResidual, optionsOf(asset)) {}
 
 StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
@@ -117,9 +117,9 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
 
 StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& point) const {
     const AssetPart& part = mAsset.parts[number];
-    const FactoredBrdf& brdf = part.sets[mAppearance[number].set].brdf;
-    const ResidualSet* residual =
-        mResiduals.empty() ? nullptr : mResiduals[number][mAppearance[number].set].get();
+    const MaterialSet& set = part.sets[mAppearance[number].set];
+    const FactoredBrdf& brdf = set.brdf;
+    const ResidualSet* residual = mAddsResidual ? set.residual.get() : nullptr;
     Wear wear{&brdf, wornLayers(part, mAppearance[number]), point.layerWeights(), {}, residual};
     wear.views = pointViews(brdf, wear.layers, wear.weights, point.outgoing);
     return wear;

@@ -31,10 +31,9 @@ struct StageLight {
 
 class StageTracer {
   public:
-    // Refers to all three; `appearance` is what the asset is dressed in, `residuals` say which sets are drawn
-    // with what their terms leave (none: empty). Throws Error as Embree, as makeBrdf(), and as
-    // baked_options.h's optionsOf().
-    StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals = kNoResiduals);
+    // Refers to both; `appearance` is what the asset is dressed in, `addsResidual` whether sets are drawn
+    // with their residuals. Throws Error as Embree, as makeBrdf(), and as baked_options.h's optionsOf().
+    StageTracer(const Asset& asset, const Appearance& appearance, bool addsResidual = true);
 
     // Of points that rays from `eye` hit (RayHit::mesh is the part), under each light: [light][point]. On all
     // cores; the same input gives the same values. No image is known here: [0] is as [1]. `progress` is
@@ -45,9 +44,7 @@ class StageTracer {
                                                   const std::function<void(double)>& progress = {}) const;
 
   private:
-    static inline const Residuals kNoResiduals;
-
-    StageTracer(const Asset& asset, const Appearance& appearance, const Residuals& residuals,
+    StageTracer(const Asset& asset, const Appearance& appearance, bool addsResidual,
                 const BakeOptions& options);
 
     struct Light;
@@ -71,7 +68,7 @@ class StageTracer {
 
     const Asset& mAsset;
     const Appearance& mAppearance;
-    const Residuals& mResiduals;
+    bool mAddsResidual;
     MaterialBrdfs mBrdfs;
     DressedAsset mDressed;
     std::vector<TabulatedBrdf> mTables; // per part, of the worn set

@@ -1,5 +1,6 @@
 #include "precompute/error/study_json.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {
@@ -22,6 +23,47 @@ nlohmann::ordered_json describe(const ErrorStudy& study) {
         json["spherical_harmonics"] = study.lowOrder->error;
         json["spherical_harmonics_of_terms"] = study.lowOrder->termsError;
     }
+    return json;
+}
+
+std::string commandLineOf(const BakeOptions& options) {
+    std::string text = fmt::format("--terms {} --factorization {}", options.factorization.terms,
+                                   factorizationName(options.factorization.method));
+    if (options.layout.layout == TransportLayout::Rows)
+        text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
+    else
+        text += fmt::format(" --error {:.3g}", options.layout.error);
+    text +=
+        options.refinement ? fmt::format(" --refine {:.3g}", options.refinement->wanted) : " --refine off";
+    return text;
+}
+
+namespace {
+
+nlohmann::ordered_json describe(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
+    if (!bake) return nullptr;
+    return {{"options", commandLineOf(bake->options)},
+            {"terms", bake->options.factorization.terms},
+            {"error", bake->error},
+            {"bytes", uint64_t(bake->bytes)},
+            {"bytes_per_vertex", uint64_t(bake->bytes / double(vertices))},
+            {"seconds", bake->seconds ? nlohmann::ordered_json(*bake->seconds) : nullptr}};
+}
+
+nlohmann::ordered_json describe(const MeshAdvice& advice) {
+    return {{"vertices", advice.vertices},
+            {"bases", describe(advice.bases, advice.vertices)},
+            {"rows", describe(advice.rows, advice.vertices)},
+            {"least_errors", advice.leastErrors}};
+}
+
+} // namespace
+
+nlohmann::ordered_json describe(const Advice& advice, double asked) {
+    nlohmann::ordered_json json = {{"asked", asked}, {"plain", describe(advice.plain)}};
+    if (advice.refined) json["refined"] = describe(*advice.refined);
+    const AdvisedBake* best = advice.best();
+    json["best"] = best ? nlohmann::ordered_json(commandLineOf(best->options)) : nullptr;
     return json;
 }
 

@@ -2,7 +2,7 @@
 // with them (residual_twin.h).
 #pragma once
 
-#include "engine/render/residual.h"
+#include "engine/scene/residual.h"
 #include "precompute/error/baked_transport.h"
 #include "precompute/reference/dressed_asset.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/light/light_cube.h"
-#include "engine/render/residual.h"
 #include "engine/scene/factored_brdf.h"
+#include "engine/scene/residual.h"
 
 namespace relume {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 #include <limits>
 
 namespace relume {
@@ -17,8 +18,9 @@ void throwOnError(RTCDevice device, const char* what) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
     if (error == RTC_ERROR_OUT_OF_MEMORY)
-        throw Error("Embree ran out of memory while {}; bake with a smaller occluder", what);
-    throw Error("Embree failed while {}: error {}; check the installation of Embree 3.13", what, int(error));
+        throw Error(fmt::format("Embree ran out of memory while {}; bake with a smaller occluder", what));
+    throw Error(fmt::format("Embree failed while {}: error {}; check the installation of Embree 3.13", what,
+                            int(error)));
 }
 
 template <typename Element>

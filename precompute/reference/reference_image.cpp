@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <mutex>
 #include <tbb/parallel_for.h>
 
@@ -132,8 +133,8 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
     constexpr int kLargestSide = 16384;
     if (options.width < 1 || options.width > kLargestSide || options.height < 1 ||
         options.height > kLargestSide)
-        throw UsageError("a reference image of {} x {} pixels: each side must be 1 to {}", options.width,
-                         options.height, kLargestSide);
+        throw UsageError(fmt::format("a reference image of {} x {} pixels: each side must be 1 to {}",
+                                     options.width, options.height, kLargestSide));
     expectSamples(options.samples);
     const std::vector<const Mesh*> meshes = partMeshes(asset);
     const std::vector<const Mesh*> occluders =
@@ -205,8 +206,8 @@ Image renderReference(const Asset& asset, const Camera& camera, const LightCube&
                       const ReferenceOptions& options, const std::function<void(int)>& progress) {
     constexpr int kMostRays = 16;
     if (options.raysPerTexelSide < 1 || options.raysPerTexelSide > kMostRays)
-        throw UsageError("{} shadow rays per side of a lighting texel: must be 1 to {}",
-                         options.raysPerTexelSide, kMostRays);
+        throw UsageError(fmt::format("{} shadow rays per side of a lighting texel: must be 1 to {}",
+                                     options.raysPerTexelSide, kMostRays));
     return renderUnder(lightSamples(light, options.raysPerTexelSide), asset, camera, options, progress);
 }
 

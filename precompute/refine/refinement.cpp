@@ -7,6 +7,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <optional>
 #include <set>
@@ -212,8 +213,9 @@ RefinementRecord refine(std::vector<AssetPart>& parts, const Mesh& occluder, flo
         }
     }
     if (given > kMostRefinedVertices)
-        throw Error("--refine: expected at most {} vertices to begin with, found {}; bake with --refine off",
-                    kMostRefinedVertices, given);
+        throw Error(fmt::format(
+            "--refine: expected at most {} vertices to begin with, found {}; bake with --refine off",
+            kMostRefinedVertices, given));
     RefinementRecord record =
         Refiner(refined, others, occluder, visibilityOffset, observer).run(goal.wanted, goal.mostVertices);
     record.startVertices += kept;

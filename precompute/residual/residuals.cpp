@@ -1,12 +1,14 @@
 #include "precompute/residual/residuals.h"
 
 #include "engine/base/error.h"
+#include "engine/base/log.h"
+#include "precompute/reference/material_brdfs.h"
 #include "precompute/residual/irradiance_fit.h"
 #include "precompute/residual/sphere_kernel.h"
 
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -85,38 +87,39 @@ bool isSame(const MaterialSet& a, const MaterialSet& b) {
                               &AssetMaterial::description) &&
            std::ranges::equal(a.materials, b.materials, {}, &AssetMaterial::hasBase,
                               &AssetMaterial::hasBase) &&
-           a.brdf.lightMaps == b.brdf.lightMaps && a.brdf.viewMaps == b.brdf.viewMaps;
+           a.brdf.mapping == b.brdf.mapping && a.brdf.lightMaps == b.brdf.lightMaps &&
+           a.brdf.viewMaps == b.brdf.viewMaps;
 }
 
 } // namespace
 
-Residuals makeResiduals(const Asset& asset) {
+void makeResiduals(Asset& asset) {
     MaterialBrdfs brdfs;
-    Residuals residuals;
-    using Known = std::vector<std::pair<const MaterialSet*, std::shared_ptr<const ResidualSet>>>;
-    Known ofTangents, ofNormals; // of parts whose frames follow these
-    for (const AssetPart& part : asset.parts) {
-        Known& known = part.mesh.tangents.empty() ? ofNormals : ofTangents;
-        auto& sets = residuals.emplace_back();
-        for (const MaterialSet& set : part.sets) {
+    std::vector<const MaterialSet*> ofTangents, ofNormals; // made, of parts whose frames follow these
+    const auto knownOf = [&](const AssetPart& part) -> auto& {
+        return part.mesh.tangents.empty() ? ofNormals : ofTangents;
+    };
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            if (set.residual) knownOf(part).push_back(&set);
+    for (AssetPart& part : asset.parts)
+        for (MaterialSet& set : part.sets) {
+            if (set.residual) continue;
+            auto& known = knownOf(part);
             const auto same =
-                std::ranges::find_if(known, [&](const auto& other) { return isSame(*other.first, set); });
+                std::ranges::find_if(known, [&](const MaterialSet* other) { return isSame(*other, set); });
             if (same != known.end()) {
-                sets.push_back(same->second);
+                set.residual = (*same)->residual;
                 continue;
             }
-            std::shared_ptr<const ResidualSet> made;
+            known.push_back(&set);
             try {
-                made = makeSet(set, brdfs);
+                set.residual = makeSet(set, brdfs);
             } catch (const Error& error) {
-                spdlog::warn("{}: drawn without the residual, by its K terms alone: {}", part.name,
-                             error.what());
+                log(LogLevel::Warning, fmt::format("{}: drawn without the residual, by its K terms alone: {}",
+                                                   part.name, error.what()));
             }
-            sets.push_back(made);
-            known.emplace_back(&set, made);
         }
-    }
-    return residuals;
 }
 
 } // namespace relume

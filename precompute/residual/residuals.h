@@ -1,15 +1,12 @@
-// Everything that drawing an asset with the residual takes: made of its materials' descriptions, in a second
-// or so.
+// Residuals from materials' descriptions.
 #pragma once
 
-#include "engine/render/residual.h"
-#include "precompute/reference/material_brdfs.h"
+#include "engine/transport/asset.h"
 
 namespace relume {
 
-// Makes the residual of every part and set. It is null where the K terms are the BRDF, as of diffuse
-// materials, and where the BRDF's data is gone, with a warning in the log. Parts of the same materials share
-// their residual.
-Residuals makeResiduals(const Asset& asset);
+// Makes MaterialSet::residual of the sets that have none, in a second or so; where a BRDF's data is gone it
+// stays null, with a warning in the log.
+void makeResiduals(Asset& asset);
 
 } // namespace relume

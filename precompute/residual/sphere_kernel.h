@@ -1,7 +1,7 @@
-// BRDFs as convolutions about the view direction: engine/render/residual.h.
+// BRDFs as convolutions about the view direction: engine/scene/residual.h.
 #pragma once
 
-#include "engine/render/residual.h"
+#include "engine/scene/residual.h"
 
 #include <functional>
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
 
@@ -138,10 +139,10 @@ class Flattener {
 Bvh buildBvh(const Mesh& mesh) {
     constexpr size_t kMostTriangles = size_t(1) << shared::kBvhCountShift;
     if (mesh.triangleCount() > kMostTriangles)
-        throw Error(
+        throw Error(fmt::format(
             "the occluder's {} triangles are more than the {} that can be traced; simplify it: --occluder "
             "TRIANGLES",
-            mesh.triangleCount(), kMostTriangles);
+            mesh.triangleCount(), kMostTriangles));
     Bvh bvh;
     if (mesh.triangles.empty()) {
         bvh.children.resize(shared::kBvhWidth, {vec3(1), 0, vec3(-1), 0});
@@ -173,8 +174,9 @@ Bvh buildBvh(const Mesh& mesh) {
     arguments.createLeaf = createLeaf;
     const auto* root = static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
     if (!root)
-        throw Error("Embree could not build a hierarchy of the occluder's {} triangles: out of memory?",
-                    mesh.triangleCount());
+        throw Error(
+            fmt::format("Embree could not build a hierarchy of the occluder's {} triangles: out of memory?",
+                        mesh.triangleCount()));
     Flattener flattener(mesh, bvh);
     if (root->triangleCount == 0)
         flattener.addNode(*root, 1);

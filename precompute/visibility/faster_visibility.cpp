@@ -1,11 +1,12 @@
 #include "precompute/visibility/faster_visibility.h"
 
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <limits>
-#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -47,7 +48,8 @@ double secondsPerPoint(const vk::Device& device, const Asset& asset, VisibilityM
             if (run > 0) best = std::min(best, taken.count() / kPoints);
         }
     } catch (const Error& failure) {
-        spdlog::info("visibility: {} cannot be used here: {}", visibilityMethodName(method), failure.what());
+        log(LogLevel::Info, fmt::format("visibility: {} cannot be used here: {}",
+                                        visibilityMethodName(method), failure.what()));
     }
     return best;
 }
@@ -61,8 +63,8 @@ VisibilityMethod fasterVisibility(const vk::Device& device, const Asset& asset) 
     const double traced = secondsPerPoint(device, asset, VisibilityMethod::Traced, points);
     const double raster = secondsPerPoint(device, asset, VisibilityMethod::Raster, points);
     const auto chosen = raster < traced ? VisibilityMethod::Raster : VisibilityMethod::Traced;
-    spdlog::info("visibility: {} (traced {:.3f} ms per vertex, raster {:.3f} ms)",
-                 visibilityMethodName(chosen), 1e3 * traced, 1e3 * raster);
+    log(LogLevel::Info, fmt::format("visibility: {} (traced {:.3f} ms per vertex, raster {:.3f} ms)",
+                                    visibilityMethodName(chosen), 1e3 * traced, 1e3 * raster));
     return chosen;
 }
 

@@ -1,10 +1,11 @@
 #include "precompute/visibility/occluder.h"
 
+#include "engine/base/log.h"
 #include "precompute/visibility/flat_mesh.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <meshoptimizer.h>
-#include <spdlog/spdlog.h>
 
 namespace relume {
 namespace {
@@ -76,9 +77,10 @@ Occluder makeOccluder(const Scene& scene, size_t triangleBudget) {
         append(occluder.mesh, surface);
     }
     if (isOver && double(occluder.mesh.triangleCount()) > 1.2 * double(triangleBudget))
-        spdlog::warn(
-            "the occluder keeps {} triangles, more than the {} asked for: its topology allows no fewer",
-            occluder.mesh.triangleCount(), triangleBudget);
+        log(LogLevel::Warning,
+            fmt::format(
+                "the occluder keeps {} triangles, more than the {} asked for: its topology allows no fewer",
+                occluder.mesh.triangleCount(), triangleBudget));
     return occluder;
 }
 

@@ -1,7 +1,7 @@
 // What casts shadows: the scene's triangles, simplified on request.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "engine/import/scene.h"
 
 namespace relume {
 

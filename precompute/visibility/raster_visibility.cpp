@@ -11,6 +11,7 @@
 #include "shaders/visibility_vert.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <meshoptimizer.h>
 
 namespace relume {
@@ -131,16 +132,16 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
     const uint64_t ofBatch = mIsLayered ? uint64_t(mClusterCount) * 6 * mCapacity * sizeof(uint32_t)
                                         : drawCount(mCapacity) * sizeof(VkDrawIndexedIndirectCommand);
     if (ofBatch > device.largestStorageBuffer() && mCapacity > 1)
-        throw vk::OutOfMemory("visibility draws: {} bytes of {} points are more than {} binds", ofBatch,
-                              mCapacity, device.name());
+        throw vk::OutOfMemory(fmt::format("visibility draws: {} bytes of {} points are more than {} binds",
+                                          ofBatch, mCapacity, device.name()));
     const uint64_t largestBinding = std::max({occluder.vertexCount() * sizeof(vec3), ofBatch,
                                               mClusterCount * sizeof(VkDrawIndexedIndirectCommand)});
     if (largestBinding > device.largestStorageBuffer() ||
         mClusterCount >
             std::min(device.limits().maxComputeWorkGroupCount[1], device.limits().maxDrawIndirectCount))
-        throw Error(
+        throw Error(fmt::format(
             "the occluder's {} triangles are more than {} can take; simplify it: --occluder TRIANGLES",
-            occluder.triangleCount(), device.name());
+            occluder.triangleCount(), device.name()));
     mPositions = vk::upload<vec3>(device, occluder.positions, "occluder positions");
     mIndices = vk::upload<uint32_t>(device, indices, "occluder indices");
     mClusters = vk::upload<shared::TriangleCluster>(device, clusters, "occluder clusters");

@@ -6,6 +6,7 @@
 #include "shaders/visibility_trace_comp.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -20,9 +21,9 @@ void checkDevice(const vk::Device& device, const Bvh& bvh) {
     RELUME_CHECK(canUse(device, VisibilityMethod::Traced));
     if (std::max(std::as_bytes(std::span(bvh.children)).size(),
                  std::as_bytes(std::span(bvh.triangles)).size()) > device.largestStorageBuffer())
-        throw Error(
+        throw Error(fmt::format(
             "the occluder's {} triangles are more than {} can take; simplify it: --occluder TRIANGLES",
-            bvh.triangles.size(), device.name());
+            bvh.triangles.size(), device.name()));
 }
 
 } // namespace

@@ -1,9 +1,10 @@
 #include "precompute/visibility/visibility.h"
 
+#include "engine/base/log.h"
 #include "precompute/visibility/raster_visibility.h"
 #include "precompute/visibility/traced_visibility.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -17,9 +18,9 @@ bool canUse(const vk::Device& device, VisibilityMethod method) {
 
 VisibilityMethod usableMethod(const vk::Device& device, VisibilityMethod method) {
     if (canUse(device, method)) return method;
-    spdlog::warn(
-        "visibility: drawn, since {} cannot trace: that takes subgroups of 8 to 64 that vote, its have {}",
-        device.name(), device.info().subgroupSize);
+    log(LogLevel::Warning, fmt::format("visibility: drawn, since {} cannot trace: that takes subgroups of 8 "
+                                       "to 64 that vote, its have {}",
+                                       device.name(), device.info().subgroupSize));
     return VisibilityMethod::Raster;
 }
 

@@ -1,5 +1,6 @@
 // What is behind the object, how it is exposed, and where the ground ends.
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
+#include "engine/import/texture_file.h"
 #include "engine/scene/texture.h"
 #include "tests/support/run_relume.h"
 

@@ -1,5 +1,5 @@
 // The experiment that docs/layouts.md is made by, on a bake that takes no time.
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "tests/support/run_relume.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Images of light that moves.
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "tests/support/run_relume.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // No command writes over what it reads, nor over its own output.
 #include "tests/support/run_relume.h"
 
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 
 #include <doctest/doctest.h>
 #include <map>

@@ -1,7 +1,7 @@
 // Fuzz target of the .relume reader. The first byte of an input chooses how deep it strikes:
 // 0: the rest is a file; 1: a file whose checksums are put right; 2: edits of the content of a valid file's
 // chunks. Visibility that a file keeps is read too.
-#include "engine/transport/asset_info.h"
+#include "engine/import/asset_info.h"
 #include "engine/transport/kept_visibility.h"
 #include "tests/support/fuzz_edits.h"
 #include "tests/support/kept_sample.h"

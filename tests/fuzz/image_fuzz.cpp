@@ -2,15 +2,13 @@
 // reaches behind their headers.
 #include "engine/base/check.h"
 #include "engine/base/error.h"
-#include "engine/image/image_codecs.h"
+#include "engine/import/image_codecs.h"
 
 #include <cmath>
-#include <spdlog/spdlog.h>
 
 using namespace relume;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    spdlog::set_level(spdlog::level::off);
     try {
         const Image image = decodeImage(std::as_bytes(std::span(data, size)), "input").image;
         // What can be read is whole and finite.

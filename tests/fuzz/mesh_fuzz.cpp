@@ -1,7 +1,8 @@
 // Fuzz target of the readers of meshes and textures. The first byte of an input chooses the format.
 #include "engine/base/error.h"
-#include "engine/scene/mesh_file.h"
-#include "engine/scene/mesh_formats.h"
+#include "engine/import/mesh_file.h"
+#include "engine/import/mesh_formats.h"
+#include "engine/import/texture_file.h"
 
 using namespace relume;
 

@@ -1,6 +1,6 @@
 // Advice on a bake holds once it is baked.
 #include "engine/base/error.h"
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "precompute/bake/bake.h"
 #include "precompute/error/advice.h"
 #include "tests/support/test_device.h"

@@ -1,6 +1,6 @@
 // The whole bake on a small scene, verified stage by stage.
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/reference/verification.h"

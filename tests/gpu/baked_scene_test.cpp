@@ -1,12 +1,11 @@
 // Bakes of an evaluation share the visibility of their vertices, and are none the worse for it.
 #include "apps/evaluation/baked_scene.h"
 #include "engine/transport/kept_visibility.h"
+#include "tests/support/log_capture.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 
 #include <doctest/doctest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 #include <sstream>
 
 using namespace relume;
@@ -32,18 +31,6 @@ BakeRecipe recipeOf(const TemporaryFolder& folder, const char* material, int ter
     recipe.options.transportSamples = 4;
     return recipe;
 }
-
-// What is logged while it lives.
-class LoggedText {
-  public:
-    LoggedText() { spdlog::default_logger()->sinks().push_back(mSink); }
-    ~LoggedText() { spdlog::default_logger()->sinks().pop_back(); }
-    bool says(const std::string& text) const { return mText.str().find(text) != std::string::npos; }
-
-  private:
-    std::ostringstream mText;
-    spdlog::sink_ptr mSink = std::make_shared<spdlog::sinks::ostream_sink_mt>(mText, true);
-};
 
 // That a store has for a recipe, beside what the recipe shares.
 std::filesystem::path onlyBake(const std::filesystem::path& folder, const std::filesystem::path& shared) {
@@ -71,7 +58,7 @@ TEST_CASE("bake store: what shares visibility is what it is without") {
     CHECK_FALSE(KeptVisibility(kept).key().empty());
     store.remove(first);
     REQUIRE(std::filesystem::exists(kept));
-    const LoggedText log;
+    const LogCapture log;
     const BakeRecord record = store.make(second);
     CHECK(log.says("vertices reused"));
     CHECK(KeptVisibility(onlyBake(shared.path(), kept)).key().empty());
@@ -92,7 +79,7 @@ TEST_CASE("bake store: visibility that is no good is found anew, and kept") {
     const BakeRecipe first = recipeOf(inputs, "clay", 1), second = recipeOf(inputs, "red-plastic", 1);
     const BakeRecord record = store.make(first);
     writeFileAtomically(store.visibilityPath(first), std::string("half of it"));
-    const LoggedText log;
+    const LogCapture log;
     CHECK_EQ(store.make(second).vertices, record.vertices);
     CHECK_FALSE(log.says("vertices reused"));
     CHECK_FALSE(KeptVisibility(store.visibilityPath(first)).key().empty());
@@ -106,7 +93,7 @@ TEST_CASE("bake store: a bake is timed only where it finds its visibility itself
     const BakeRecord made = store.make(recipe);
     const auto before = encodeAsset(store.read(recipe));
     CHECK_FALSE(store.make(recipe).msPerVertex);
-    const LoggedText log;
+    const LogCapture log;
     const BakeRecord timed = store.makeTimed(recipe);
     CHECK_FALSE(log.says("vertices reused"));
     REQUIRE(timed.msPerVertex);

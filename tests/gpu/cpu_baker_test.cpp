@@ -1,6 +1,6 @@
 // The CPU baker's rows against the device's.
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/cpu/cpu_baker.h"
 #include "precompute/reference/vertex_check.h"

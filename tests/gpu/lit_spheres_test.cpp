@@ -96,7 +96,9 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
     pass.setCube(light);
     for (const bool hasTangents : {false, true}) {
         CAPTURE(hasTangents);
-        LitSpheres spheres(device, assetOf({&gold, &steel}, hasTangents), {{sets[0]}, {sets[1]}});
+        Asset asset = assetOf({&gold, &steel}, hasTangents);
+        for (size_t part = 0; part < 2; part++) asset.parts[part].sets[0].residual = sets[part];
+        LitSpheres spheres(device, asset, true);
         // More nodes than are made together.
         std::set<uint32_t> nodes;
         for (uint32_t node = 40; node < 80; node++) nodes.insert(node);

@@ -1,7 +1,7 @@
 // Previews of a bake: how near they come, and that they leave no trace.
 #include "engine/base/file.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/interpolated_blocks.h"
 #include "precompute/bake/preview.h"

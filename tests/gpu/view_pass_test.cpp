@@ -1,6 +1,6 @@
+#include "engine/import/builtin_mesh.h"
 #include "engine/math/tangent_frame.h"
 #include "engine/render/view_pass.h"
-#include "engine/scene/builtin_mesh.h"
 #include "precompute/reference/ray_tracer.h"
 #include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"

@@ -1,8 +1,8 @@
 // Rasterised and traced visibility against closed forms, against Embree and against each other.
 #include "engine/base/error.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/ground.h"
 #include "engine/math/cubemap.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/ground.h"
 #include "precompute/bake/bake.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/visibility/occluder.h"

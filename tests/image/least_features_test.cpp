@@ -1,12 +1,11 @@
 // Devices that lack what others have give the same bytes by other shaders.
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
 #include "engine/transport/asset.h"
 #include "precompute/bake/bake.h"
 #include "precompute/layout/conversion.h"
-#include "precompute/residual/residuals.h"
 #include "tests/support/test_device.h"
 
 #include <doctest/doctest.h>
@@ -31,7 +30,7 @@ std::vector<vec4> pixelsOf(const vk::Device& device, const Asset& asset, int sam
     constexpr int kWidth = 64, kHeight = 48;
     LightPass light(device, asset.faceSize);
     light.setLight({.environments = {{std::make_shared<const Environment>(prepareForSampling(makeSky()))}}});
-    Relighter relighter(device, asset, {.residuals = makeResiduals(asset)});
+    Relighter relighter(device, asset);
     ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = samples});
     vk::Commands commands(device, "least features test");
     commands.begin();

@@ -1,9 +1,9 @@
 // Materials from files to images: what is drawn against what Embree traces with the exact BRDFs.
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "engine/light/environment.h"
 #include "engine/render/compare.h"
 #include "engine/render/view_pass.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/reference/reference_image.h"
 #include "tests/support/temporary_folder.h"

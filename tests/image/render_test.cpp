@@ -1,9 +1,9 @@
 // Relit images against Embree references of the same view and light; what remains is explained.
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "engine/render/compare.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/bake_preset.h"
 #include "precompute/reference/reference_image.h"
@@ -36,7 +36,7 @@ Camera viewOf(const Asset& asset) {
 Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube, int threshold, int samples) {
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
-    Relighter relighter(device, asset);
+    Relighter relighter(device, asset, {.residual = false}); // what the reference draws, too
     ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = samples});
     vk::Commands commands(device, "render test");
     commands.begin();

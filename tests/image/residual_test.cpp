@@ -1,10 +1,10 @@
 // What K terms leave of a BRDF, added to images: against the exact reference, and against the reference of
 // the same estimate.
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 #include "engine/render/compare.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization.h"
@@ -33,11 +33,11 @@ Camera viewOf(const Asset& asset) {
     return defaultCamera(boundsOf(asset), 0.6f, float(kWidth) / float(kHeight));
 }
 
-Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube, const Residuals& residuals,
-            bool isAdded = true) {
+Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
+            const RelighterOptions& options = {}, bool isAdded = true) {
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
-    Relighter relighter(device, asset, {.residuals = residuals});
+    Relighter relighter(device, asset, options);
     ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
     view.setResidual(isAdded);
     vk::Commands commands(device, "residual test");
@@ -66,11 +66,11 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
     for (const Factorization method : {Factorization::Environment, Factorization::NonNegative}) {
         const Asset asset = bakeKnot(device, "gold", method);
-        const Residuals residuals = makeResiduals(asset);
-        REQUIRE(residuals[0][0]);
-        CHECK(residuals[0][0]->hasNonnegativeTerms == (method == Factorization::NonNegative));
+        const std::shared_ptr<const ResidualSet> residual = asset.parts[0].sets[0].residual;
+        REQUIRE(residual);
+        CHECK(residual->hasNonnegativeTerms == (method == Factorization::NonNegative));
         const Image exact = reference(asset, sky, ReferenceBrdf::Exact);
-        const Image drawn = relit(device, asset, sky, residuals), terms = relit(device, asset, sky, {});
+        const Image drawn = relit(device, asset, sky), terms = relit(device, asset, sky, {.residual = false});
         const double error = compareImages(drawn, exact).relativeRmse,
                      ofTerms = compareImages(terms, exact).relativeRmse,
                      ofEstimate =
@@ -80,7 +80,7 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         CHECK_LE(error, 0.5 * ofTerms + silhouetteError(device));
         CHECK_LE(ofEstimate, 0.06 + silhouetteError(device));
         // Switched off, not a bit of it is left.
-        CHECK(relit(device, asset, sky, residuals, false).pixels == terms.pixels);
+        CHECK(relit(device, asset, sky, {}, false).pixels == terms.pixels);
     }
 }
 
@@ -94,10 +94,11 @@ TEST_CASE("image: parts with tangents share no residual with parts without") {
             factorize(tabulate(*makeBrdf("gold"), 8, DiskMapping::EqualArea, TexelValue::Mean), {.terms = 2});
     }
     asset.parts[1].mesh.tangents = {{1, 0, 0}};
-    const Residuals residuals = makeResiduals(asset);
-    REQUIRE(residuals[0][0]);
-    CHECK(residuals[0][0] == residuals[2][0]);
-    CHECK(residuals[0][0] != residuals[1][0]);
+    makeResiduals(asset);
+    const auto residualOf = [&](size_t part) { return asset.parts[part].sets[0].residual; };
+    REQUIRE(residualOf(0));
+    CHECK(residualOf(0) == residualOf(2));
+    CHECK(residualOf(0) != residualOf(1));
 }
 
 TEST_CASE("image: brushed metal follows its tangents, however they are turned") {
@@ -113,8 +114,7 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
         options.factorization.method = Factorization::NonNegative;
         const Asset asset = bake(device, std::move(scene), options);
         REQUIRE(asset.parts[0].mesh.tangents.size() == asset.parts[0].mesh.vertexCount());
-        const Image drawn = relit(device, asset, sky, makeResiduals(asset)),
-                    exact = reference(asset, sky, ReferenceBrdf::Exact);
+        const Image drawn = relit(device, asset, sky), exact = reference(asset, sky, ReferenceBrdf::Exact);
         const double error = compareImages(drawn, exact).relativeRmse;
         MESSAGE("turned by ", degrees, " degrees: ", error);
         CHECK_LE(error, 0.029); // without interpolation of turns or phases it is 0.03 and more
@@ -127,11 +127,10 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
 TEST_CASE("image: a diffuse material has no residual, and light that is none gives none") {
     const TestDevice device;
     const Asset diffuse = bakeKnot(device, "grey-diffuse", Factorization::Environment);
-    CHECK_FALSE(makeResiduals(diffuse)[0][0]);
+    CHECK_FALSE(diffuse.parts[0].sets[0].residual);
     const Asset gold = bakeKnot(device, "gold", Factorization::NonNegative);
     const LightCube dark{64, std::vector<vec3>(6 * 64 * 64, vec3(0))};
-    for (const vec4& pixel : relit(device, gold, dark, makeResiduals(gold)).pixels)
-        CHECK(vec3(pixel) == vec3(0));
+    for (const vec4& pixel : relit(device, gold, dark).pixels) CHECK(vec3(pixel) == vec3(0));
 }
 
 TEST_CASE("image: a material whose BRDF is gone is drawn by its terms alone") {
@@ -139,5 +138,10 @@ TEST_CASE("image: a material whose BRDF is gone is drawn by its terms alone") {
     Asset asset = bakeKnot(device, "gold", Factorization::Environment);
     asset.parts[0].sets[0].materials[0].description =
         R"({"measured": "/nowhere/gold.binary", "scale": 1, "hash": "0"})";
-    CHECK_FALSE(makeResiduals(asset)[0][0]);
+    // What was baked stays; what is missing cannot be made.
+    makeResiduals(asset);
+    CHECK(asset.parts[0].sets[0].residual);
+    asset.parts[0].sets[0].residual = nullptr;
+    makeResiduals(asset);
+    CHECK_FALSE(asset.parts[0].sets[0].residual);
 }

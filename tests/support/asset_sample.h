@@ -120,6 +120,20 @@ inline AssetPart samplePart(uint32_t vertices, int terms, int faceSize, int perR
     return part;
 }
 
+// For every layer of a BRDF, with few numbers other than 0.
+inline std::shared_ptr<ResidualSet> sampleResidual(const FactoredBrdf& brdf) {
+    auto residual = std::make_shared<ResidualSet>();
+    for (int layer = 0; layer < brdf.layers; layer++) {
+        SphereKernel kernel{.frequencies = layer % 2, .harmonics = layer / 2, .values = {}};
+        kernel.values.resize(kernel.valueCount());
+        for (size_t i = 0; i < kernel.values.size(); i += 97) kernel.values[i] = vec3(float(i), 1, -0.5f);
+        residual->layers.push_back(std::make_shared<const SphereKernel>(kernel));
+    }
+    residual->hasNonnegativeTerms = isNonnegative(brdf);
+    residual->irradianceWeights.assign(size_t(brdf.terms), vec3(0.5f, -2, 1));
+    return residual;
+}
+
 inline Asset sampleAsset(uint32_t seed = 1) {
     std::mt19937 random(seed);
     Asset asset;
@@ -203,11 +217,12 @@ inline void reseal(std::vector<std::byte>& bytes) {
     poke(bytes, 24, hash64(head), 8);
 }
 
-// The same, a third part in clusters, and a fourth in bases.
+// The same with a residual, a third part in clusters, and a fourth in bases.
 inline Asset mixedAsset(uint32_t seed = 1) {
     Asset asset = sampleAsset(seed);
     std::mt19937 random(seed + 1);
     asset.parts.push_back(samplePart(70, 2, asset.faceSize, asset.coefficients, random));
+    asset.parts[1].sets[0].residual = sampleResidual(asset.parts[1].sets[0].brdf);
     asset.parts[2].sets[0].transport = sampleClusters(70, 2, asset.faceSize, 40, random);
     asset.parts.push_back(samplePart(300, 2, asset.faceSize, asset.coefficients, random));
     asset.parts[3].sets[0].transport = sampleBases(300, 2, asset.faceSize, 60, random);

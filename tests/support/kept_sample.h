@@ -2,10 +2,9 @@
 #pragma once
 
 #include "engine/transport/asset_arrays.h"
+#include "engine/transport/asset_meta.h"
 #include "engine/transport/visibility_chunk.h"
 #include "tests/support/asset_sample.h"
-
-#include <nlohmann/json.hpp>
 
 namespace relume::test {
 
@@ -30,12 +29,8 @@ inline std::vector<uint32_t> bitsOf(uint32_t part, size_t vertices) {
 // Writes a key, of whatever form, into META, the first chunk.
 inline void setVisibilityKey(std::vector<RawChunk>& chunks, const std::string& key) {
     std::vector<std::byte>& raw = chunks[0].raw;
-    auto meta =
-        nlohmann::ordered_json::parse(std::string(reinterpret_cast<const char*>(raw.data()), raw.size()));
-    meta["visibilityKey"] = key;
-    const std::string text = meta.dump();
-    const auto bytes = std::as_bytes(std::span(text));
-    raw.assign(bytes.begin(), bytes.end());
+    const AssetMeta meta = decodeMeta(raw, "sample");
+    raw = encodeMeta(meta.asset, meta.sizes, key);
 }
 
 // The chunks of keptAsset() with its visibility.

@@ -1,8 +1,8 @@
 // Sessions of relume-viewer, replayed on a display that is not there.
 #pragma once
 
-#include "engine/image/image_file.h"
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/image_file.h"
 #include "tests/support/display.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/run_relume.h"

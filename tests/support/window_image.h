@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/image/image.h"
+#include "engine/import/texture_file.h"
 #include "engine/scene/texture.h"
 
 #include <doctest/doctest.h>

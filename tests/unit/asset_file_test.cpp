@@ -1,11 +1,15 @@
 // The .relume file: what goes in comes out, and nothing else is believed.
+#include "engine/import/asset_info.h"
+#include "engine/import/old_asset.h"
 #include "engine/transport/asset_arrays.h"
-#include "engine/transport/asset_info.h"
+#include "engine/transport/asset_meta.h"
 #include "engine/transport/transport_chunk.h"
 #include "tests/support/asset_sample.h"
+#include "tests/support/old_sample.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
+#include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -30,6 +34,17 @@ void checkSameTexture(const std::optional<Texture>& a, const std::optional<Textu
     CHECK(a->texels == b->texels);
 }
 
+void checkSameResidual(const ResidualSet& a, const ResidualSet& b) {
+    REQUIRE(a.layers.size() == b.layers.size());
+    for (size_t layer = 0; layer < a.layers.size(); layer++) {
+        CHECK(a.layers[layer]->frequencies == b.layers[layer]->frequencies);
+        CHECK(a.layers[layer]->harmonics == b.layers[layer]->harmonics);
+        CHECK(a.layers[layer]->values == b.layers[layer]->values);
+    }
+    CHECK(a.hasNonnegativeTerms == b.hasNonnegativeTerms);
+    CHECK(a.irradianceWeights == b.irradianceWeights);
+}
+
 void checkSameSet(const MaterialSet& a, const MaterialSet& b) {
     REQUIRE(a.materials.size() == b.materials.size());
     for (size_t i = 0; i < a.materials.size(); i++) {
@@ -45,6 +60,8 @@ void checkSameSet(const MaterialSet& a, const MaterialSet& b) {
     CHECK(a.brdf.lightMaps == b.brdf.lightMaps);
     CHECK(a.brdf.viewMaps == b.brdf.viewMaps);
     CHECK(a.brdf.eigenvalues == b.brdf.eigenvalues);
+    REQUIRE(bool(a.residual) == bool(b.residual));
+    if (a.residual) checkSameResidual(*a.residual, *b.residual);
     CHECK(verticesOf(a.transport) == verticesOf(b.transport));
     CHECK(termsOf(a.transport) == termsOf(b.transport));
     REQUIRE(layoutOf(a.transport) == layoutOf(b.transport));
@@ -135,22 +152,22 @@ RawChunk& chunk(std::vector<RawChunk>& chunks, const char (&tag)[5], uint32_t pa
     throw std::logic_error("no such chunk");
 }
 
+std::vector<RawChunk> sampleChunks() { return chunksOf(encodeAsset(sampleAsset())); }
+
 // The sample with one chunk's content changed, all checksums right.
 std::vector<std::byte> withChunk(const char (&tag)[5], uint32_t part,
                                  const std::function<void(std::vector<std::byte>&)>& change) {
-    std::vector<RawChunk> chunks = chunksOf(encodeAsset(sampleAsset()));
+    std::vector<RawChunk> chunks = sampleChunks();
     change(chunk(chunks, tag, part).raw);
     return fileOf(chunks);
 }
 
-// The sample with one piece of the text of META replaced.
-std::vector<std::byte> withMeta(const std::string& from, const std::string& to) {
+// The sample with META changed.
+std::vector<std::byte> withMeta(const std::function<void(AssetMeta&)>& change) {
     return withChunk("META", kWholeFile, [&](std::vector<std::byte>& raw) {
-        std::string text(reinterpret_cast<const char*>(raw.data()), raw.size());
-        REQUIRE(text.find(from) != std::string::npos);
-        text.replace(text.find(from), from.size(), to);
-        const auto bytes = std::as_bytes(std::span(text));
-        raw.assign(bytes.begin(), bytes.end());
+        AssetMeta meta = decodeMeta(raw, "sample");
+        change(meta);
+        raw = encodeMeta(meta.asset, meta.sizes, meta.visibilityKey);
     });
 }
 
@@ -326,10 +343,40 @@ TEST_CASE("asset file: foreign and later files are refused by name") {
     CHECK_THROWS_WITH_AS(decodeAsset({}, "empty"), doctest::Contains("not a .relume file"), Error);
     std::vector<std::byte> later = bytes;
     poke(later, 8, kAssetFormatVersion + 1, 4);
-    CHECK_THROWS_WITH_AS(decodeAsset(later, "later"), doctest::Contains("format version 3"), Error);
+    CHECK_THROWS_WITH_AS(decodeAsset(later, "later"), doctest::Contains("format version 4"), Error);
     // A transfer in text mode turns \r\n into \n.
     bytes.erase(bytes.begin() + 6);
     CHECK_THROWS_WITH_AS(decodeAsset(bytes, "text"), doctest::Contains("not a .relume file"), Error);
+}
+
+TEST_CASE("asset file: files of version 2 are refused with the remedy, which keeps all of them") {
+    Asset asset = mixedAsset();
+    asset.parts[1].sets[0].residual = nullptr;
+    asset.layout = LayoutRecord{60.5, {}, 0.0123};
+    asset.provenance.bakedShare = 0.5f;
+    const std::vector<std::byte> old = oldFileOf(asset);
+    CHECK_THROWS_WITH_AS(decodeAsset(old, "old"), doctest::Contains("relume convert"), Error);
+    CHECK(isOldAsset(old));
+    CHECK_FALSE(isOldAsset(encodeAsset(asset)));
+    CHECK_FALSE(isOldAsset({}));
+    checkSame(decodeAsset(updateAsset(old, "old"), "new"), asset);
+    // What is wrong with it is found.
+    for (size_t length = 0; length < old.size(); length += 31)
+        CHECK_THROWS_AS(updateAsset(std::span(old).first(length), "old"), Error);
+    std::vector<RawChunk> chunks = chunksOf(encodeAsset(asset));
+    const auto refuses = [&](const std::string& meta) {
+        const auto text = std::as_bytes(std::span(meta));
+        chunks[0].raw.assign(text.begin(), text.end());
+        std::vector<std::byte> bytes = fileOf(chunks);
+        poke(bytes, 8, 2, 4);
+        reseal(bytes);
+        CHECK_THROWS_AS(updateAsset(bytes, "old"), Error);
+    };
+    refuses("{");
+    refuses("{}");
+    refuses("\xff");
+    refuses(R"({"faceSize":8.5})");
+    refuses(std::string(500000, '['));
 }
 
 TEST_CASE("asset file: unknown chunks are skipped if optional, refused if required") {
@@ -352,7 +399,7 @@ TEST_CASE("asset file: unknown chunks are skipped if optional, refused if requir
 }
 
 TEST_CASE("asset file: every required chunk is missed") {
-    const std::vector<RawChunk> chunks = chunksOf(encodeAsset(sampleAsset()));
+    const std::vector<RawChunk> chunks = chunksOf(encodeAsset(mixedAsset()));
     for (size_t i = 0; i < chunks.size(); i++) {
         std::vector<RawChunk> fewer = chunks;
         fewer.erase(fewer.begin() + ptrdiff_t(i));
@@ -386,61 +433,150 @@ TEST_CASE("asset file: a table cannot promise what the file does not hold") {
 }
 
 TEST_CASE("asset file: absurd settings and counts are refused") {
-    const auto refuses = [](const char* from, const char* to) { CHECK(isRefused(withMeta(from, to))); };
-    CHECK(!isRefused(withMeta("\"faceSize\":8", "\"faceSize\":8")));
-    for (const char* size :
-         {"0", "-8", "7", "12", "128", "8.5", "1e300", "99999999999999999999", "\"8\"", "null", "[8]"})
-        refuses("\"faceSize\":8", fmt::format("\"faceSize\":{}", size).c_str());
-    refuses("\"faceSize\":8,", "");
-    refuses("\"visibilitySize\":32", "\"visibilitySize\":2048");
-    refuses("\"visibilitySize\":32", "\"visibilitySize\":40");
-    refuses("\"transportSamples\":4", "\"transportSamples\":3");
-    refuses("\"transportSamples\":4", "\"transportSamples\":25");
-    refuses("\"coefficients\":24", "\"coefficients\":23");
-    refuses("\"coefficients\":24", "\"coefficients\":385");
-    refuses("\"truncationError\":0", "\"truncationError\":-0");
-    refuses("\"truncationError\":0", "\"truncationError\":1e99");
-    for (const char* count : {"0", "18", "20", "4294967295", "4294967296", "18446744073709551615"})
-        refuses("\"vertices\":19,\"triangles\":19,\"uvs\"",
-                fmt::format("\"vertices\":{},\"triangles\":19,\"uvs\"", count).c_str());
-    for (const char* count : {"0", "2", "4", "32", "33"})
-        refuses("\"terms\":3,", fmt::format("\"terms\":{},", count).c_str());
-    for (const char* size : {"3", "5", "256", "257"})
-        refuses("\"mapSize\":4", fmt::format("\"mapSize\":{}", size).c_str());
-    refuses("\"entries\":", "\"entries\":9");
-    for (const char* layers : {"0", "1", "2", "4", "65", "true"})
-        refuses("\"layers\":3", fmt::format("\"layers\":{}", layers).c_str());
-    refuses("\"layer\":1,\"base\":true", "\"layer\":2,\"base\":true");
-    refuses("\"layer\":1,\"base\":true", "\"layer\":1,\"base\":1");
-    refuses("\"uvs\":true", "\"uvs\":false");
-    refuses("\"colors\":false", "\"colors\":true");
-    refuses("\"tangents\":true", "\"tangents\":false");
-    refuses("\"paintedByColors\":false", "\"paintedByColors\":true");
-    for (const char* width : {"0", "3", "8193", "-1"})
-        refuses("\"width\":2", fmt::format("\"width\":{}", width).c_str());
-    refuses("\"sets\":[", "\"sets\":[{},");
-    refuses("\"name\":\"glossy\"", "\"name\":\"matt\"");
-    refuses("\"mapping\":\"polar-sine\"", "\"mapping\":\"mercator\"");
-    refuses("\"parts\":[", "\"parts\":[{},");
-    refuses("\"program\":\"relume 0.1.0\"", "\"program\":7");
-    refuses("\"provenance\":", "\"provenance\":\xff");
-    refuses("{", "");
+    const auto refuses = [](const std::function<void(AssetMeta&)>& change) {
+        return isRefused(withMeta(change));
+    };
+    const auto setOf = [](AssetMeta& meta) -> MaterialSet& { return meta.asset.parts[0].sets[0]; };
+    CHECK_FALSE(refuses([](AssetMeta&) {}));
+    for (const int size : {0, -8, 7, 12, 128})
+        CHECK(refuses([&](AssetMeta& meta) { meta.asset.faceSize = size; }));
+    for (const int size : {2048, 40, 4})
+        CHECK(refuses([&](AssetMeta& meta) { meta.asset.visibilitySize = size; }));
+    for (const int samples : {0, 3, 25})
+        CHECK(refuses([&](AssetMeta& meta) { meta.asset.transportSamples = samples; }));
+    for (const int coefficients : {0, 23, 385})
+        CHECK(refuses([&](AssetMeta& meta) { meta.asset.coefficients = coefficients; }));
+    for (const float error : {-0.5f, std::numeric_limits<float>::infinity(), std::nanf("")})
+        CHECK(refuses([&](AssetMeta& meta) { meta.asset.truncationError = error; }));
+    for (const uint64_t count : {uint64_t(0), uint64_t(18), uint64_t(20), uint64_t(0xffffffff)})
+        CHECK(refuses([&](AssetMeta& meta) { meta.sizes.parts[0].vertices = count; }));
+    for (const int terms : {0, 2, 4, 32, 33})
+        CHECK(refuses([&](AssetMeta& meta) { setOf(meta).brdf.terms = terms; }));
+    for (const int size : {3, 5, 256, 257})
+        CHECK(refuses([&](AssetMeta& meta) { setOf(meta).brdf.size = size; }));
+    for (const int layers : {0, 1, 2, 4, 65})
+        CHECK(refuses([&](AssetMeta& meta) { setOf(meta).brdf.layers = layers; }));
+    for (const uint64_t entries : {uint64_t(0), uint64_t(9), uint64_t(1) << 50})
+        CHECK(refuses([&](AssetMeta& meta) { meta.sizes.setEntries[0] = entries; }));
+    CHECK(refuses([&](AssetMeta& meta) { setOf(meta).materials[1].layer = 2; }));
+    CHECK(refuses([&](AssetMeta& meta) { setOf(meta).materials[1].name = "matt"; }));
+    CHECK(refuses([&](AssetMeta& meta) { setOf(meta).materials.clear(); }));
+    CHECK(refuses([](AssetMeta& meta) { meta.sizes.parts[0].uvs = 0; }));
+    CHECK(refuses([](AssetMeta& meta) { meta.sizes.parts[0].colors = 1; }));
+    CHECK(refuses([](AssetMeta& meta) { meta.sizes.parts[1].tangents = 0; }));
+    CHECK(refuses([](AssetMeta& meta) { meta.asset.parts[0].paintedByColors = true; }));
+    for (const int width : {0, 3, 8193, -1})
+        CHECK(refuses([&](AssetMeta& meta) { meta.asset.parts[0].baseColor->width = width; }));
+    CHECK(refuses([](AssetMeta& meta) { meta.asset.parts[0].sets.clear(); }));
+    CHECK(refuses([](AssetMeta& meta) { meta.asset.parts.clear(); }));
+    CHECK(refuses([](AssetMeta& meta) { meta.visibilityKey = "0123"; }));
+    CHECK(refuses([](AssetMeta& meta) { meta.asset.layout = LayoutRecord{{}, 0.0, 0}; }));
+}
+
+TEST_CASE("asset file: META of any other length or with unknown words is refused") {
+    const auto refusal = [](const std::function<void(std::vector<std::byte>&)>& change) {
+        try {
+            decodeAsset(withChunk("META", kWholeFile, change), "file");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    std::vector<RawChunk> chunks = sampleChunks();
+    const std::vector<std::byte> meta = chunk(chunks, "META", kWholeFile).raw;
+    for (size_t length = 1; length < meta.size(); length++)
+        REQUIRE(refusal([&](auto& raw) { raw.resize(length); }) != "accepted");
+    CHECK(refusal([](auto& raw) { raw.push_back(std::byte(0)); }).find("no more bytes") != std::string::npos);
+    const auto replaces = [&](const std::string& from, const std::string& to) {
+        return refusal([&](std::vector<std::byte>& raw) {
+            const auto bytes = std::as_bytes(std::span(from));
+            const auto found = std::ranges::search(raw, bytes);
+            REQUIRE_FALSE(found.empty());
+            std::ranges::copy(std::as_bytes(std::span(to)), found.begin());
+        });
+    };
+    CHECK(replaces("polar-sine", "mercator!!").find("mapping") != std::string::npos);
+    CHECK(replaces("rows", "cols").find("layout") != std::string::npos);
+    CHECK(refusal([](auto& raw) { raw.resize(kLargestMeta + 1); }).find("META of at most") !=
+          std::string::npos);
+    Asset wordy = sampleAsset();
+    wordy.provenance.options = std::string(size_t(2) << 20, 'x');
+    CHECK_THROWS_WITH_AS(encodeAsset(wordy), doctest::Contains("provenance take"), Error);
 }
 
 TEST_CASE("asset file: polar maps of earlier files keep their radius") {
-    const Asset asset = decodeAsset(withMeta("\"mapping\":\"polar-sine\"", "\"mapping\":\"polar\""), "file");
+    const Asset asset = decodeAsset(withMeta([](AssetMeta& meta) {
+                                        meta.asset.parts[0].sets[0].brdf.mapping =
+                                            DiskMapping::EqualAreaPolar;
+                                    }),
+                                    "file");
     CHECK(asset.parts[0].sets[0].brdf.mapping == DiskMapping::EqualAreaPolar);
     CHECK(asset.parts[1].sets[0].brdf.mapping == DiskMapping::Polar);
 }
 
-TEST_CASE("asset file: META cannot stand for much memory") {
-    const auto deep = withMeta("\"parts\":[", "\"parts\":[" + std::string(500000, '['));
-    CHECK_THROWS_WITH_AS(decodeAsset(deep, "file"), doctest::Contains("nested too deep"), Error);
-    const auto wide = withMeta("{", "{" + std::string(kLargestChunk / 2, ' '));
-    CHECK_THROWS_WITH_AS(decodeAsset(wide, "file"), doctest::Contains("META of at most"), Error);
-    Asset wordy = sampleAsset();
-    wordy.provenance.options = std::string(size_t(2) << 20, 'x');
-    CHECK_THROWS_WITH_AS(encodeAsset(wordy), doctest::Contains("provenance take"), Error);
+TEST_CASE("asset file: sets share a residual in the file as in memory") {
+    Asset asset = sampleAsset();
+    asset.parts.push_back(asset.parts[0]);
+    asset.parts[2].name = "twin";
+    for (const size_t part : {size_t(0), size_t(2)})
+        asset.parts[part].sets[0].residual = sampleResidual(asset.parts[part].sets[0].brdf);
+    asset.parts[2].sets[0].residual = asset.parts[0].sets[0].residual;
+    const std::vector<std::byte> bytes = encodeAsset(asset);
+    CHECK_EQ(ChunkFile(bytes, "file").find(kResidualKernels, 0).size(), 1u);
+    CHECK(ChunkFile(bytes, "file").find(kResidualKernels, 3).empty());
+    const Asset read = decodeAsset(bytes, "file");
+    checkSame(read, asset);
+    CHECK(read.parts[0].sets[0].residual == read.parts[2].sets[0].residual);
+    CHECK(encodeAsset(read) == bytes);
+
+    Asset unlike = asset;
+    unlike.parts[2].sets[0].brdf.lightMaps[0].x += 1;
+    CHECK_THROWS_WITH_AS(encodeAsset(unlike), doctest::Contains("a residual shared"), Error);
+    unlike = asset;
+    for (const vec3& normal : unlike.parts[2].mesh.normals)
+        unlike.parts[2].mesh.tangents.push_back(tangentFrame(normal, {1, 2, 3}).s);
+    CHECK_THROWS_WITH_AS(encodeAsset(unlike), doctest::Contains("a residual shared"), Error);
+}
+
+TEST_CASE("asset file: residuals that do not add up are refused") {
+    const auto refusal = [](const std::function<void(ResidualSet&)>& change) {
+        Asset asset = sampleAsset();
+        const auto residual = sampleResidual(asset.parts[0].sets[0].brdf);
+        change(*residual);
+        asset.parts[0].sets[0].residual = residual;
+        try {
+            decodeAsset(encodeAsset(asset), "file");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const auto withKernel = [](ResidualSet& residual, const std::function<void(SphereKernel&)>& change) {
+        SphereKernel kernel = *residual.layers[0];
+        change(kernel);
+        residual.layers[0] = std::make_shared<const SphereKernel>(kernel);
+    };
+    CHECK(refusal([](ResidualSet&) {}) == "accepted");
+    CHECK(refusal([](ResidualSet& residual) { residual.layers.pop_back(); }).find("layers of a residual") !=
+          std::string::npos);
+    CHECK(refusal([](ResidualSet& residual) {
+              residual.irradianceWeights.pop_back();
+          }).find("irradiance weights") != std::string::npos);
+    CHECK(refusal([&](ResidualSet& residual) {
+              withKernel(residual, [](SphereKernel& kernel) { kernel.frequencies++; });
+          }).find("values of a kernel") != std::string::npos);
+    CHECK(refusal([&](ResidualSet& residual) {
+              withKernel(residual, [](SphereKernel& kernel) { kernel.values[7].y = std::nanf(""); });
+          }).find("finite kernels") != std::string::npos);
+    CHECK(refusal([&](ResidualSet& residual) {
+              withKernel(residual, [](SphereKernel& kernel) {
+                  kernel.harmonics = shared::kMostHarmonics + 1;
+                  kernel.values.resize(kernel.valueCount());
+              });
+          }).find("harmonics") != std::string::npos);
+    CHECK(refusal([](ResidualSet& residual) {
+              residual.hasNonnegativeTerms = true;
+          }).find("without negative texels") != std::string::npos);
 }
 
 TEST_CASE("asset file: a preview says how much of it is baked") {

@@ -1,4 +1,4 @@
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // The hierarchy that rays walk: nothing is lost, boxes hold what is below them.
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "precompute/visibility/bvh.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "engine/scene/closed_mesh.h"
 
+#include "engine/import/builtin_mesh.h"
 #include "engine/render/numbered_triangles.h"
-#include "engine/scene/builtin_mesh.h"
 
 #include <algorithm>
 #include <deque>

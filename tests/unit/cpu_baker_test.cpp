@@ -1,6 +1,6 @@
 // The CPU baker against the naive twins, stage by stage.
+#include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
-#include "engine/scene/builtin_mesh.h"
 #include "precompute/cpu/cpu_baker.h"
 #include "precompute/cpu/morton.h"
 #include "precompute/reference/transport_stages.h"

@@ -1,8 +1,8 @@
-#include "engine/scene/mesh_formats.h"
+#include "engine/import/mesh_formats.h"
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "engine/scene/mesh_file.h"
+#include "engine/import/mesh_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"
 

@@ -1,8 +1,8 @@
-#include "engine/scene/ground.h"
+#include "engine/import/ground.h"
 
 #include "engine/base/error.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/scene.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
 
 #include <doctest/doctest.h>
 

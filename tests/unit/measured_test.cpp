@@ -5,6 +5,7 @@
 #include "precompute/brdf/cornell.h"
 #include "precompute/brdf/merl.h"
 #include "precompute/brdf/spectrum.h"
+#include "tests/support/log_capture.h"
 #include "tests/support/temporary_folder.h"
 
 #include <array>
@@ -15,8 +16,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 #include <sstream>
 
 using namespace relume;
@@ -25,21 +24,6 @@ using dvec3 = glm::dvec3;
 namespace {
 
 constexpr double kExactPi = 3.14159265358979323846;
-
-// What the log says while this lives.
-class LogCapture {
-  public:
-    LogCapture() : mBefore(spdlog::default_logger()) {
-        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
-            "test", std::make_shared<spdlog::sinks::ostream_sink_st>(mText)));
-    }
-    ~LogCapture() { spdlog::set_default_logger(mBefore); }
-    bool says(const std::string& part) const { return mText.str().find(part) != std::string::npos; }
-
-  private:
-    std::ostringstream mText;
-    std::shared_ptr<spdlog::logger> mBefore;
-};
 
 dvec3 turn(dvec3 v, dvec3 axis, double angle) {
     return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
@@ -222,7 +206,7 @@ TEST_CASE("measured: negative values are counted, reported and filled from their
     MerlFile file = plasticFile();
     for (int p = 20; p < 40; p++)
         for (int d = 10; d < 13; d++) file.at(1, 40, d, p) = -1;
-    const LogCapture log;
+    const test::LogCapture log;
     const IsotropicTable table = parse(file);
     CHECK(log.says("60 of them above the horizon"));
     const IsotropicTable whole = parse(plasticFile());
@@ -243,7 +227,7 @@ TEST_CASE("measured: noise beyond 80 degrees is held to what a mirror could do")
                 if (std::min(wi.z, wo.z) > 0 && std::min(wi.z, wo.z) < 0.17f)
                     file.at(0, h, d, p) *= 100, noisy++;
             }
-    const LogCapture log;
+    const test::LogCapture log;
     const IsotropicTable table = parse(file);
     CHECK(log.says("beyond 80 degrees were lowered"));
     CHECK(noisy > 10000);
@@ -368,7 +352,7 @@ TEST_CASE("measured: hostile Cornell text is refused with its line") {
     refused(cornellText(flat, "0.1 0.2 0.3 0.4 1e30" + values.substr(4) + "\n"),
             last + "expected values up to");
     refused(cornellText([](double) { return -0.1; }), "no sample has a positive value");
-    const LogCapture log;
+    const test::LogCapture log;
     const auto table =
         parseCornell(cornellText(flat, "0.1 0.2 0.3 0.4 -1" + values.substr(4) + "\n"), "x.brdf");
     CHECK(log.says("1 values are negative"));

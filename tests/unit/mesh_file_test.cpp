@@ -1,13 +1,14 @@
-#include "engine/scene/mesh_file.h"
+#include "engine/import/mesh_file.h"
 
 #include "engine/base/error.h"
-#include "engine/scene/builtin_mesh.h"
-#include "engine/scene/mesh_cleanup.h"
-#include "engine/scene/polygon.h"
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/mesh_cleanup.h"
+#include "engine/import/polygon.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <random>
 
 using namespace relume;

@@ -1,10 +1,11 @@
 #include "engine/base/error.h"
-#include "engine/image/image_file.h"
-#include "engine/light/light_file.h"
+#include "engine/import/image_file.h"
+#include "engine/import/light_file.h"
 #include "engine/light/sun_position.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 using namespace relume;
 using relume::test::TemporaryFolder;

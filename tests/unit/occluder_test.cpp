@@ -1,6 +1,6 @@
 #include "precompute/visibility/occluder.h"
 
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "precompute/visibility/flat_mesh.h"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // The sampled reference against the exact one, and what it says of its own noise.
 #include "precompute/reference/progressive_reference.h"
 
+#include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
-#include "engine/scene/builtin_mesh.h"
 #include "precompute/reference/reference_image.h"
 #include "tests/support/diffuse_asset.h"
 

@@ -1,7 +1,7 @@
 // Rays against triangles whose hits are known.
 #include "precompute/reference/ray_tracer.h"
 
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <algorithm>

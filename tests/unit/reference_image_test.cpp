@@ -2,9 +2,9 @@
 #include "precompute/reference/reference_image.h"
 
 #include "engine/base/error.h"
+#include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/tangent_frame.h"
-#include "engine/scene/builtin_mesh.h"
 #include "precompute/brdf/brdf.h"
 #include "tests/support/diffuse_asset.h"
 

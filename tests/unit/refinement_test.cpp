@@ -2,7 +2,7 @@
 #include "precompute/refine/refinement.h"
 
 #include "engine/base/error.h"
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "precompute/layout/light_spectrum.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/refine/edge_split.h"

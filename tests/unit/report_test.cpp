@@ -2,7 +2,7 @@
 #include "apps/evaluation/base64.h"
 #include "apps/evaluation/report_html.h"
 #include "engine/base/error.h"
-#include "engine/image/image_file.h"
+#include "engine/import/image_file.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cstring>

@@ -1,5 +1,5 @@
 // Which vertices a preview bakes, and what it makes of them.
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "precompute/bake/coarse_neighbours.h"
 #include "precompute/bake/coarse_vertices.h"
 #include "precompute/bake/row_interpolation.h"

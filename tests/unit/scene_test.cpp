@@ -1,9 +1,9 @@
-#include "engine/scene/scene.h"
+#include "engine/import/scene.h"
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/nearest_name.h"
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"

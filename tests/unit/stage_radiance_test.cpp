@@ -138,24 +138,24 @@ TEST_CASE("stages: the table is what all terms are, and the light map's lookup i
 }
 
 TEST_CASE("error grid: it predicts the drawn image's error, whatever K and N") {
-    const Asset most = bakeCourt(1);
+    Asset most = bakeCourt(1);
+    makeResiduals(most);
     const Appearance appearance = defaultAppearance(most);
     const Camera camera = cameraOf(most);
     const ViewPoints points = viewPoints(RayTracer(partMeshes(most)), camera, 12, 9);
     const StageLight light = skyOf(32, {});
     const SeenPoints seen{camera.eye, points.hits};
     const std::vector<vec3> exact = exactRadiance(most, appearance, std::span(&seen, 1), light.fine);
-    const Residuals residuals = makeResiduals(most);
-    REQUIRE(residuals[0][0]);
+    REQUIRE(most.parts[0].sets[0].residual);
     const ErrorGrid grid =
-        errorGrid(most, appearance, residuals, std::span(&seen, 1), exact, {light.drawn, light.coarse});
+        errorGrid(most, appearance, std::span(&seen, 1), exact, {light.drawn, light.coarse});
     CHECK(grid.terms == kTerms);
     CHECK(grid.shares[0] == doctest::Approx(1));
     for (const size_t rung : {size_t(2), size_t(6), size_t(9)}) {
-        const Asset asset = bakeCourt(kTriedCoefficients[rung]);
-        const auto stages = StageTracer(asset, appearance, residuals)
-                                .trace(points.hits, camera.eye, std::span(&light, 1))
-                                .front();
+        Asset asset = bakeCourt(kTriedCoefficients[rung]);
+        makeResiduals(asset);
+        const auto stages =
+            StageTracer(asset, appearance).trace(points.hits, camera.eye, std::span(&light, 1)).front();
         // But for quantisation, and single rays towards the truth.
         CHECK(grid.errors[kTerms - 1][rung] == doctest::Approx(errorBudget(stages).total).epsilon(0.03));
         const SparseTransport& rows = rowsOf(asset.parts[0].sets[0].transport);

@@ -1,7 +1,7 @@
 // Fields of tangents: what they follow, and where they cannot.
 #include "precompute/bake/tangents.h"
 
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+#include "engine/import/texture_file.h"
 #include "engine/scene/texture.h"
 
 #include "engine/base/error.h"

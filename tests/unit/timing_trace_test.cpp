@@ -1,5 +1,5 @@
 #include "engine/base/error.h"
-#include "engine/base/timing_trace.h"
+#include "engine/import/timing_file.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>

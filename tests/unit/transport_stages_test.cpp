@@ -2,8 +2,8 @@
 #include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
 
+#include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
-#include "engine/scene/builtin_mesh.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What is culled ahead of drawing, held against the triangles themselves.
 #include "engine/render/triangle_clusters.h"
 
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 #include "engine/scene/camera.h"
 
 #include <algorithm>

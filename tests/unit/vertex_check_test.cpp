@@ -1,8 +1,8 @@
 // A vertex recomputed from an asset matches the row that the same stages stored, and no other.
 #include "precompute/reference/vertex_check.h"
 
+#include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
-#include "engine/scene/builtin_mesh.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <doctest/doctest.h>

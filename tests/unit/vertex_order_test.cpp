@@ -1,6 +1,6 @@
 #include "precompute/bake/vertex_order.h"
 
-#include "engine/scene/builtin_mesh.h"
+#include "engine/import/builtin_mesh.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -1,8 +1,9 @@
 // The light that is chosen, and the file that says the same.
 #include "apps/viewer/light_choice.h"
+#include "engine/import/environment_file.h"
 
-#include "engine/image/image_file.h"
-#include "engine/light/light_file.h"
+#include "engine/import/image_file.h"
+#include "engine/import/light_file.h"
 #include "engine/light/sun_position.h"
 #include "tests/support/temporary_folder.h"
 
@@ -129,9 +130,7 @@ TEST_CASE("light choice: what plays is the file's time, the day, or a turn") {
     play(state, 2);
     CHECK(state.sky.hour == doctest::Approx(0.5));
     CHECK(state.rotation == doctest::Approx(-160));
-    const auto fileOf = [](const char* text) {
-        return std::make_shared<MovingLight>(nlohmann::json::parse(text), "light", ".");
-    };
+    const auto fileOf = [](const char* text) { return std::make_shared<MovingLight>(text, "light", "."); };
     state.file = fileOf(R"({"lamps": [{"azimuth": {"keys": [[0, 0], [4, 90]]}, "elevation": 0, "radius": 5,
                                        "radiance": [1, 1, 1]}]})");
     play(state, 1.5);

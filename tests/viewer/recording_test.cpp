@@ -1,6 +1,8 @@
 // Numbered images of what the window shows.
 #include "tests/support/viewer_session.h"
 
+#include <fmt/format.h>
+
 using namespace relume;
 using namespace relume::test;
 using nlohmann::json;

@@ -1,6 +1,8 @@
 // Shaders built anew while the window is open.
 #include "tests/support/viewer_session.h"
 
+#include <fmt/format.h>
+
 using namespace relume;
 using namespace relume::test;
 using nlohmann::json;

@@ -1,5 +1,6 @@
 // Work beside the frames, and what is recorded with it.
 #include "apps/viewer/worker.h"
+#include "engine/import/texture_file.h"
 
 #include "apps/viewer/recorder.h"
 #include "engine/base/error.h"
@@ -8,6 +9,7 @@
 
 #include <atomic>
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <future>
 
 using namespace relume;

@@ -1,0 +1,190 @@
+// Bakes.
+#include "precompute/bake/bake.h"
+#include "apps/python/module.h"
+#include "engine/import/asset_info.h"
+#include "precompute/bake/bake_preset.h"
+
+#include <fmt/format.h>
+
+namespace relume::python {
+
+namespace {
+
+// Takes options off `given` by name, so that what is left over is unknown.
+class GivenOptions {
+  public:
+    explicit GivenOptions(const py::kwargs& given) : mGiven(given) {}
+
+    template <typename T>
+    void take(const char* name, T& option) {
+        if (const py::object value = pop(name); !value.is_none()) option = value.cast<T>();
+    }
+    py::object pop(const char* name) { return mGiven.attr("pop")(name, py::none()); }
+
+    void expectNoMore() const {
+        if (!mGiven.empty())
+            throw py::type_error(
+                fmt::format("bake() has no option \"{}\"", mGiven.begin()->first.cast<std::string>()));
+    }
+
+  private:
+    py::dict mGiven;
+};
+
+BakePreset presetFrom(const std::string& name) {
+    for (const BakePreset preset : kBakePresets)
+        if (name == presetName(preset)) return preset;
+    throw UsageError(fmt::format("preset: expected default or paper, found \"{}\"", name));
+}
+
+template <typename Value>
+Value known(const std::optional<Value>& value, const char* option, const std::string& text) {
+    if (!value) throw UsageError(fmt::format("{}: \"{}\" is unknown", option, text));
+    return *value;
+}
+
+void takeLayout(GivenOptions& given, BakeOptions& options) {
+    std::string layout(layoutName(options.layout.layout));
+    given.take("layout", layout);
+    const TransportLayout kept = known(layoutFromName(layout), "layout", layout);
+    if (kept != options.layout.layout) options.layout = {.layout = kept};
+    given.take("budget", options.layout.bytesPerVertex);
+    if (const py::object error = given.pop("error"); !error.is_none()) {
+        options.layout.error = error.cast<double>();
+        options.layout.bytesPerVertex.reset();
+    }
+    options.coefficients = defaultCoefficients(kept);
+    given.take("coefficients", options.coefficients);
+}
+
+void takeVisibility(GivenOptions& given, BakeOptions& options) {
+    const py::object name = given.pop("visibility");
+    if (name.is_none()) return;
+    options.visibilityMethod.reset();
+    for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
+        if (name.cast<std::string>() == visibilityMethodName(method)) options.visibilityMethod = method;
+    if (!options.visibilityMethod && name.cast<std::string>() != "auto")
+        throw UsageError("visibility: expected traced, raster or auto");
+}
+
+void takeRefinement(GivenOptions& given, BakeOptions& options) {
+    const py::object refine = given.pop("refine");
+    if (refine.is_none() || (py::isinstance<py::str>(refine) && refine.cast<std::string>() == "auto")) return;
+    options.refinement.reset();
+    if (py::isinstance<py::str>(refine)) {
+        if (refine.cast<std::string>() != "off") throw UsageError("refine: expected auto, off or an error");
+        return;
+    }
+    RefinementRecord record;
+    record.wanted = refine.cast<decltype(record.wanted)>();
+    options.refinement = record;
+}
+
+BakeOptions optionsFrom(const py::kwargs& kwargs) {
+    GivenOptions given(kwargs);
+    std::string preset = "default";
+    given.take("preset", preset);
+    BakeOptions options = presetOptions(presetFrom(preset));
+    given.take("terms", options.factorization.terms);
+    if (const py::object name = given.pop("factorization"); !name.is_none())
+        options.factorization.method =
+            known(factorizationFromName(name.cast<std::string>()), "factorization", name.cast<std::string>());
+    takeLayout(given, options);
+    given.take("map_size", options.mapSize);
+    given.take("face_size", options.faceSize);
+    given.take("visibility_size", options.visibilitySize);
+    options.transportSamples = std::min(options.transportSamples, options.mostTransportSamples());
+    given.take("transport_samples", options.transportSamples);
+    given.take("occluder_triangles", options.occluderTriangles);
+    given.take("keep_visibility", options.keepVisibility);
+    takeVisibility(given, options);
+    takeRefinement(given, options);
+    given.expectNoMore();
+    options.validate();
+    return options;
+}
+
+// Tells Python how far a bake is.
+class Reporter : public BakeObserver {
+  public:
+    explicit Reporter(const std::function<void(double)>& tell) : mTell(tell) {}
+    void stage(BakeStage, const std::string&) override { mTell(mShare); }
+    void progress(const BakeStatus& status) override { mTell(mShare = std::max(mShare, status.fraction)); }
+
+  private:
+    const std::function<void(double)>& mTell;
+    double mShare = 0;
+};
+
+std::shared_ptr<Asset> bakeScene(const SceneBuilder& builder,
+                                 const std::optional<std::filesystem::path>& output,
+                                 const py::object& progress, const py::kwargs& kwargs) {
+    const BakeOptions options = optionsFrom(kwargs);
+    if (options.keepVisibility && !output)
+        throw UsageError("keep_visibility: visibility is kept in a file; give output");
+    const Scene scene = builder.build(options.refinement.has_value());
+    const vk::Device& on = device();
+    std::shared_ptr<Asset> asset;
+    runLong(progress, [&](const std::function<void(double)>& tell) {
+        Reporter reporter(tell);
+        if (output) {
+            bakeToFile(on, scene, options, *output, {}, reporter);
+            asset = std::make_shared<Asset>(readAsset(*output));
+        } else {
+            asset = std::make_shared<Asset>(bake(on, scene, options, reporter));
+        }
+        tell(1);
+    });
+    return asset;
+}
+
+std::vector<std::string> materialsOf(const Asset& asset) {
+    std::vector<std::string> names;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            for (const AssetMaterial& material : set.materials)
+                if (std::ranges::find(names, material.name) == names.end()) names.push_back(material.name);
+    return names;
+}
+
+} // namespace
+
+void addBake(py::module_& module) {
+    py::class_<Asset, std::shared_ptr<Asset>>(module, "Asset")
+        .def_static(
+            "load",
+            [](const std::filesystem::path& path) { return std::make_shared<Asset>(readAsset(path)); },
+            py::arg("path"), py::call_guard<py::gil_scoped_release>())
+        .def(
+            "save", [](const Asset& asset, const std::filesystem::path& path) { writeAsset(path, asset); },
+            py::arg("path"), py::call_guard<py::gil_scoped_release>())
+        .def_property_readonly("parts",
+                               [](const Asset& asset) {
+                                   std::vector<std::string> names;
+                                   for (const AssetPart& part : asset.parts) names.push_back(part.name);
+                                   return names;
+                               })
+        .def_property_readonly("materials", materialsOf)
+        .def_property_readonly("vertices",
+                               [](const Asset& asset) {
+                                   size_t vertices = 0;
+                                   for (const AssetPart& part : asset.parts)
+                                       vertices += part.mesh.vertexCount();
+                                   return vertices;
+                               })
+        .def("info",
+             [](const Asset& asset) {
+                 std::string text;
+                 {
+                     const py::gil_scoped_release unlocked;
+                     text = describeAssetJson(asset, encodeAsset(asset).size());
+                 }
+                 return parsed(text);
+             })
+        .def(
+            "mesh", [](const Asset& asset, size_t part) { return asset.parts.at(part).mesh; },
+            py::arg("part") = 0);
+    module.def("_bake", bakeScene);
+}
+
+} // namespace relume::python

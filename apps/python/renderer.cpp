@@ -1,0 +1,160 @@
+// Pictures and tuples from bakes.
+#include "apps/python/module.h"
+#include "engine/base/error.h"
+#include "engine/import/image_file.h"
+#include "engine/render/auto_exposure.h"
+#include "engine/render/background_pass.h"
+#include "engine/render/compare.h"
+#include "engine/render/tone_map.h"
+#include "engine/render/view_pass.h"
+
+namespace relume::python {
+
+namespace {
+
+Camera cameraOf(const Asset& asset, float azimuth, float elevation, float distance, float fov, float aspect) {
+    return orbitCamera(objectBounds(asset), glm::radians(azimuth), glm::radians(elevation), distance,
+                       glm::radians(fov), aspect);
+}
+
+class Renderer {
+  public:
+    Renderer(std::shared_ptr<const Asset> asset, std::pair<int, int> size, int samples, bool residual)
+        : mAsset(std::move(asset)), mLight(device(), mAsset->faceSize),
+          mRelighter(device(), *mAsset, {.residual = residual}),
+          mView(device(), *mAsset, {.width = size.first, .height = size.second, .samples = samples}),
+          mAppearance(defaultAppearance(*mAsset)), mSize(size) {}
+
+    void wear(const std::map<std::string, float>& blend) {
+        std::vector<WeightedMaterial> materials;
+        for (const auto& [name, weight] : blend) materials.push_back({name, weight});
+        relume::wear(mAppearance, *mAsset, materials);
+        mView.setAppearance(mAppearance);
+    }
+
+    void setSelection(std::optional<int> threshold, std::optional<int> coefficients) {
+        mSelection = {};
+        if (threshold || coefficients) mSelection = {threshold, coefficients.value_or(kDefaultLightCount)};
+    }
+
+    Image render(const Light& light, const std::optional<Camera>& camera, bool showsLight) {
+        const Camera eye = camera.value_or(defaultCamera(objectBounds(*mAsset), glm::radians(35.0f),
+                                                         float(mSize.first) / float(mSize.second)));
+        std::optional<BackgroundPass> background;
+        if (showsLight) {
+            background.emplace(device());
+            background->setLight(light, 0);
+        }
+        mView.setGroundFade(showsLight ? makeGroundFade(*mAsset) : std::nullopt);
+        mLight.setLight(light);
+        vk::Commands commands(device(), "render");
+        commands.begin();
+        mLight.record(commands, 0, mSelection);
+        mRelighter.record(commands, mLight, mAppearance);
+        mView.record(commands, eye, mRelighter);
+        if (background) background->record(commands, mView.image(), eye, 0);
+        commands.submitAndWait();
+        return background ? background->read() : mView.read();
+    }
+
+    // Per part (rows of its vertices, K of each).
+    std::vector<std::pair<std::vector<vec3>, size_t>> relight(const Light& light) {
+        mLight.setLight(light);
+        vk::Commands commands(device(), "relight");
+        commands.begin();
+        mLight.record(commands, 0, mSelection);
+        mRelighter.record(commands, mLight, mAppearance);
+        commands.submitAndWait();
+        std::vector<std::pair<std::vector<vec3>, size_t>> tuples;
+        for (size_t part = 0; part < mAsset->parts.size(); part++) {
+            const size_t set = mAppearance[part].set;
+            tuples.emplace_back(mRelighter.readTuples(part, set),
+                                size_t(mAsset->parts[part].sets[set].brdf.terms));
+        }
+        return tuples;
+    }
+
+  private:
+    std::shared_ptr<const Asset> mAsset;
+    LightPass mLight;
+    Relighter mRelighter;
+    ViewPass mView;
+    Appearance mAppearance;
+    LightSelection mSelection;
+    std::pair<int, int> mSize;
+};
+
+py::list relight(Renderer& renderer, const Light& light) {
+    std::vector<std::pair<std::vector<vec3>, size_t>> tuples;
+    {
+        const py::gil_scoped_release unlocked;
+        tuples = renderer.relight(light);
+    }
+    py::list parts;
+    for (auto& [values, terms] : tuples) {
+        const auto vertices = py::ssize_t(values.size() / terms);
+        parts.append(arrayOf(std::move(values), {vertices, py::ssize_t(terms)}));
+    }
+    return parts;
+}
+
+// As `relume render` writes it: linear to .exr, tone-mapped to .png. Returns the exposure of the latter.
+float save(const std::filesystem::path& path, const Array<float>& array, std::optional<float> exposure,
+           const std::string& tone) {
+    Image image = imageOf(array, "image");
+    const std::optional<ToneCurve> curve = toneCurveFromName(tone);
+    if (!curve) throw py::value_error("tone: expected none, aces or agx");
+    const py::gil_scoped_release unlocked;
+    if (path.extension() == ".exr") {
+        writeExr(path, image);
+        return 0;
+    }
+    if (path.extension() != ".png") throw UsageError("save: expected a name ending in .exr or .png");
+    const float stops = exposure ? *exposure : autoExposure(image);
+    for (vec4& pixel : image.pixels) // alpha of .png is not premultiplied
+        if (pixel.w > 0 && pixel.w < 1) pixel = vec4(vec3(pixel) / pixel.w, pixel.w);
+    writePng(path, toneMap(image, *curve, stops));
+    return stops;
+}
+
+py::dict compare(const Array<float>& image, const Array<float>& reference) {
+    const ImageDifference difference =
+        compareImages(imageOf(image, "image"), imageOf(reference, "reference"));
+    py::dict result;
+    result["relative_rmse"] = difference.relativeRmse;
+    result["psnr"] = difference.psnr;
+    result["max_difference"] = difference.maxDifference;
+    result["flip"] = difference.flip;
+    return result;
+}
+
+} // namespace
+
+void addRenderer(py::module_& module) {
+    py::class_<Renderer>(module, "Renderer")
+        .def(py::init<std::shared_ptr<const Asset>, std::pair<int, int>, int, bool>(), py::arg("asset"),
+             py::arg("size"), py::arg("samples"), py::arg("residual"),
+             py::call_guard<py::gil_scoped_release>())
+        .def("wear", &Renderer::wear)
+        .def("select_light", &Renderer::setSelection, py::arg("threshold") = py::none(),
+             py::arg("coefficients") = py::none())
+        .def(
+            "render",
+            [](Renderer& renderer, const Light& light, const std::optional<Camera>& camera, bool showsLight) {
+                Image image;
+                {
+                    const py::gil_scoped_release unlocked;
+                    image = renderer.render(light, camera, showsLight);
+                }
+                return arrayOf(std::move(image));
+            })
+        .def("relight", relight, py::arg("light"));
+    module.def("_orbit", cameraOf);
+    module.def("_save", save);
+    module.def(
+        "load_image", [](const std::filesystem::path& path) { return arrayOf(readImage(path).image); },
+        py::arg("path"));
+    module.def("compare", compare, py::arg("image"), py::arg("reference"));
+}
+
+} // namespace relume::python

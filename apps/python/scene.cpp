@@ -1,0 +1,121 @@
+// Meshes and scenes.
+#include "apps/python/module.h"
+#include "engine/import/mesh_cleanup.h"
+#include "engine/import/mesh_file.h"
+#include "precompute/brdf/material_list.h"
+
+namespace relume::python {
+
+namespace {
+
+const char* const kDefaultMaterial = "gold";
+
+// From arrays, checked and welded as a file's is.
+Mesh makeMesh(const Array<float>& positions, const Array<uint32_t>& triangles,
+              const std::optional<Array<float>>& normals, const std::optional<Array<float>>& uvs,
+              const std::optional<Array<float>>& colors) {
+    Mesh mesh;
+    mesh.positions = elementsOf<vec3>(positions, "positions");
+    mesh.triangles = elementsOf<uvec3, uint32_t>(triangles, "triangles");
+    const auto expectCount = [&](size_t count, const char* name) {
+        if (count != mesh.positions.size())
+            throw py::value_error(std::string(name) + ": expected one for each of " +
+                                  std::to_string(mesh.positions.size()) + " positions, found " +
+                                  std::to_string(count));
+    };
+    if (normals) expectCount((mesh.normals = elementsOf<vec3>(*normals, "normals")).size(), "normals");
+    if (uvs) expectCount((mesh.uvs = elementsOf<vec2>(*uvs, "uvs")).size(), "uvs");
+    if (colors) expectCount((mesh.colors = elementsOf<vec4>(*colors, "colors")).size(), "colors");
+    const py::gil_scoped_release unlocked;
+    return cleanUp(std::move(mesh), "mesh");
+}
+
+py::array_t<uint32_t> trianglesOf(const Mesh& mesh) {
+    py::array_t<uint32_t> array({py::ssize_t(mesh.triangles.size()), py::ssize_t(3)});
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), reinterpret_cast<uvec3*>(array.mutable_data()));
+    return array;
+}
+
+void addFile(SceneBuilder& builder, const std::string& file, const std::optional<std::string>& material,
+             bool isZUp, float brushRotation) {
+    const bool takesOwn = !material && hasOwnMaterials(file);
+    std::vector<Part> parts =
+        loadParts(file, isZUp ? UpAxis::Z : UpAxis::Y,
+                  takesOwn ? std::nullopt : std::optional(material.value_or(kDefaultMaterial)));
+    for (Part& part : parts) {
+        part.brushRotation = brushRotation;
+        builder.scene.parts.push_back(std::move(part));
+    }
+}
+
+void addMesh(SceneBuilder& builder, const Mesh& mesh, const std::optional<std::string>& material,
+             const std::optional<std::string>& name, float brushRotation) {
+    Part part;
+    part.name = name.value_or("mesh");
+    part.mesh = mesh;
+    part.material = material.value_or(kDefaultMaterial);
+    part.source = "an array";
+    part.brushRotation = brushRotation;
+    readMaterials(part.material);
+    builder.scene.parts.push_back(std::move(part));
+}
+
+} // namespace
+
+Scene SceneBuilder::build(bool isRefined) const {
+    Scene whole = scene;
+    if (whole.parts.empty()) throw py::value_error("the scene has no parts; add a mesh");
+    if (!ground) return whole;
+    GroundOptions options;
+    options.extent = ground->extent;
+    if (ground->tessellation)
+        options.tessellation = *ground->tessellation;
+    else if (isRefined) {
+        options.tessellation = kRefinedGroundQuads;
+        options.isStart = true;
+    }
+    addGround(whole, options, ground->material);
+    return whole;
+}
+
+void addScene(py::module_& module) {
+    py::class_<Mesh>(module, "Mesh")
+        .def(py::init(&makeMesh), py::arg("positions"), py::arg("triangles"), py::arg("normals") = py::none(),
+             py::arg("uvs") = py::none(), py::arg("colors") = py::none())
+        .def_static(
+            "load", [](const std::filesystem::path& path) { return readMesh(path); }, py::arg("path"),
+            py::call_guard<py::gil_scoped_release>())
+        .def_property_readonly(
+            "positions",
+            [](const Mesh& mesh) { return arrayOf(mesh.positions, {py::ssize_t(mesh.positions.size())}); })
+        .def_property_readonly(
+            "normals",
+            [](const Mesh& mesh) { return arrayOf(mesh.normals, {py::ssize_t(mesh.normals.size())}); })
+        .def_property_readonly("triangles", trianglesOf);
+
+    py::class_<SceneBuilder>(module, "Scene")
+        .def(py::init<>())
+        .def_static(
+            "load",
+            [](const std::filesystem::path& path) {
+                return SceneBuilder{readScene(path), {}};
+            },
+            py::arg("path"), py::call_guard<py::gil_scoped_release>())
+        .def("_add_file", addFile)
+        .def("_add_mesh", addMesh)
+        .def(
+            "add_ground",
+            [](SceneBuilder& builder, std::string material, std::optional<int> tessellation, float extent) {
+                builder.ground = SceneBuilder::Ground{std::move(material), tessellation, extent};
+            },
+            py::arg("material") = "white-diffuse", py::arg("tessellation") = py::none(),
+            py::arg("extent") = GroundOptions().extent)
+        .def_property_readonly("parts", [](const SceneBuilder& builder) {
+            std::vector<std::string> names;
+            for (const Part& part : builder.scene.parts) names.push_back(part.name);
+            if (builder.ground) names.emplace_back("ground");
+            return names;
+        });
+}
+
+} // namespace relume::python

@@ -1,0 +1,10 @@
+// All that a program needs which reads meshes, images, lights and scenes from files: relume::import.
+#pragma once
+
+#include "engine/import/asset_info.h"
+#include "engine/import/environment_file.h"
+#include "engine/import/image_file.h"
+#include "engine/import/light_file.h"
+#include "engine/import/mesh_file.h"
+#include "engine/import/scene.h"
+#include "engine/import/texture_file.h"

@@ -1,0 +1,223 @@
+#include "engine/import/asset_info.h"
+
+#include "engine/transport/asset_meta.h"
+#include "engine/transport/chunk_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace relume {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr size_t kLargestDepth = 8; // of nested arrays and objects
+
+// JSON where the text is JSON of no great depth, else the text itself: printing recurses.
+Json jsonOrText(const std::string& text) {
+    bool isDeep = false;
+    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
+        isDeep |= size_t(depth) > kLargestDepth;
+        return !isDeep;
+    };
+    Json json = Json::parse(text, bound, false);
+    return isDeep || json.is_discarded() ? Json(text) : json;
+}
+
+double ratio(uint64_t numerator, uint64_t denominator) {
+    return denominator == 0 ? 0.0 : double(numerator) / double(denominator);
+}
+
+Json describeSet(const MaterialSet& set) {
+    Json eigenvalues = Json::array(), materials = Json::array();
+    for (const auto& channels : set.brdf.eigenvalues) eigenvalues.push_back(channels);
+    for (const AssetMaterial& material : set.materials)
+        materials.push_back({{"name", material.name},
+                             {"brdf", jsonOrText(material.description)},
+                             {"textured_base", material.hasBase}});
+    return {{"materials", materials},
+            {"terms", set.brdf.terms},
+            {"map_size", set.brdf.size},
+            {"mapping", diskMappingName(set.brdf.mapping)},
+            {"eigenvalues", eigenvalues},
+            {"residual", set.residual != nullptr},
+            {"layout", layoutName(layoutOf(set.transport))},
+            {"bytes_per_vertex", ratio(bytesOf(set.transport), verticesOf(set.transport))}};
+}
+
+Json describePart(const AssetPart& part) {
+    Json json = {
+        {"name", part.name}, {"vertices", part.mesh.vertexCount()}, {"triangles", part.mesh.triangleCount()}};
+    if (part.baseColor) json["base_color"] = {part.baseColor->width, part.baseColor->height};
+    if (part.materialMap) json["material_map"] = {part.materialMap->width, part.materialMap->height};
+    if (part.paintedByColors) json["material_map"] = "colors";
+    if (!part.mesh.tangents.empty()) json["tangents"] = true;
+    json["sets"] = Json::array();
+    for (const MaterialSet& set : part.sets) json["sets"].push_back(describeSet(set));
+    return json;
+}
+
+std::string describeSamples(int samples) {
+    switch (samples) {
+    case 1:
+        return "one evaluation per lighting texel, an approximation";
+    case 4:
+        return "four evaluations per lighting texel, one per quadrant, an approximation";
+    default:
+        return fmt::format("{} evaluations per lighting texel", samples);
+    }
+}
+
+std::string describeLayout(const Transport& transport) {
+    switch (layoutOf(transport)) {
+    case TransportLayout::Rows:
+        return "rows, 11, 11 and 10 bits for red, green and blue";
+    case TransportLayout::Clusters:
+        return fmt::format("clusters, {} vertices share their coefficients; 11, 11 and 10 bits",
+                           kClusterVertices);
+    case TransportLayout::Bases:
+        return fmt::format("bases, {} vertices share basis vectors; 8 bits for these and for weights",
+                           kBasisVertices);
+    }
+    return "";
+}
+
+// Returns the value of an option that the bake recorded, or null.
+Json optionOf(const Asset& asset, const char* key) {
+    const Json options = jsonOrText(asset.provenance.options);
+    return options.is_object() && options.contains(key) ? options[key] : Json();
+}
+
+// Takes a record of refinement, or null.
+std::string describeInterpolation(const Json& record) {
+    const auto number = [&](const char* key) {
+        return record.is_object() && record.contains(key) && record[key].is_number()
+                   ? record[key].get<double>()
+                   : -1;
+    };
+    const double error = number("error"), from = number("start_vertices"), to = number("vertices");
+    if (error < 0 || from < 0 || to < 0) return "interpolation between vertices: linear, of unknown error";
+    const bool isAuto = record.contains("auto") && record["auto"] == true;
+    return fmt::format(
+        "interpolation between vertices: {:.2f} % of reflected light{} as estimated, meshes refined "
+        "from {:.0f} to {:.0f} vertices",
+        100 * error, isAuto ? " of the parts that came coarse" : "", from, to);
+}
+
+std::string describeVisibility(const Asset& asset) {
+    const Json triangles = optionOf(asset, "occluder_triangles");
+    const std::string occluder =
+        !triangles.is_number() ? "an unknown occluder"
+        : triangles > 0 ? fmt::format("a model simplified to {} triangles", asset.occluder.triangleCount())
+                        : "all triangles";
+    const Json method = optionOf(asset, "visibility");
+    return fmt::format("visibility: {}, in 6 x {}² directions, taken {:g} above each vertex, of {}",
+                       method == "raster"   ? "drawn"
+                       : method == "traced" ? "traced"
+                                            : "found in an unknown way",
+                       asset.visibilitySize, asset.visibilityOffset, occluder);
+}
+
+// Names the method and the values that the terms of all sets are found by.
+std::string describeTerms(const Asset& asset) {
+    const Json method = optionOf(asset, "factorization");
+    if (!method.is_string()) return "BRDF terms: of an unknown factorization";
+    const auto name = method.get<std::string>();
+    const bool hasCentres = name == "paper" || name == "normalized";
+    return fmt::format("BRDF terms: of factorization {}, from values of f {}", name,
+                       hasCentres ? "at the maps' texel centres" : "averaged over the maps' texels");
+}
+
+Json describeApproximations(const Asset& asset) {
+    const int all = 6 * asset.faceSize * asset.faceSize;
+    Json list = Json::array();
+    list.push_back(fmt::format("light: infinitely far away, direct alone, even over each of 6 x {}² texels",
+                               asset.faceSize));
+    list.push_back(describeVisibility(asset));
+    list.push_back(describeInterpolation(optionOf(asset, "refinement")));
+    list.push_back("transport: " + describeSamples(asset.transportSamples));
+    if (asset.coefficients < all)
+        list.push_back(
+            fmt::format("truncation: the {} largest of {} coefficients of a vertex and term were kept",
+                        asset.coefficients, all));
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            list.push_back(fmt::format("layout of {}: {}", part.name, describeLayout(set.transport)));
+    if (asset.layout)
+        list.push_back(fmt::format(
+            "error of the layout against the rows as baked: {:.2f} % of what tells vertices apart, {}",
+            100 * asset.layout->error,
+            asset.layout->wantedBytes
+                ? fmt::format("{:g} bytes a vertex being asked for", *asset.layout->wantedBytes)
+                : fmt::format("{:g} % being asked for", 100 * asset.layout->wantedError.value_or(0))));
+    list.push_back(describeTerms(asset));
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            list.push_back(fmt::format(
+                "BRDF of {}: {} terms, maps of {} x {}{}; what they leave of it is added, unshadowed, "
+                "when it is drawn",
+                part.name, set.brdf.terms, set.brdf.size, set.brdf.size,
+                set.brdf.layers > 1 ? ", light maps shared in a set" : ""));
+    if (asset.provenance.bakedShare)
+        list.push_back(fmt::format("preview: {:.0f} % of the vertices are baked, the others interpolated",
+                                   100 * *asset.provenance.bakedShare));
+    return list;
+}
+
+Json describeLayout(const LayoutRecord& layout) {
+    Json json = Json::object();
+    if (layout.wantedBytes) json["wanted_bytes_per_vertex"] = *layout.wantedBytes;
+    if (layout.wantedError) json["wanted_error"] = *layout.wantedError;
+    json["error"] = layout.error;
+    return json;
+}
+
+Json describeTotal(const Asset& asset) {
+    uint64_t vertices = 0, triangles = 0, bytes = 0;
+    for (const AssetPart& part : asset.parts) {
+        vertices += part.mesh.vertexCount();
+        triangles += part.mesh.triangleCount();
+        for (const MaterialSet& set : part.sets) bytes += bytesOf(set.transport);
+    }
+    return {{"vertices", vertices},
+            {"triangles", triangles},
+            {"bytes_per_vertex", ratio(bytes, vertices)},
+            {"transport_bytes", bytes}};
+}
+
+} // namespace
+
+std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t visibilityBytes) {
+    const Json total = describeTotal(asset);
+    Json parts = Json::array();
+    for (const AssetPart& part : asset.parts) parts.push_back(describePart(part));
+    Json info = {{"format_version", kAssetFormatVersion},
+                 {"file_bytes", fileBytes},
+                 {"face_size", asset.faceSize},
+                 {"visibility_size", asset.visibilitySize},
+                 {"coefficients", asset.coefficients},
+                 {"transport_samples", asset.transportSamples},
+                 {"visibility_offset", asset.visibilityOffset},
+                 {"truncation_error", asset.truncationError},
+                 {"quantization_error", asset.quantisationError},
+                 {"layout_error", asset.layout ? describeLayout(*asset.layout) : Json()},
+                 {"approximations", describeApproximations(asset)},
+                 {"occluder_triangles", asset.occluder.triangleCount()},
+                 {"total", total},
+                 {"kept_visibility",
+                  {{"bytes", visibilityBytes},
+                   {"bytes_per_vertex", ratio(visibilityBytes, total["vertices"].get<uint64_t>())}}},
+                 {"parts", parts},
+                 {"provenance",
+                  {{"program", asset.provenance.program},
+                   {"device", asset.provenance.device},
+                   {"options", jsonOrText(asset.provenance.options)},
+                   {"inputs", jsonOrText(asset.provenance.inputs)}}}};
+    if (const Json refinement = optionOf(asset, "refinement"); !refinement.is_null())
+        info["refinement"] = refinement;
+    if (asset.provenance.bakedShare) info["preview"] = {{"baked_share", *asset.provenance.bakedShare}};
+    return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace relume

@@ -1,0 +1,224 @@
+#include "engine/import/gltf_material.h"
+#include "engine/base/log.h"
+#include "engine/import/texture_file.h"
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/import/gltf_accessor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/ranges.h>
+
+namespace relume {
+namespace {
+
+using Json = nlohmann::json;
+
+// More than any file needs; a bound on what a small one can unfold to, whose materials share an image.
+constexpr size_t kMostTexels = size_t(1) << 29;
+
+// The member of this name, or null. `place` names the object in errors.
+const Json* find(const Json& object, const char* key, const std::string& place) {
+    if (!object.is_object())
+        throw Error(fmt::format("{}: expected an object, found {}", place, object.type_name()));
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+}
+
+// The same, where an object without members does for none.
+const Json& findObject(const Json& object, const char* key, const std::string& place) {
+    static const Json kNone = Json::object();
+    const Json* found = find(object, key, place);
+    if (found && !found->is_object())
+        throw Error(fmt::format("{}: \"{}\": expected an object, found {}", place, key, found->type_name()));
+    return found ? *found : kNone;
+}
+
+double toNumber(const Json& json, const char* key, const std::string& place) {
+    const double number = json.is_number() ? json.get<double>() : NAN;
+    if (!std::isfinite(number))
+        throw Error(
+            fmt::format("{}: \"{}\": expected finite numbers, found {}", place, key, json.type_name()));
+    return number;
+}
+
+double number(const Json& object, const char* key, double fallback, const std::string& place) {
+    const Json* found = find(object, key, place);
+    return found ? toNumber(*found, key, place) : fallback;
+}
+
+// `fallback` gives the count.
+std::vector<double> numbers(const Json& object, const char* key, std::vector<double> fallback,
+                            const std::string& place) {
+    const Json* found = find(object, key, place);
+    if (!found) return fallback;
+    if (!found->is_array() || found->size() != fallback.size())
+        throw Error(fmt::format("{}: \"{}\": expected {} numbers", place, key, fallback.size()));
+    std::vector<double> values;
+    for (const Json& value : *found) values.push_back(toNumber(value, key, place));
+    return values;
+}
+
+std::optional<size_t> index(const Json& object, const char* key, const std::string& place) {
+    const Json* found = find(object, key, place);
+    if (!found) return std::nullopt;
+    if (!found->is_number_unsigned() || found->get<uint64_t>() > uint64_t(std::numeric_limits<int>::max()))
+        throw Error(fmt::format("{}: \"{}\": expected the number of an element", place, key));
+    return found->get<size_t>();
+}
+
+std::string text(const Json& object, const char* key, const std::string& place) {
+    const Json* found = find(object, key, place);
+    if (found && !found->is_string())
+        throw Error(fmt::format("{}: \"{}\": expected a text, found {}", place, key, found->type_name()));
+    return found ? found->get<std::string>() : "";
+}
+
+// Element number `index` of one of the document's lists; `place` becomes its name in errors.
+const Json& element(const Json& looks, const char* list, size_t index, const std::string& name,
+                    std::string& place) {
+    const auto found = looks.find(list);
+    const size_t count = found == looks.end() || !found->is_array() ? 0 : found->size();
+    if (index >= count)
+        throw Error(fmt::format("{}: refers to number {} of its {}, but there are only {}", name, index, list,
+                                count));
+    place = fmt::format("{}: {}[{}]", name, list, index);
+    return (*found)[index];
+}
+
+// Turns counter-clockwise as seen, where v goes down; scales first, moves last.
+mat3 textureTransform(const Json& extension, const std::string& place) {
+    const std::vector<double> offset = numbers(extension, "offset", {0, 0}, place);
+    const std::vector<double> scale = numbers(extension, "scale", {1, 1}, place);
+    const double angle = number(extension, "rotation", 0, place);
+    const float c = float(std::cos(angle)), s = float(std::sin(angle));
+    return {vec3(c, -s, 0) * float(scale[0]), vec3(s, c, 0) * float(scale[1]),
+            vec3(float(offset[0]), float(offset[1]), 1)};
+}
+
+} // namespace
+
+const GltfMaterial& GltfMaterials::at(int index) {
+    const auto found = mMaterials.find(index);
+    return found != mMaterials.end() ? found->second : mMaterials.emplace(index, read(index)).first->second;
+}
+
+GltfMaterial GltfMaterials::read(int index) {
+    static const Json kDefault = Json::object();
+    GltfMaterial material;
+    std::string place = mName + ": default material";
+    const Json& json =
+        index < 0 ? kDefault : element(mDocument.looks, "materials", size_t(index), mName, place);
+    material.name = text(json, "name", place);
+    if (material.name.empty())
+        material.name = index < 0 ? "default material" : fmt::format("material {}", index);
+
+    const Json& surface = findObject(json, "pbrMetallicRoughness", place);
+    std::vector<double> base = numbers(surface, "baseColorFactor", {1, 1, 1, 1}, place);
+    double metallic = number(surface, "metallicFactor", 1, place);
+    double roughness = number(surface, "roughnessFactor", 1, place);
+    if (find(surface, "baseColorTexture", place))
+        readBaseColorTexture(findObject(surface, "baseColorTexture", place), place, material);
+    if (const auto texture =
+            relume::index(findObject(surface, "metallicRoughnessTexture", place), "index", place)) {
+        const vec4 mean = meanOf(readTexture(*texture, false));
+        roughness *= mean.y;
+        metallic *= mean.z;
+        ignore("the variation of metallicRoughnessTexture (its mean is used)");
+    }
+    base.pop_back(); // opacity
+    for (double* value : {&base[0], &base[1], &base[2], &metallic, &roughness})
+        *value = std::clamp(*value, 0.0, 1.0);
+    noteIgnored(json, place);
+    std::string printable = material.name; // names are written on command lines
+    for (char& letter : printable)
+        if (uint8_t(letter) < 0x20 || letter == 0x7f) letter = ' ';
+    material.text = nlohmann::ordered_json{
+        {"name", printable},
+        {"model", "gltf"},
+        {"base_color", base},
+        {"metallic", metallic},
+        {"roughness",
+         roughness}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return material;
+}
+
+void GltfMaterials::readBaseColorTexture(const Json& info, const std::string& place, GltfMaterial& material) {
+    material.baseColor = index(info, "index", place);
+    material.uvSet = int(index(info, "texCoord", place).value_or(0));
+    const Json& extensions = findObject(info, "extensions", place);
+    if (!find(extensions, "KHR_texture_transform", place)) return;
+    const Json& transform = findObject(extensions, "KHR_texture_transform", place);
+    material.uvTransform = textureTransform(transform, place);
+    material.uvSet = int(index(transform, "texCoord", place).value_or(size_t(material.uvSet)));
+}
+
+void GltfMaterials::noteIgnored(const Json& json, const std::string& place) {
+    for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
+        if (find(json, key, place)) ignore(key);
+    for (const double factor : numbers(json, "emissiveFactor", {0, 0, 0}, place))
+        if (factor > 0) ignore("emissiveFactor");
+    const std::string alpha = text(json, "alphaMode", place);
+    if (!alpha.empty() && alpha != "OPAQUE") ignore("alphaMode " + alpha.substr(0, 20));
+    for (const auto& [extension, value] : findObject(json, "extensions", place).items())
+        ignore(extension.substr(0, 60));
+}
+
+void GltfMaterials::noteSampler(const Json& texture, const std::string& place) {
+    constexpr double kRepeat = 10497;
+    const std::optional<size_t> number = index(texture, "sampler", place);
+    if (!number) return;
+    std::string samplerPlace;
+    const Json& sampler = element(mDocument.looks, "samplers", *number, mName, samplerPlace);
+    for (const char* axis : {"wrapS", "wrapT"})
+        if (relume::number(sampler, axis, kRepeat, samplerPlace) != kRepeat)
+            ignore("wrapping other than by repetition");
+}
+
+std::vector<std::byte> GltfMaterials::readImageBytes(const Json& image, const std::string& place) {
+    if (const std::optional<size_t> view = index(image, "bufferView", place)) {
+        const auto bytes = std::as_bytes(gltfViewBytes(mDocument.model, int(*view), mName));
+        return {bytes.begin(), bytes.end()};
+    }
+    const std::string uri = text(image, "uri", place);
+    if (tinygltf::IsDataURI(uri)) {
+        std::vector<unsigned char> data;
+        std::string type;
+        if (!tinygltf::DecodeDataURI(&data, type, uri, 0, false))
+            throw Error(fmt::format("{}: its data cannot be decoded: export the file again", place));
+        const auto bytes = std::as_bytes(std::span(data));
+        return {bytes.begin(), bytes.end()};
+    }
+    const std::filesystem::path path = findGltfFile(uri, mFolder, place);
+    std::vector<std::byte> bytes = readFile(path, kLargestTextureFile);
+    mFiles[path.string()] = hashText(bytes);
+    return bytes;
+}
+
+Texture GltfMaterials::readTexture(size_t index, bool srgb) {
+    std::string place;
+    const Json& json = element(mDocument.looks, "textures", index, mName, place);
+    const std::optional<size_t> source = relume::index(json, "source", place);
+    if (!source)
+        throw Error(
+            fmt::format("{}: has no PNG or JPEG image: export with such images, or name a material", place));
+    noteSampler(json, place);
+    const Json& image = element(mDocument.looks, "images", *source, mName, place);
+    Texture texture = decodeTexture(readImageBytes(image, place), place, srgb);
+    mTexels += texture.texelCount();
+    if (mTexels > kMostTexels)
+        throw Error(fmt::format("{}: its textures have more than {} texels in all: scale them down", mName,
+                                kMostTexels));
+    return texture;
+}
+
+void GltfMaterials::logIgnored() const {
+    if (!mIgnored.empty())
+        log(LogLevel::Warning,
+            fmt::format("{}: not supported in materials, and ignored: {}", mName, fmt::join(mIgnored, ", ")));
+}
+
+} // namespace relume

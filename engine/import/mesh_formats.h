@@ -1,0 +1,51 @@
+// The readers behind mesh_file.h, one per format: they decode, cleanUp() judges. Each takes a whole file's
+// bytes and throws Error, in which `name` stands for the file, when they cannot be decoded; of uvs and colors
+// it gives those that are wanted and that the file has.
+#pragma once
+
+#include "engine/import/input_file.h"
+#include "engine/scene/mesh.h"
+#include "engine/scene/texture.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace relume {
+
+// Wavefront OBJ: faces of any number of corners, all objects and groups as one mesh.
+Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted);
+
+// PLY 1.0, ASCII and binary of either byte order: element "vertex" with x, y, z and perhaps nx, ny, nz,
+// texture coordinates (s, t; u, v; texture_u, texture_v) and red, green, blue, alpha; element "face" with the
+// list "vertex_indices" or "vertex_index". Everything else is skipped.
+Mesh decodePly(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted);
+
+// glTF 2.0, text or binary: the triangles of the default scene (or the first), node transforms applied;
+// skins and morph targets stay at rest. External buffers and images are read from `folder` and below only.
+Mesh decodeGltf(std::span<const std::byte> bytes, const std::filesystem::path& folder,
+                const std::string& name, MeshAttributes wanted);
+
+// The triangles of a glTF file that share a material.
+struct GltfPart {
+    std::string name; // the material's, or "material N"; no two are equal
+    Mesh mesh;        // with uvs if there is a texture
+    std::string
+        material; // {"model": "gltf", "base_color": [r, g, b], "metallic", "roughness"}, linear, in [0, 1]
+    std::optional<Texture> baseColor; // sRGB, multiplies base_color
+};
+
+struct GltfParts {
+    std::vector<GltfPart> parts;   // by the material's number
+    std::vector<InputFile> images; // files that were read
+};
+
+// The same, in parts of one material each, cleaned up. A texture of metalness and roughness is averaged; what
+// else is not supported is ignored, and the log says so.
+GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesystem::path& folder,
+                          const std::string& name);
+
+} // namespace relume

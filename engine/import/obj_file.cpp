@@ -1,0 +1,186 @@
+#include "engine/base/error.h"
+#include "engine/import/mesh_cleanup.h"
+#include "engine/import/mesh_formats.h"
+#include "engine/import/polygon.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+#include <string_view>
+#include <tiny_obj_loader.h>
+
+namespace relume {
+namespace {
+
+constexpr size_t kMostCorners = 255;
+
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+
+std::string_view takeWord(std::string_view& line) {
+    size_t start = 0;
+    while (start < line.size() && isBlank(line[start])) start++;
+    size_t end = start;
+    while (end < line.size() && !isBlank(line[end])) end++;
+    const std::string_view word = line.substr(start, end - start);
+    line.remove_prefix(end);
+    return word;
+}
+
+bool isNumber(std::string_view word) {
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    double value;
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return !word.empty() && failure == std::errc() && end == word.data() + word.size() &&
+           std::isfinite(value);
+}
+
+// The next line, ended by "\n", "\r\n" or "\r", as the library has it.
+std::string_view takeLine(std::string_view& text) {
+    const size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
+    return line;
+}
+
+// Throws for what the library would misread: it takes words that are no numbers for zeros, and counts
+// corners in eight bits.
+void checkLine(std::string_view keyword, std::string_view rest, const std::string& name, size_t number) {
+    if (keyword == "f") {
+        size_t corners = 0;
+        while (!takeWord(rest).empty()) corners++;
+        if (corners > kMostCorners)
+            throw Error(
+                fmt::format("{}: line {}: a face has {} corners, expected at most {}: triangulate the mesh "
+                            "before export",
+                            name, number, corners, kMostCorners));
+    } else if (keyword == "vt") {
+        // The second coordinate may be missing: it is 0 then.
+        const std::string_view u = takeWord(rest), v = takeWord(rest);
+        if (!isNumber(u) || !(v.empty() || isNumber(v)))
+            throw Error(fmt::format("{}: line {}: expected two finite numbers after \"vt\", found \"{} {}\"",
+                                    name, number, u.substr(0, 40), v.substr(0, 40)));
+    } else {
+        for (int i = 0; i < 3; i++)
+            if (const std::string_view word = takeWord(rest); !isNumber(word))
+                throw Error(
+                    fmt::format("{}: line {}: expected three finite numbers after \"{}\", found \"{}\"", name,
+                                number, keyword, word.substr(0, 40)));
+    }
+}
+
+// Keeps the lines that describe the surface and empties all others, so that line numbers stay: the library
+// reads other files on "mtllib" and believes the sizes that "t" lines claim.
+std::string surfaceLines(std::string_view text, const std::string& name, bool areUvsWanted) {
+    std::string kept;
+    kept.reserve(text.size() + 1);
+    for (size_t number = 1; !text.empty(); number++) {
+        const std::string_view line = takeLine(text);
+        std::string_view rest = line;
+        const std::string_view keyword = takeWord(rest);
+        if (keyword == "v" || keyword == "vn" || keyword == "f" || (keyword == "vt" && areUvsWanted))
+            checkLine(keyword, rest, name, number);
+        if (keyword == "v" || keyword == "vn" || keyword == "vt" || keyword == "f") kept += line;
+        kept += '\n';
+    }
+    return kept;
+}
+
+// Whether every corner of every face has a number of this kind.
+bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::*number) {
+    for (const tinyobj::shape_t& shape : shapes)
+        for (const tinyobj::index_t& corner : shape.mesh.indices)
+            if (corner.*number < 0) return false;
+    return true;
+}
+
+// The faces' corners, whose position, normal and texture coordinates have numbers of their own, as vertices
+// of their own.
+class Corners {
+  public:
+    Corners(const tinyobj::attrib_t& attributes, bool hasNormals, bool hasUvs, const std::string& name)
+        : mAttributes(attributes), mHasNormals(hasNormals), mHasUvs(hasUvs), mName(name) {
+        if (!isSplit())
+            for (size_t i = 0; i < attributes.vertices.size() / 3; i++)
+                mMesh.positions.push_back(position(int(i)));
+    }
+
+    void addFace(std::span<const tinyobj::index_t> face) {
+        mFace.clear();
+        mTriangles.clear();
+        for (const tinyobj::index_t& corner : face) mFace.push_back(position(corner.vertex_index));
+        triangulate(mFace, mTriangles, mName);
+        const uint32_t first = uint32_t(mMesh.positions.size());
+        if (isSplit())
+            for (const tinyobj::index_t& corner : face) {
+                mMesh.positions.push_back(position(corner.vertex_index));
+                if (mHasNormals) mMesh.normals.push_back(normal(corner.normal_index));
+                if (mHasUvs) mMesh.uvs.push_back(uv(corner.texcoord_index));
+            }
+        const auto vertex = [&](uint32_t i) {
+            return isSplit() ? first + i : uint32_t(face[i].vertex_index);
+        };
+        for (const uvec3& t : mTriangles) mMesh.triangles.push_back({vertex(t.x), vertex(t.y), vertex(t.z)});
+        if (mMesh.positions.size() > kMostMeshVertices)
+            throw Error(fmt::format("{}: has more than {} corners: simplify it", mName, kMostMeshVertices));
+    }
+
+    Mesh take() { return std::move(mMesh); }
+
+  private:
+    template <typename Vector>
+    Vector element(const std::vector<tinyobj::real_t>& values, int index, const char* what) const {
+        constexpr size_t kWidth = size_t(Vector::length());
+        if (index < 0 || size_t(index) >= values.size() / kWidth)
+            throw Error(fmt::format("{}: a face refers to {} {}, but there are only {}: the file is corrupt",
+                                    mName, what, int64_t(index) + 1, values.size() / kWidth));
+        Vector vector;
+        for (size_t i = 0; i < kWidth; i++) vector[int(i)] = values[kWidth * size_t(index) + i];
+        return vector;
+    }
+    vec3 position(int index) const { return element<vec3>(mAttributes.vertices, index, "vertex"); }
+    vec3 normal(int index) const { return element<vec3>(mAttributes.normals, index, "normal"); }
+    // OBJ counts v up from an image's lower edge.
+    vec2 uv(int index) const {
+        const vec2 up = element<vec2>(mAttributes.texcoords, index, "texture coordinates");
+        return {up.x, 1 - up.y};
+    }
+
+    bool isSplit() const { return mHasNormals || mHasUvs; }
+
+    const tinyobj::attrib_t& mAttributes;
+    bool mHasNormals, mHasUvs;
+    const std::string& mName;
+    Mesh mMesh;
+    std::vector<vec3> mFace;
+    std::vector<uvec3> mTriangles;
+};
+
+} // namespace
+
+Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted) {
+    std::istringstream text(
+        surfaceLines({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, wanted.uvs));
+    tinyobj::attrib_t attributes;
+    std::vector<tinyobj::shape_t> shapes;
+    std::string warning, failure;
+    if (!tinyobj::LoadObj(&attributes, &shapes, nullptr, &warning, &failure, &text, nullptr, false, false))
+        throw Error(fmt::format("{}: is not a valid OBJ file: {}", name,
+                                failure.substr(0, failure.find_last_not_of('\n') + 1)));
+
+    const bool hasNormals = !attributes.normals.empty() && haveAll(shapes, &tinyobj::index_t::normal_index);
+    const bool hasUvs =
+        wanted.uvs && !attributes.texcoords.empty() && haveAll(shapes, &tinyobj::index_t::texcoord_index);
+    Corners corners(attributes, hasNormals, hasUvs, name);
+    for (const tinyobj::shape_t& shape : shapes) {
+        size_t start = 0;
+        for (const size_t count : shape.mesh.num_face_vertices) {
+            if (count >= 3) corners.addFace(std::span(shape.mesh.indices).subspan(start, count));
+            start += count;
+        }
+    }
+    return corners.take();
+}
+
+} // namespace relume

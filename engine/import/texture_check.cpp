@@ -1,0 +1,205 @@
+#include "engine/import/texture_check.h"
+
+#include "engine/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fmt/format.h>
+#include <map>
+#include <string_view>
+
+namespace relume {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
+
+// Takes numbers from the front of a file or of a segment, high bytes first.
+class Reader {
+  public:
+    Reader(Bytes bytes, const std::string& name) : mBytes(bytes), mName(name) {}
+
+    bool isEmpty() const { return mBytes.empty(); }
+
+    Bytes take(size_t count) {
+        if (count > mBytes.size())
+            throw Error(fmt::format("{}: is truncated or corrupt: get the file again", mName));
+        const Bytes taken = mBytes.first(count);
+        mBytes = mBytes.subspan(count);
+        return taken;
+    }
+
+    uint32_t takeNumber(size_t width) {
+        uint32_t value = 0;
+        for (const std::byte byte : take(width)) value = value << 8 | std::to_integer<uint32_t>(byte);
+        return value;
+    }
+
+    Reader takeReader(size_t count) { return {take(count), mName}; }
+
+    [[noreturn]] void fail(std::string_view what) const {
+        throw Error(fmt::format("{}: is corrupt: {}; get the file again, or save it anew", mName, what));
+    }
+
+  private:
+    Bytes mBytes;
+    const std::string& mName;
+};
+
+// CRC-32 as PNG has it (ISO 3309).
+uint32_t checkSum(Bytes bytes) {
+    static const std::array<uint32_t, 256> kTable = [] {
+        std::array<uint32_t, 256> table;
+        for (uint32_t i = 0; i < 256; i++) {
+            uint32_t value = i;
+            for (int bit = 0; bit < 8; bit++) value = value & 1 ? 0xedb88320u ^ value >> 1 : value >> 1;
+            table[i] = value;
+        }
+        return table;
+    }();
+    uint32_t sum = 0xffffffff;
+    for (const std::byte byte : bytes)
+        sum = kTable[(sum ^ std::to_integer<uint32_t>(byte)) & 0xff] ^ sum >> 8;
+    return ~sum;
+}
+
+// Walks through a JPEG file's segments (ITU-T T.81, annex B) up to the end of the image.
+class JpegWalk {
+  public:
+    JpegWalk(Bytes bytes, const std::string& name) : mFile(bytes, name) {}
+
+    void run() {
+        mFile.take(2); // the start of the image
+        uint32_t marker = mFile.takeNumber(2);
+        while (marker != kEnd) {
+            while (marker == 0xffff) marker = 0xff00 | mFile.takeNumber(1); // padding
+            if (marker < kFirstMarker) mFile.fail("there is something else where a segment starts");
+            const uint32_t size = mFile.takeNumber(2);
+            if (size < 2) mFile.fail("a segment is too small");
+            readSegment(marker, mFile.takeReader(size - 2));
+            marker = marker == kScan ? skipScan() : mFile.takeNumber(2);
+        }
+        if (!mHasScan) mFile.fail("there is no image in it");
+    }
+
+  private:
+    static constexpr uint32_t kFirstMarker = 0xff02, kHuffman = 0xffc4, kQuantisation = 0xffdb;
+    static constexpr uint32_t kScan = 0xffda, kEnd = 0xffd9;
+    static constexpr uint32_t kBaseline = 0xffc0, kExtended = 0xffc1, kProgressive = 0xffc2;
+
+    void readSegment(uint32_t marker, Reader segment) {
+        if (marker == kHuffman) readHuffmanTables(segment);
+        if (marker == kQuantisation) readQuantisationTables(segment);
+        if (marker == kBaseline || marker == kExtended || marker == kProgressive) {
+            mIsProgressive = marker == kProgressive;
+            readFrame(segment);
+        }
+        if (marker == kScan) readScan(segment);
+    }
+
+    void readHuffmanTables(Reader& segment) {
+        while (!segment.isEmpty()) {
+            const uint32_t table = segment.takeNumber(1); // class and number, 4 bits each
+            uint32_t symbols = 0, codes = 0;
+            for (int length = 1; length <= 16; length++) {
+                const uint32_t count = segment.takeNumber(1);
+                symbols += count;
+                codes = 2 * codes + count;
+                if (codes > 1u << length) segment.fail("a Huffman table has more codes than there can be");
+            }
+            if (symbols > 256) segment.fail("a Huffman table has more than 256 symbols");
+            segment.take(symbols);
+            mHuffman[table] = true;
+        }
+    }
+
+    void readQuantisationTables(Reader& segment) {
+        while (!segment.isEmpty()) {
+            const uint32_t table = segment.takeNumber(1); // width and number
+            segment.take(table >> 4 ? 128 : 64);
+            mQuantisation[table & 15] = true;
+        }
+    }
+
+    void readFrame(Reader& segment) {
+        if (!mComponents.empty()) segment.fail("it has more than one frame");
+        segment.take(5);
+        const uint32_t count = segment.takeNumber(1);
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t id = segment.takeNumber(1);
+            segment.take(1);
+            mComponents[id] = segment.takeNumber(1);
+        }
+    }
+
+    void readScan(Reader& segment) {
+        const uint32_t count = segment.takeNumber(1);
+        std::array<std::pair<uint32_t, uint32_t>, 4> tables;
+        if (count > tables.size()) segment.fail("a scan has more than four components");
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t id = segment.takeNumber(1), numbers = segment.takeNumber(1);
+            if (!mComponents.contains(id) || !mQuantisation[mComponents.at(id) & 15])
+                segment.fail("a scan is of a component that is not described");
+            tables[i] = {numbers >> 4, 0x10 | (numbers & 15)};
+        }
+        // A progressive scan is of the mean or of the other frequencies, and refines the mean without a
+        // table.
+        const uint32_t first = segment.takeNumber(1);
+        segment.take(1);
+        const bool isRefinement = segment.takeNumber(1) >> 4 != 0;
+        const bool needsDc = !mIsProgressive || (first == 0 && !isRefinement);
+        const bool needsAc = !mIsProgressive || first > 0;
+        for (uint32_t i = 0; i < count; i++)
+            if ((needsDc && !mHuffman[tables[i].first]) || (needsAc && !mHuffman[tables[i].second]))
+                segment.fail("a scan uses a Huffman table that is missing");
+        mHasScan = true;
+    }
+
+    // Skips entropy-coded data, and returns the marker after it.
+    uint32_t skipScan() {
+        while (true) {
+            if (mFile.takeNumber(1) != 0xff) continue;
+            uint32_t code = mFile.takeNumber(1);
+            while (code == 0xff) code = mFile.takeNumber(1);
+            const bool isRestart = code >= 0xd0 && code <= 0xd7;
+            if (code != 0 && !isRestart) return 0xff00 | code;
+        }
+    }
+
+    Reader mFile;
+    std::map<uint32_t, uint32_t> mComponents; // quantisation table by id
+    std::array<bool, 256> mHuffman{};
+    std::array<bool, 16> mQuantisation{};
+    bool mIsProgressive = false, mHasScan = false;
+};
+
+} // namespace
+
+bool isPng(Bytes bytes) {
+    return bytes.size() >= kPngSignature.size() &&
+           std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin(),
+                      [](char a, std::byte b) { return std::byte(a) == b; });
+}
+
+bool isJpeg(Bytes bytes) {
+    return bytes.size() >= 3 && bytes[0] == std::byte(0xff) && bytes[1] == std::byte(0xd8) &&
+           bytes[2] == std::byte(0xff);
+}
+
+void checkPng(Bytes bytes, const std::string& name) {
+    constexpr uint32_t kEnd = 0x49454e44; // IEND
+    Reader file(bytes.subspan(kPngSignature.size()), name);
+    for (uint32_t kind = 0; kind != kEnd;) {
+        const uint32_t size = file.takeNumber(4);
+        if (size > 0x7fffffff) file.fail("a chunk claims to be larger than any");
+        const Bytes chunk = file.take(size_t(size) + 4);
+        kind = Reader(chunk, name).takeNumber(4);
+        if (file.takeNumber(4) != checkSum(chunk)) file.fail("a check sum does not agree");
+    }
+}
+
+void checkJpeg(Bytes bytes, const std::string& name) { JpegWalk(bytes, name).run(); }
+
+} // namespace relume

@@ -1,0 +1,62 @@
+#include "engine/import/texture_file.h"
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/import/image_codecs.h"
+#include "engine/import/texture_check.h"
+#include "engine/scene/texture.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <stb_image.h>
+
+namespace relume {
+namespace {
+
+void checkSize(std::span<const std::byte> bytes, int width, int height, const std::string& name) {
+    checkImageSize(name, width, height, bytes.size());
+    if (width > kLongestTextureSide || height > kLongestTextureSide)
+        throw Error(
+            fmt::format("{}: is {} x {} pixels, expected at most {} a side for a texture: scale it down",
+                        name, width, height, kLongestTextureSide));
+}
+
+} // namespace
+
+Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
+    // The library would try many more formats, among them some that it does not read safely.
+    if (isPng(bytes))
+        checkPng(bytes, name);
+    else if (isJpeg(bytes))
+        checkJpeg(bytes, name);
+    else
+        throw Error(fmt::format("{}: expected a PNG or JPEG image, found neither: convert it", name));
+    if (bytes.size() > kLargestTextureFile)
+        throw Error(fmt::format("{}: has {} bytes, expected at most {} for a texture: scale it down", name,
+                                bytes.size(), kLargestTextureFile));
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int size = int(bytes.size());
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
+        throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
+    checkSize(bytes, width, height, name);
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+    if (!pixels) throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
+    // Once more: the library reads the size anew, and a file may say it twice.
+    checkSize(bytes, width, height, name);
+    Texture texture{width, height, std::vector<uint32_t>(size_t(width) * size_t(height)), srgb};
+    for (size_t i = 0; i < texture.texelCount(); i++)
+        for (int channel = 0; channel < 4; channel++)
+            texture.texels[i] |= uint32_t(pixels.get()[4 * i + size_t(channel)]) << (8 * channel);
+    // The library fills a missing alpha with 255; a weight that is not there is none.
+    const bool hasAlpha = channels == 2 || channels == 4;
+    if (!srgb && !hasAlpha)
+        for (uint32_t& texel : texture.texels) texel &= 0x00ffffff;
+    return texture;
+}
+
+Texture readTexture(const std::filesystem::path& path, bool srgb) {
+    return decodeTexture(readFile(path, kLargestTextureFile), path.string(), srgb);
+}
+
+} // namespace relume

@@ -1,0 +1,216 @@
+"""The Python module, held against the command line: what it returns is what `relume` prints and writes.
+
+Run by ctest with RELUME_PROGRAM; PYTHONPATH names the module.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import relume
+
+PROGRAM = os.environ["RELUME_PROGRAM"]
+SIZE = (160, 120)
+OPTIONS = dict(terms=2, visibility_size=64)
+ARGUMENTS = ["-K", "2", "--visibility-size", "64"]
+
+
+def run(*arguments):
+    result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    if result.returncode != 0:
+        raise AssertionError(f"relume {arguments}: {result.stderr}")
+    return result.stdout
+
+
+def run_json(*arguments):
+    return json.loads(run(*arguments, "--json"))
+
+
+class ModuleTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = os.path.join(cls.folder.name, "module.relume")
+        scene = relume.Scene().add("sphere", material="gold")
+        scene.add_ground(tessellation=10)
+        cls.shares = []
+        cls.asset = relume.bake(scene, cls.path, progress=cls.shares.append, **OPTIONS)
+        cls.light = relume.Light.sky()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def file(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_bake_gives_the_bytes_of_the_command_line(self):
+        other = self.file("cli.relume")
+        run("bake", "sphere", "--ground", "--ground-tessellation", 10, "-m", "gold", *ARGUMENTS, "-q", "-o", other)
+        with open(self.path, "rb") as a, open(other, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        self.assertEqual(self.shares[-1], 1)
+        self.assertEqual(self.shares, sorted(self.shares))
+
+    def test_bake_in_memory_is_the_same(self):
+        scene = relume.Scene().add("sphere", material="gold")
+        scene.add_ground(tessellation=10)
+        relume.bake(scene, **OPTIONS).save(self.file("memory.relume"))
+        with open(self.path, "rb") as a, open(self.file("memory.relume"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_render_is_that_of_the_command_line(self):
+        image = relume.Renderer(self.asset, SIZE).render(self.light)
+        self.assertEqual(image.shape, (SIZE[1], SIZE[0], 4))
+        self.assertEqual(image.dtype, np.float32)
+        run("render", self.path, "--size", "160x120", "-o", self.file("cli.exr"))
+        np.testing.assert_array_equal(image, relume.load_image(self.file("cli.exr")))
+        # With the light behind it, toned.
+        shown = relume.Renderer(self.asset, SIZE).render(self.light, background=True)
+        shown.save(self.file("module.png"), exposure=0)
+        run("render", self.path, "--size", "160x120", "--exposure", 0, "--background", "environment", "-o",
+            self.file("cli.png"))
+        with open(self.file("module.png"), "rb") as a, open(self.file("cli.png"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        self.assertTrue(image._repr_png_().startswith(b"\x89PNG"))
+
+    def test_lights_cameras_and_residual(self):
+        renderer = relume.Renderer(self.asset, SIZE, residual=False)
+        image = renderer.render(relume.Light.lamp(40, 50, 3, [1 / np.sin(np.radians(3)) ** 2] * 3),
+                                relume.Camera.orbit(self.asset, 30, 15, 1, aspect=SIZE[0] / SIZE[1]))
+        run("render", self.path, "--size", "160x120", "--sphere-light", "40,50,3", "--orbit", "30,15,1", "--residual",
+            "off", "-o", self.file("lamp.exr"))
+        np.testing.assert_allclose(image, relume.load_image(self.file("lamp.exr")), rtol=1e-5, atol=1e-6)
+        # A sum of lights is lit by both: relighting is linear, but for the coefficients that are kept.
+        lamp, sky = relume.Light.distant(0, 60, [1, 1, 1]), relume.Light.sky()
+        renderer.select_light(coefficients=6 * 64 * 64)
+        parts = [renderer.render(light) for light in (lamp, sky, lamp + sky)]
+        # K terms may sum to less than 0, which is drawn as 0.
+        np.testing.assert_allclose((parts[0] + parts[1])[..., :3], parts[2][..., :3], atol=0.02 * parts[2].max())
+        np.testing.assert_allclose(renderer.render(2 * sky)[..., :3], 2 * parts[1][..., :3],
+                                   atol=1e-3 * parts[1].max())
+
+    def test_environment_arrays_are_files(self):
+        radiance = np.random.default_rng(1).random((64, 128, 3), dtype=np.float32)
+        relume.Image(np.dstack([radiance, np.ones((64, 128), np.float32)])).save(self.file("map.exr"))
+        renderer = relume.Renderer(self.asset, SIZE)
+        np.testing.assert_array_equal(renderer.render(relume.Light.environment(radiance)),
+                                      renderer.render(relume.Light.environment(self.file("map.exr"))))
+        run("render", self.path, "--size", "160x120", "-e", self.file("map.exr"), "-o", self.file("mapped.exr"))
+        np.testing.assert_array_equal(renderer.render(relume.Light.environment(radiance)),
+                                      relume.load_image(self.file("mapped.exr")))
+
+    def test_tuples_have_their_shape_and_are_linear(self):
+        renderer = relume.Renderer(self.asset, SIZE)
+        tuples = renderer.relight(self.light)
+        self.assertEqual(len(tuples), len(self.asset.parts))
+        self.assertEqual(tuples[0].shape[1:], (2, 3))
+        self.assertEqual(sum(part.shape[0] for part in tuples), self.asset.vertices)
+        for once, twice in zip(tuples, renderer.relight(2 * self.light)):
+            np.testing.assert_allclose(2 * once, twice, rtol=1e-6, atol=1e-7)
+
+    def test_reference_is_that_of_the_command_line(self):
+        image = relume.reference(self.asset, self.light, size=(80, 60))
+        run("reference", self.path, "--size", "80x60", "-o", self.file("truth.exr"))
+        np.testing.assert_array_equal(image, relume.load_image(self.file("truth.exr")))
+        drawn = relume.Renderer(self.asset, (80, 60)).render(self.light)
+        drawn.save(self.file("drawn.exr"))
+        ours = relume.compare(drawn, image)
+        theirs = run_json("compare", self.file("drawn.exr"), self.file("truth.exr"))
+        self.assertAlmostEqual(ours["relative_rmse"], theirs["relative_rmse"], places=9)
+        self.assertAlmostEqual(ours["flip"], theirs["flip"], places=9)
+
+    def test_info_materials_and_brdf(self):
+        info = self.asset.info()
+        self.assertEqual(info["parts"][0]["vertices"], run_json("info", self.path)["parts"][0]["vertices"])
+        self.assertEqual(relume.materials(), run_json("materials"))
+        factors = relume.brdf("gold", terms=4)
+        self.assertEqual(factors["light_maps"].shape, (4, 48, 48, 3))
+        report = run_json("brdf", "gold", "-K", "4", "--factorization", "environment")
+        np.testing.assert_allclose(factors["expected"], report["expected_radiance_error"], rtol=1e-4)
+        self.assertEqual(relume.devices()[0]["name"], run_json("devices")[0]["name"])
+
+    def test_errors_are_those_of_the_command_line(self):
+        ours = relume.errors(self.asset, relume.Light.lamp(40, 50, 20, [1, 1, 1]), size=(24, 18))
+        light = self.file("lamp.light.json")
+        with open(light, "w") as file:
+            json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
+        theirs = run_json("errors", self.path, "--light", light, "--size", "24x18")
+        self.assertEqual(ours, theirs)
+
+    def test_advice_is_that_of_the_command_line(self):
+        ours = relume.advise(relume.Scene().add("sphere", material="clay"), relume.Light.lamp(40, 50, 20, [1, 1, 1]),
+                             error=0.1, points=60, as_is=True)
+        light = self.file("advise.light.json")
+        with open(light, "w") as file:
+            json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
+        theirs = run_json("advise", "sphere", "-m", "clay", "--light", light, "--error", 0.1, "--points", 60,
+                          "--as-is")
+        for advice in (ours, theirs):  # seconds are measured
+            for layout in ("bases", "rows"):
+                if advice["plain"][layout]:
+                    del advice["plain"][layout]["seconds"]
+        self.assertEqual(ours, theirs)
+
+    def test_meshes_go_in_and_out(self):
+        mesh = self.asset.mesh(0)
+        again = relume.Mesh(mesh.positions, mesh.triangles, normals=mesh.normals)
+        self.assertEqual(again.positions.shape, mesh.positions.shape)
+        with self.assertRaisesRegex(relume.Error, "mesh"):
+            relume.Mesh(np.zeros((3, 3)), [[0, 1, 9]])
+        with self.assertRaises(ValueError):
+            relume.Mesh(np.zeros((3, 2)), [[0, 1, 2]])
+
+    def test_errors_say_what_the_command_line_says(self):
+        with self.assertRaisesRegex(relume.Error, "nowhere.relume"):
+            relume.Asset.load("nowhere.relume")
+        with self.assertRaisesRegex(relume.UsageError, "golb"):
+            relume.Scene().add(self.asset.mesh(0), material="golb")
+        with self.assertRaisesRegex(TypeError, "tems"):
+            relume.bake("sphere", tems=3)
+        with self.assertRaises(relume.UsageError):
+            relume.bake("sphere", terms=99)
+
+    def test_ctrl_c_and_callbacks_end_a_bake(self):
+        threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            relume.bake("knot", terms=8)
+
+        def fail(share):
+            raise KeyError("mine")
+        with self.assertRaises(KeyError):
+            relume.bake("knot", progress=fail)
+
+    def test_a_light_is_found_from_a_picture(self):
+        """The example of docs/python.md: relighting is linear, so least squares over patches of light find it."""
+        from scipy.optimize import lsq_linear
+        rng = np.random.default_rng(7)
+        patches, truth = [], np.zeros((32, 64, 3), np.float32)
+        for row in range(4):
+            for column in range(8):
+                patch = np.zeros((32, 64, 3), np.float32)
+                patch[8 * row:8 * row + 8, 8 * column:8 * column + 8] = 1
+                patches.append(patch)
+                truth += patch * rng.random(3).astype(np.float32)
+        renderer = relume.Renderer(self.asset, (96, 72), residual=False)
+        renderer.select_light(coefficients=6 * 64 * 64)
+        target = renderer.render(relume.Light.environment(truth))
+        basis = np.stack([renderer.render(relume.Light.environment(patch))[..., :3].reshape(-1, 3)
+                          for patch in patches]).astype(np.float64)
+        found = np.zeros_like(truth)
+        for channel in range(3):
+            weights = lsq_linear(basis[:, :, channel].T, target[..., channel].ravel().astype(np.float64),
+                                 bounds=(0, np.inf)).x
+            found[..., channel] = sum(weight * patch[..., channel] for weight, patch in zip(weights, patches))
+        error = relume.compare(renderer.render(relume.Light.environment(found)), target)
+        self.assertLessEqual(error["relative_rmse"], 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
