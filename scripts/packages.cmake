@@ -33,7 +33,7 @@ if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
     set(file ${PROJECT_BINARY_DIR}/man/${page}.1)
     add_custom_command(
       OUTPUT ${file}
-      COMMAND ${HELP2MAN} --no-info --no-discard-stderr --version-string=${PROJECT_VERSION} --source=Relume
+      COMMAND ${HELP2MAN} --locale=C.UTF-8 --no-info --no-discard-stderr --version-string=${PROJECT_VERSION} --source=Relume
               --manual=Relume --name "relight glossy objects in real time" --output ${file}
               "$<TARGET_FILE:${program}> ${command}"
       DEPENDS ${program}
