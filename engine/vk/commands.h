@@ -65,8 +65,9 @@ class Commands {
 
     // Starts recording afresh.
     void begin();
-    // The same into a host's command buffer, which is being recorded, outside of rendering; the host submits
-    // it. What was recorded into one before must have run by then: a frame in flight has Commands of its own.
+    // Starts recording into a host's command buffer, which is in the recording state and outside of
+    // rendering; the host submits it. The device must have run what these Commands recorded before: a host
+    // has one Commands for each frame in flight.
     void begin(VkCommandBuffer hosts);
 
     // Records `work` under a debug label and, where the device has them, between two timestamps; those of a
@@ -138,7 +139,7 @@ class Commands {
     const Device& mDevice;
     VkCommandPool mPool = VK_NULL_HANDLE;
     VkCommandBuffer mOwnCommands = VK_NULL_HANDLE;
-    VkCommandBuffer mCommands = VK_NULL_HANDLE; // what is recorded into
+    VkCommandBuffer mCommands = VK_NULL_HANDLE; // the own one, or a host's
     VkFence mFence = VK_NULL_HANDLE;
     VkQueryPool mQueries = VK_NULL_HANDLE;
     std::vector<VkDescriptorPool> mDescriptorPools;

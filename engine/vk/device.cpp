@@ -127,7 +127,13 @@ Device::Device(const DeviceOptions& options) {
 Device::~Device() { destroy(); }
 
 Device::Device(const HostDevice& host) : mIsHosts(true), mInstance(host.instance), mDevice(host.device) {
-    RELUME_CHECK(host.instance && host.physical && host.device && host.created && host.queue);
+    if (!host.instance || !host.physical || !host.device || !host.created || !host.queue)
+        throw UsageError(
+            "host device: expected instance, physical, device, created and queue to be set; one of "
+            "them is null");
+    if (!doesGraphicsAndCompute(host.physical, host.queueFamily))
+        throw UsageError(fmt::format("host device: queue family {} does not do both graphics and compute",
+                                     host.queueFamily));
     mInfo = describeDevice(host.physical, 0);
     std::string missing = mInfo.unsuitable;
     if (missing.empty()) missing = missingFeature(*host.created);

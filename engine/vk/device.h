@@ -65,16 +65,15 @@ struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE; // of Vulkan 1.3
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    // What the device was made with: its features are checked against neededFeatures().
+    // The device was made with this; only the constructor looks at it, to check the features.
     const VkDeviceCreateInfo* created = nullptr;
     VkQueue queue = VK_NULL_HANDLE;
-    uint32_t queueFamily = 0; // which does graphics and compute
+    uint32_t queueFamily = 0; // of the queue; it must do graphics and compute
 };
 
-// The features that a device must have been made with, by the names of Vulkan's specification; all of them
-// are there in every device that listDevices() calls suitable. Two more are used where they are on:
-// shaderOutputLayer, by bakes that draw visibility, and fullDrawIndexUint32, by draws of more than 2^24
-// vertices. No extension is needed.
+// A chain of features for a host that makes its own device. docs/engine.md lists those that are needed, which
+// every device has that listDevices() calls suitable, and two that are used where they are on. No extension
+// is needed.
 struct Features {
     Features();
     Features(const Features&) = delete; // it points into itself
@@ -94,8 +93,9 @@ class Device {
   public:
     // Throws NoDeviceError when nothing suits, UsageError when options cannot be understood.
     explicit Device(const DeviceOptions& options = {});
-    // Works on the host's device. Its queue is used by functions that wait for the device alone, as their
-    // comments say: to upload and to read back. Throws NoDeviceError that names the feature that is missing.
+    // Works on the host's device. Only functions whose comments say that they wait for the device use its
+    // queue, to upload and to read back. Throws NoDeviceError that names the missing feature, and UsageError
+    // where `host` is incomplete or its queue family cannot do both graphics and compute.
     explicit Device(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
@@ -162,7 +162,7 @@ class Device {
     std::span<const uint32_t> fitting(std::span<const uint32_t> builtIn) const;
     void destroy();
 
-    bool mIsHosts = false; // instance and device are the host program's
+    bool mIsHosts = false; // whether a host program owns instance and device
     VkInstance mInstance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
     VkPhysicalDevice mPhysical = VK_NULL_HANDLE;

@@ -27,15 +27,24 @@ std::string typeName(VkPhysicalDeviceType type) {
 
 } // namespace
 
-std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical) {
+static std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    for (uint32_t family = 0; family < count; family++) {
-        constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-        if ((families[family].queueFlags & kNeeded) == kNeeded) return family;
-    }
+    return families;
+}
+
+bool doesGraphicsAndCompute(VkPhysicalDevice physical, uint32_t family) {
+    constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    const auto families = queueFamilies(physical);
+    return family < families.size() && (families[family].queueFlags & kNeeded) == kNeeded;
+}
+
+std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical) {
+    const auto count = uint32_t(queueFamilies(physical).size());
+    for (uint32_t family = 0; family < count; family++)
+        if (doesGraphicsAndCompute(physical, family)) return family;
     return std::nullopt;
 }
 

@@ -7,10 +7,10 @@
 
 namespace relume::vk {
 
-// What is needed and was not turned on, in words; empty where nothing is missing.
+// Names the first needed feature that was not turned on, in a clause; empty where nothing is missing.
 std::string missingFeature(const VkDeviceCreateInfo& created);
 
-// Whether a feature that this file's tables name was turned on.
+// Returns whether a feature was turned on. `name` is one of the table in features.cpp.
 bool hasFeature(const VkDeviceCreateInfo& created, std::string_view name);
 
 } // namespace relume::vk
