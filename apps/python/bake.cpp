@@ -2,6 +2,7 @@
 #include "precompute/bake/bake.h"
 #include "apps/python/module.h"
 #include "engine/import/asset_info.h"
+#include "engine/render/appearance.h"
 #include "precompute/bake/bake_preset.h"
 
 #include <fmt/format.h>
@@ -123,28 +124,19 @@ std::shared_ptr<Asset> bakeScene(const SceneBuilder& builder,
     if (options.keepVisibility && !output)
         throw UsageError("keep_visibility: visibility is kept in a file; give output");
     const Scene scene = builder.build(options.refinement.has_value());
-    const vk::Device& on = device();
+    const std::shared_ptr<const vk::Device> on = device();
     std::shared_ptr<Asset> asset;
     runLong(progress, [&](const std::function<void(double)>& tell) {
         Reporter reporter(tell);
         if (output) {
-            bakeToFile(on, scene, options, *output, {}, reporter);
+            bakeToFile(*on, scene, options, *output, {}, reporter);
             asset = std::make_shared<Asset>(readAsset(*output));
         } else {
-            asset = std::make_shared<Asset>(bake(on, scene, options, reporter));
+            asset = std::make_shared<Asset>(bake(*on, scene, options, reporter));
         }
         tell(1);
     });
     return asset;
-}
-
-std::vector<std::string> materialsOf(const Asset& asset) {
-    std::vector<std::string> names;
-    for (const AssetPart& part : asset.parts)
-        for (const MaterialSet& set : part.sets)
-            for (const AssetMaterial& material : set.materials)
-                if (std::ranges::find(names, material.name) == names.end()) names.push_back(material.name);
-    return names;
 }
 
 } // namespace
@@ -164,7 +156,7 @@ void addBake(py::module_& module) {
                                    for (const AssetPart& part : asset.parts) names.push_back(part.name);
                                    return names;
                                })
-        .def_property_readonly("materials", materialsOf)
+        .def_property_readonly("materials", materialNames)
         .def_property_readonly("vertices",
                                [](const Asset& asset) {
                                    size_t vertices = 0;

@@ -4,14 +4,13 @@
 #include "engine/base/log.h"
 
 #include <chrono>
-#include <cstdlib>
 
 namespace relume::python {
 
 namespace {
 
 std::string selectedDevice;
-std::unique_ptr<vk::Device> openDevice;
+std::shared_ptr<const vk::Device> openDevice;
 
 void useDevice(const std::string& select) {
     openDevice.reset();
@@ -46,14 +45,10 @@ void logToPython(LogLevel level, const std::string& text) {
 
 } // namespace
 
-const vk::Device& device() {
-    if (!openDevice) {
-        const char* const fromEnvironment = std::getenv("RELUME_DEVICE");
-        const std::string select =
-            selectedDevice.empty() && fromEnvironment ? fromEnvironment : selectedDevice;
-        openDevice = std::make_unique<vk::Device>(vk::DeviceOptions{.select = select});
-    }
-    return *openDevice;
+std::shared_ptr<const vk::Device> device() {
+    if (!openDevice)
+        openDevice = std::make_shared<const vk::Device>(vk::DeviceOptions{.select = selectedDevice});
+    return openDevice;
 }
 
 void runLong(const py::object& progress,

@@ -14,7 +14,7 @@
 
 namespace relume::python {
 
-// Parts, and a ground that is sized when all of them are there.
+// A scene that grows part by part. Its ground is sized when all parts are there.
 struct SceneBuilder {
     Scene scene;
     struct Ground {
@@ -28,8 +28,9 @@ struct SceneBuilder {
     Scene build(bool isRefined) const;
 };
 
-// The device that all calls share: made when first needed, as RELUME_DEVICE or useDevice() selects it.
-const vk::Device& device();
+// Returns the device that all calls share, which is opened when first needed, as use_device() selected it.
+// What works on it holds it: another may be selected meanwhile, or Python may end.
+std::shared_ptr<const vk::Device> device();
 
 // Runs `work` without Python's lock. `work` is given a function that tells how far it is: that calls
 // `progress`, where it is not None, now and then, and looks for Ctrl-C. An exception of either ends the work

@@ -20,9 +20,9 @@ Camera cameraOf(const Asset& asset, float azimuth, float elevation, float distan
 class Renderer {
   public:
     Renderer(std::shared_ptr<const Asset> asset, std::pair<int, int> size, int samples, bool residual)
-        : mAsset(std::move(asset)), mLight(device(), mAsset->faceSize),
-          mRelighter(device(), *mAsset, {.residual = residual}),
-          mView(device(), *mAsset, {.width = size.first, .height = size.second, .samples = samples}),
+        : mDevice(device()), mAsset(std::move(asset)), mLight(*mDevice, mAsset->faceSize),
+          mRelighter(*mDevice, *mAsset, {.residual = residual}),
+          mView(*mDevice, *mAsset, {.width = size.first, .height = size.second, .samples = samples}),
           mAppearance(defaultAppearance(*mAsset)), mSize(size) {}
 
     void wear(const std::map<std::string, float>& blend) {
@@ -40,27 +40,26 @@ class Renderer {
     Image render(const Light& light, const std::optional<Camera>& camera, bool showsLight) {
         const Camera eye = camera.value_or(defaultCamera(objectBounds(*mAsset), glm::radians(35.0f),
                                                          float(mSize.first) / float(mSize.second)));
-        std::optional<BackgroundPass> background;
         if (showsLight) {
-            background.emplace(device());
-            background->setLight(light, 0);
+            if (!mBackground) mBackground.emplace(*mDevice);
+            mBackground->setLight(light, 0);
         }
         mView.setGroundFade(showsLight ? makeGroundFade(*mAsset) : std::nullopt);
         mLight.setLight(light);
-        vk::Commands commands(device(), "render");
+        vk::Commands commands(*mDevice, "render");
         commands.begin();
         mLight.record(commands, 0, mSelection);
         mRelighter.record(commands, mLight, mAppearance);
         mView.record(commands, eye, mRelighter);
-        if (background) background->record(commands, mView.image(), eye, 0);
+        if (showsLight) mBackground->record(commands, mView.image(), eye, 0);
         commands.submitAndWait();
-        return background ? background->read() : mView.read();
+        return showsLight ? mBackground->read() : mView.read();
     }
 
-    // Per part (rows of its vertices, K of each).
+    // Returns each part's tuples, vertex after vertex, and its K.
     std::vector<std::pair<std::vector<vec3>, size_t>> relight(const Light& light) {
         mLight.setLight(light);
-        vk::Commands commands(device(), "relight");
+        vk::Commands commands(*mDevice, "relight");
         commands.begin();
         mLight.record(commands, 0, mSelection);
         mRelighter.record(commands, mLight, mAppearance);
@@ -75,10 +74,12 @@ class Renderer {
     }
 
   private:
+    std::shared_ptr<const vk::Device> mDevice;
     std::shared_ptr<const Asset> mAsset;
     LightPass mLight;
     Relighter mRelighter;
     ViewPass mView;
+    std::optional<BackgroundPass> mBackground; // once it is asked for
     Appearance mAppearance;
     LightSelection mSelection;
     std::pair<int, int> mSize;

@@ -42,21 +42,19 @@ py::array_t<float> reference(const std::shared_ptr<const Asset>& asset, const Li
 }
 
 // The light is taken as finely as its maps are known.
-StudiedLight studied(const Light& light, std::optional<int> coefficients) {
-    LightSelection selection;
-    if (coefficients) selection.count = *coefficients;
-    return {light, sampleLight(light, kTruthFaceSize), selection};
+StudiedLight studied(const Light& light) {
+    return {light, sampleLight(light, kTruthFaceSize), LightSelection()};
 }
 
 py::object errors(const std::shared_ptr<const Asset>& asset, const Light& light,
                   const std::optional<Camera>& camera, std::pair<int, int> size, bool residual,
                   const py::object& progress) {
-    const vk::Device& on = device();
+    const std::shared_ptr<const vk::Device> on = device();
     std::string text;
     runLong(progress, [&](const std::function<void(double)>& tell) {
-        const StudiedLight one = studied(light, {});
+        const StudiedLight one = studied(light);
         const ErrorStudies studies =
-            studyErrors(on, *asset, defaultAppearance(*asset), std::span(&one, 1),
+            studyErrors(*on, *asset, defaultAppearance(*asset), std::span(&one, 1),
                         {.view = {cameraOr(camera, *asset, size), size.first, size.second},
                          .lowOrder = 5, // as `relume errors`: 25 harmonics
                          .residual = residual},
@@ -68,14 +66,14 @@ py::object errors(const std::shared_ptr<const Asset>& asset, const Light& light,
 
 py::object advice(const SceneBuilder& scene, const Light& light, double error, size_t points, bool asIs,
                   const py::object& progress) {
-    const vk::Device& on = device();
+    const std::shared_ptr<const vk::Device> on = device();
     AdviceRequest request{scene.build(false), {}, error};
     request.points = points;
     if (!asIs) request.refinable = scene.build(true);
     std::string text;
     runLong(progress, [&](const std::function<void(double)>& tell) {
         BakeObserver observer;
-        text = describe(advise(on, request, studied(light, {}), observer, tell), error).dump();
+        text = describe(advise(*on, request, studied(light), observer, tell), error).dump();
     });
     return parsed(text);
 }

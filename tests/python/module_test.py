@@ -7,6 +7,7 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -166,6 +167,17 @@ class ModuleTest(unittest.TestCase):
             relume.Mesh(np.zeros((3, 3)), [[0, 1, 9]])
         with self.assertRaises(ValueError):
             relume.Mesh(np.zeros((3, 2)), [[0, 1, 2]])
+
+    def test_renderers_outlive_the_choice_of_a_device_and_python(self):
+        renderer = relume.Renderer(self.asset, SIZE)
+        before = renderer.render(self.light)
+        relume.use_device("")
+        np.testing.assert_array_equal(renderer.render(self.light), before)
+        # One that is a global when Python ends is no crash.
+        script = ("import relume\n"
+                  f"renderer = relume.Renderer(relume.Asset.load({self.path!r}), (16, 12))\n"
+                  "renderer.render(relume.Light.sky())\n")
+        self.assertEqual(subprocess.run([sys.executable, "-c", script]).returncode, 0)
 
     def test_errors_say_what_the_command_line_says(self):
         with self.assertRaisesRegex(relume.Error, "nowhere.relume"):
