@@ -75,8 +75,7 @@ EncodedTransport encodeTransport(const SparseTransport& rows, const MaterialSet&
         encoded = {encodeCluster(kept.transport, 0, run), kept.error};
     } else {
         const std::vector<BasisKind>& kinds = std::get<BasisTransport>(set.transport).kinds;
-        const ClusterMatrix matrix =
-            clusterMatrix(rows, 0, rows.vertices, kinds, spectrum, unit, kAnalysedColumns);
+        const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, kinds, spectrum, unit);
         const BasisAnalysis analysis = analyse(matrix);
         const EncodedCluster cluster =
             encodeBases(matrix, analysis, cutFor(analysis, price), kinds, spectrum);

@@ -60,6 +60,7 @@ Weights weightsOf(const BrdfTable& table, Factorization method) {
     if (method != Factorization::Paper)
         for (Index i = 0; i < n; i++)
             root[i] = table.directions[size_t(i)].z * std::sqrt(table.solidAngles[size_t(i)]);
+    if (method == Factorization::NonNegative) return {{}, root, viewMetric(table)};
     return {{}, root, root};
 }
 
@@ -168,12 +169,40 @@ std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
     return first;
 }
 
+// Factors all channels with one set of gray light maps. A nonnegative factorization has many local optima:
+// channels factored one by one end in different ones, and the errors of their terms color what is gray.
+// Transport of gray light maps also takes a third of the bytes.
+std::array<ChannelFactors, 3> factorizeTogether(std::span<const BrdfTable> tables,
+                                                const std::array<size_t, 3>& first, const Weights& weights,
+                                                int terms) {
+    std::vector<const MatrixXf*> matrices;
+    for (const BrdfTable& table : tables)
+        for (size_t c = 0; c < 3; c++)
+            if (first[c] == c) matrices.push_back(&table.channels[c]);
+    const ChannelFactors all = factorizeGeneral(matrices, weights, Factorization::NonNegative, terms);
+    const size_t distinct = matrices.size() / tables.size();
+    std::array<ChannelFactors, 3> factors;
+    size_t next = 0; // channel of those that are factored
+    for (size_t c = 0; c < 3; c++) {
+        if (first[c] != c) {
+            factors[c] = factors[first[c]];
+            continue;
+        }
+        factors[c] = {all.values, all.light, {}};
+        for (size_t layer = 0; layer < tables.size(); layer++)
+            factors[c].view.push_back(all.view[layer * distinct + next]);
+        next++;
+    }
+    return factors;
+}
+
 std::array<ChannelFactors, 3> factorizeChannels(std::span<const BrdfTable> tables, Factorization method,
                                                 int terms) {
     const Weights weights = weightsOf(tables[0], method);
     const bool isSymmetric = tables.size() == 1 && tables[0].asymmetry <= kReciprocalAsymmetry &&
                              (method == Factorization::Paper || method == Factorization::Cosine);
     const std::array<size_t, 3> first = firstEqualChannels(tables);
+    if (method == Factorization::NonNegative) return factorizeTogether(tables, first, weights, terms);
     std::array<ChannelFactors, 3> factors;
     tbb::parallel_for(size_t(0), size_t(3), [&](size_t c) {
         if (first[c] != c) return;

@@ -18,7 +18,9 @@ enum class Factorization {
     // Singular triplets of f weighted by what environments and pixels ask for (light_metric.h): least squares
     // of reflected radiance as it is seen.
     Environment,
-    // As Cosine, with maps that are nowhere negative: sums cannot undershoot, for a larger error.
+    // Least squares of f cosθi over the pixels of a convex object, with maps that are nowhere negative: sums
+    // cannot
+    // undershoot, for a larger error. All channels share their light maps, which are gray.
     NonNegative,
     // One term, the normalized decomposition (Kautz and McCool 1999): the view map is the norm of f over
     // incoming directions, here of p = 2, the light map the mean over outgoing directions of f over it.

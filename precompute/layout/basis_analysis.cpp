@@ -10,9 +10,11 @@ namespace {
 
 constexpr uint32_t kStep = 4; // components are read by fours
 
-// More vectors than any budget that relighting is fast at asks for.
+// More vectors than any budget that relighting is fast at asks for. Of few kinds a vector is cheap, as
+// weights are few.
 Eigen::Index mostVectors(size_t kinds) {
-    return Eigen::Index(std::min<size_t>(64 + 8 * kinds, kMostBasisComponents - kFirstComponents + 1));
+    constexpr size_t kMost = kMostBasisComponents - kFirstComponents + 1;
+    return Eigen::Index(kinds <= 2 ? kMost : std::min(64 + 8 * kinds, kMost));
 }
 
 // -1: of a component that only makes the first more exact.
@@ -31,6 +33,7 @@ BasisAnalysis analyse(const ClusterMatrix& matrix) {
     const Eigen::MatrixXf& values = matrix.values;
     BasisAnalysis analysis;
     analysis.vertices = matrix.vertices;
+    analysis.importance = matrix.importance;
     analysis.columns = matrix.columns;
     analysis.energy = matrix.energy;
     if (values.size() > 0) {
@@ -59,6 +62,7 @@ BasisAnalysis analyse(const ClusterMatrix& matrix) {
 BasisCut cutFor(const BasisAnalysis& analysis, double price) {
     const Eigen::Index kinds = analysis.energy.size(), columns = Eigen::Index(analysis.columns.size());
     const uint32_t components = analysis.components();
+    price /= analysis.importance;
     const double weightBytes = double(analysis.vertices) + sizeof(float); // of a component of a kind
     const double countBytes = sizeof(uint16_t) * double(kinds);
     const auto columnBytes = [](uint32_t count) { return double(count + sizeof(uint16_t)); };

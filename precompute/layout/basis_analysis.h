@@ -5,9 +5,6 @@
 
 namespace relume {
 
-// Most columns of a cluster that are looked at. More of them cost more time and win little at any price.
-constexpr size_t kAnalysedColumns = 512;
-
 // The first vector is kept more exactly than a byte is, or smooth surfaces show the clusters' borders: as
 // three components, with a second byte for its values and one for its weights.
 constexpr uint32_t kFirstComponents = 3;
@@ -19,6 +16,7 @@ struct BasisAnalysis {
     Eigen::MatrixXf vectors;      // columns × vectors, orthonormal
     Eigen::MatrixXd vectorEnergy; // kinds × vectors: of the matrix along each
     Eigen::VectorXd energy;       // per kind, of the whole matrix
+    double importance = 1;        // the matrix's
     double weight = 1;            // how many clusters it stands for
 
     uint32_t components() const;
@@ -35,7 +33,7 @@ struct BasisCut {
     double error = 0;             // squared, but for quantisation
 };
 
-// The cut of least error + price · bytes.
+// The cut of least importance · error + price · bytes.
 BasisCut cutFor(const BasisAnalysis& analysis, double price);
 
 } // namespace relume

@@ -35,11 +35,11 @@ float transportUnit(const SparseTransport& rows, std::span<const float> spectrum
 }
 
 ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_t count,
-                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit,
-                            size_t most) {
+                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit) {
     ClusterMatrix matrix;
     matrix.vertices = count;
     matrix.unit = unit;
+    if (rows.terms == 1) matrix.importance = kDiffuseImportance;
     matrix.energy.setZero(Eigen::Index(kinds.size()));
     std::vector<double> energy(spectrum.size(), 0.0);
     forEachEntry(rows, first, count, kinds, spectrum, unit,
@@ -51,6 +51,7 @@ ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_
 
     for (size_t column = 0; column < energy.size(); column++)
         if (energy[column] > 0) matrix.columns.push_back(uint16_t(column));
+    const size_t most = kinds.size() * count <= kAnalysedSide ? kMostBasisColumns : kAnalysedSide;
     if (matrix.columns.size() > most) {
         std::nth_element(
             matrix.columns.begin(), matrix.columns.begin() + ptrdiff_t(most), matrix.columns.end(),

@@ -14,6 +14,7 @@ namespace relume {
 struct ClusterMatrix {
     uint32_t vertices = 0;
     float unit = 1;
+    double importance = 1;         // of its squared error, when bytes are shared out
     std::vector<uint16_t> columns; // coefficients, rising: those of most energy
     Eigen::MatrixXf values;
     Eigen::VectorXd energy; // per kind, over all coefficients: sums of squares
@@ -27,9 +28,17 @@ struct ClusterMatrix {
 // otherwise even.
 float transportUnit(const SparseTransport& rows, std::span<const float> spectrum);
 
-// Of vertices [first, first + count) of a set's rows; `most` columns at most.
+// The shorter side of a matrix that is analyzed, at most: time grows with its square. Few kinds leave room
+// for all the columns that a file can have, which the sharp shadows on a ground need; of many kinds more
+// columns win little.
+constexpr size_t kAnalysedSide = 512;
+
+// A set of one term is diffuse, most often a ground: shadows are all that is seen on it, and no highlight
+// hides what storage loses of them. Such sets matter so much more than others.
+constexpr double kDiffuseImportance = 40;
+
+// Returns the matrix of vertices [first, first + count) of a set's rows.
 ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_t count,
-                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit,
-                            size_t most);
+                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit);
 
 } // namespace relume

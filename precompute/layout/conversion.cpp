@@ -183,8 +183,7 @@ double convertToBases(const Source& source, const LayoutOptions& options, double
     const std::vector<Place> places = placesOf(source.sets, kBasisVertices);
     const auto matrixOf = [&](const Place& place) {
         return clusterMatrix(rowsOf(source.sets[place.set]->transport), place.first, place.count,
-                             made[place.set].kinds, source.spectrum, source.units[place.set],
-                             kAnalysedColumns);
+                             made[place.set].kinds, source.spectrum, source.units[place.set]);
     };
 
     // The rows are read twice (kLayoutPasses): once for what each cluster asks for, once for what it gets.

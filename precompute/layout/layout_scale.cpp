@@ -82,7 +82,7 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
         const SetSample& sample = samples[place.sample];
         analyses[i] =
             analyse(clusterMatrix(*place.rows, place.first, place.count, basisKinds(sample.set->brdf),
-                                  spectrum, scale.units[place.sample], kAnalysedColumns));
+                                  spectrum, scale.units[place.sample]));
         analyses[i].weight = place.weight;
     });
     scale.price = options.bytesPerVertex ? priceForBytes(analyses, budget) : priceForError(analyses, error);

@@ -12,7 +12,7 @@ namespace relume {
 // Of what decides the bytes of clusters and bases besides a bake's inputs and options: which sample tells the
 // scale, and how it and a scale's bytes are found. Raised with every change of these, so that blocks of
 // different programs never meet in one bake.
-constexpr uint32_t kLayoutEncoderVersion = 1;
+constexpr uint32_t kLayoutEncoderVersion = 2;
 
 struct LayoutScale {
     std::vector<float> units; // per set, over all parts: transportUnit()

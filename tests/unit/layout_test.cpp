@@ -181,8 +181,7 @@ TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
     const SparseTransport rows = smoothRows(256, 2, 3);
     const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
     const std::vector<float> spectrum = lightSpectrum(kFace);
-    const ClusterMatrix matrix =
-        clusterMatrix(rows, 0, 256, kinds, spectrum, transportUnit(rows, spectrum), kAnalysedColumns);
+    const ClusterMatrix matrix = clusterMatrix(rows, 0, 256, kinds, spectrum, transportUnit(rows, spectrum));
     CHECK(matrix.energy.sum() >= 256); // what varies, and the mean
     CHECK(matrix.values.squaredNorm() == doctest::Approx(matrix.energy.sum()));
     const BasisAnalysis analysis = analyse(matrix);
@@ -247,7 +246,7 @@ TEST_CASE("layout: bytes fall and error rises with the price") {
     const std::vector<float> spectrum = lightSpectrum(kFace);
     std::vector<BasisAnalysis> analyses;
     for (uint32_t first : {0u, 256u})
-        analyses.push_back(analyse(clusterMatrix(rows, first, 256, kinds, spectrum, 1, kAnalysedColumns)));
+        analyses.push_back(analyse(clusterMatrix(rows, first, 256, kinds, spectrum, 1)));
     CutTotals before = totalsAt(analyses, 1e-9);
     for (double price = 1e-8; price < 1; price *= 2) {
         const CutTotals now = totalsAt(analyses, price);
