@@ -202,6 +202,7 @@ TEST_CASE("many machines: parts that were damaged or cut short are refused, whol
         }
         CHECK_EQ(merge.exitCode, 1);
         CHECK(says(merge.err, "merged.relume: cannot be written"));
+        CHECK(says(merge.err, "make room"));
         CHECK_EQ(folder.read("merged.relume"), "precious");
     }
     CHECK(folder.read("merged.relume") == whole());
