@@ -197,7 +197,7 @@ TEST_CASE("asset file: what fails its checksum is named") {
     std::vector<std::byte> bytes = encodeAsset(sampleAsset());
     bytes.back() ^= std::byte(1);
     CHECK_THROWS_WITH_AS(decodeAsset(bytes, "sample"),
-                         doctest::Contains("of part or set 1 fails its checksum"), Error);
+                         doctest::Contains("of part or set 2 fails its checksum"), Error);
     const uint32_t chunks = uint32_t(sampleChunks().size());
     bytes = encodeAsset(sampleAsset());
     bytes[32 + 48 * chunks] ^= std::byte(1); // the first chunk
