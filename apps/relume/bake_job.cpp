@@ -7,10 +7,17 @@
 #include "engine/base/interrupt.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
+
+// Refuses sizes of 0, which would be no limit, and negative ones, which would wrap.
+static std::string isPositive(const std::string& text) {
+    return std::atof(text.c_str()) > 0 ? ""
+                                       : fmt::format("expected a size as 512M or 2G, found \"{}\"", text);
+}
 
 void BakeJob::add(CLI::App& command) {
     command.add_option("-o,--output", output, "Bake to write (.relume)")->type_name("FILE")->required();
@@ -22,7 +29,8 @@ void BakeJob::add(CLI::App& command) {
         .add_option("--memory", limits.memory,
                     "Most memory that a batch of vertices may take, on device and host: 512M, 2G")
         ->type_name("SIZE")
-        ->transform(CLI::AsSizeValue(false));
+        ->transform(CLI::AsSizeValue(false))
+        ->transform(CLI::Validator(isPositive, "")); // what is added last comes first
     command.add_option("--threads", mThreads, "Most host threads that work at a time")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));

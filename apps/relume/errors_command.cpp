@@ -3,6 +3,7 @@
 #include "apps/relume/options.h"
 #include "apps/relume/studied_light.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/progress.h"
 #include "engine/import/image_file.h"
 #include "precompute/error/heat_maps.h"
@@ -30,8 +31,6 @@ constexpr int kLowOrder = 5; // 25 coefficients: what most engines keep
 
 void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, const ViewPoints& points) {
     constexpr int kScale = 4;
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure); // writing says why not
     writeExr(folder / "drawn.exr", study.drawn);
     writeExr(folder / "reference.exr", study.reference);
     writeExr(folder / "harmonics.exr", study.lowOrder->image);
@@ -80,6 +79,11 @@ void run(const Arguments& arguments) {
     const StudiedLight light = arguments.light.studied();
     if (!arguments.images.empty()) addImages(arguments.images, files);
     files.check();
+    if (!arguments.images.empty()) {
+        std::error_code failure;
+        std::filesystem::create_directories(arguments.images, failure); // the next line says why not
+        expectWritable(arguments.images / "drawn.exr");
+    }
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
     Progress progress("tracing", pixels, "pixels");
     const ErrorStudies studies =

@@ -16,13 +16,13 @@ namespace relume {
 static void printReadable(const nlohmann::ordered_json& value, int depth) {
     for (const auto& [key, entry] : value.items()) {
         const std::string indent(size_t(2 * depth), ' ');
-        const std::string name = value.is_array() ? "-" : key + ":";
+        const std::string name = value.is_array() ? "-" : printable(key) + ":";
         if (entry.is_structured() && !entry.empty()) {
             fmt::print("{}{}\n", indent, name);
             printReadable(entry, depth + 1);
         } else
             fmt::print("{}{} {}\n", indent, name,
-                       entry.is_string() ? entry.get<std::string>() : entry.dump());
+                       entry.is_string() ? printable(entry.get<std::string>()) : entry.dump());
     }
 }
 

@@ -103,7 +103,10 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
     const vec3 arm = camera.eye - camera.target;
     const float c = std::cos(turn), s = std::sin(turn);
     if (turn != 0) camera.eye = camera.target + vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x);
-    if (!(glm::length(arm) > 0)) throw UsageError("--eye: expected a point other than the target");
+    if (!(glm::length(arm) > 0))
+        throw UsageError(mOrbit.empty()
+                             ? "--eye: expected a point other than the target"
+                             : "--orbit: expected a distance at which the eye is not on the target");
     return camera;
 }
 
@@ -185,9 +188,9 @@ MovingLight LightArguments::source(bool withPictures) const {
     if (!mDistant.empty())
         return MovingLight({.distant = {{directionAt(mDistant[0], mDistant[1]), vec3(kPi)}}});
     if (!mSphere.empty()) {
-        if (!(mSphere[2] > 0 && mSphere[2] <= 90))
-            throw UsageError(fmt::format(
-                "--sphere-light: expected a radius above 0 and up to 90 degrees, found {}", mSphere[2]));
+        if (!(mSphere[2] >= kSmallestLampRadius && mSphere[2] <= 90))
+            throw UsageError(fmt::format("--sphere-light: expected a radius of {} to 90 degrees, found {}",
+                                         kSmallestLampRadius, mSphere[2]));
         // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
         const float radius = radians(mSphere[2]), sine = std::sin(radius);
         return MovingLight(

@@ -4,8 +4,10 @@
 #include "engine/base/log.h"
 
 #include <cstdio>
+#include <fmt/format.h>
 #include <iostream>
 #include <malloc.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -23,11 +25,40 @@ void keepFreedMemory() {
 #endif
 }
 
+constexpr const char* kUnwritten =
+    "standard output: cannot be written; is its disk full, or its reader gone?";
+
+// Throws for an empty argument, which the options would take for none: a variable of the shell that is not
+// set.
+void checkArguments(int argc, char** argv) {
+    for (int i = 1; i < argc; i++) {
+        const std::string_view argument = argv[i];
+        const size_t assigned = argument.find('=');
+        if (argument.empty() || (argument.starts_with("--") && assigned == argument.size() - 1))
+            throw UsageError(fmt::format("{}: expected a value, found an empty text; is a variable not set?",
+                                         argument.empty() ? argv[i - 1] : argument.substr(0, assigned)));
+    }
+}
+
+// A message with its control characters spelled out: it may hold names that come from files.
+class PrintableText : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+        const std::string text = printable({message.payload.data(), message.payload.size()});
+        out.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override {
+        return std::make_unique<PrintableText>();
+    }
+};
+
 } // namespace
 
 void logToStderr(const char* name) {
     spdlog::set_default_logger(spdlog::stderr_color_mt(name));
-    spdlog::set_pattern("%^%l%$: %v");
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<PrintableText>('*').set_pattern("%^%l%$: %*");
+    spdlog::set_formatter(std::move(formatter));
     setLog([](LogLevel level, const std::string& text) {
         constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info,
                                                          spdlog::level::warn, spdlog::level::err};
@@ -38,14 +69,16 @@ void logToStderr(const char* name) {
 int runProgram(CLI::App& program, int argc, char** argv, const std::function<void()>& work) {
     keepFreedMemory();
     try {
-        program.parse(argc, argv);
-        work();
+        checkArguments(argc, argv);
+        try {
+            program.parse(argc, argv);
+            work();
+        } catch (const CLI::Success& success) { // --help, --version
+            program.exit(success);
+        }
         std::cout.flush();
-        if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
-            throw Error("standard output: cannot be written; is its disk full, or its reader gone?");
+        if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout)) throw Error(kUnwritten);
         return kExitDone;
-    } catch (const CLI::Success& success) { // --help, --version
-        return program.exit(success);
     } catch (const CLI::RuntimeError& decided) {
         return decided.get_exit_code();
     } catch (const CLI::ParseError& wrong) {
@@ -61,7 +94,7 @@ int runProgram(CLI::App& program, int argc, char** argv, const std::function<voi
         spdlog::error("out of memory");
         return kExitFailed;
     } catch (const std::exception& failure) {
-        spdlog::error("{}", failure.what());
+        spdlog::error("{}", std::ferror(stdout) ? kUnwritten : failure.what());
         return kExitFailed;
     }
 }

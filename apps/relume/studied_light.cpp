@@ -1,5 +1,9 @@
 #include "apps/relume/studied_light.h"
 
+#include "engine/base/error.h"
+
+#include <algorithm>
+
 namespace relume {
 
 void StudiedLightArguments::add(CLI::App& command) {
@@ -8,6 +12,15 @@ void StudiedLightArguments::add(CLI::App& command) {
 }
 
 StudiedLight StudiedLightArguments::studied() const {
+    StudiedLight studied = sampled();
+    // Said before the work, whose errors are relative to what is seen.
+    if (std::ranges::all_of(studied.fine.radiance, [](vec3 radiance) { return radiance == vec3(0); }))
+        throw Error(
+            "the light is black: under no light no error can be told; choose another, or turn a lamp on");
+    return studied;
+}
+
+StudiedLight StudiedLightArguments::sampled() const {
     constexpr int kFineWidth = 2048; // as many columns for a fine cube as the default has for a coarse one
     const float rotation = radians(light.rotationDegrees);
     if (!light.isEnvironment()) {

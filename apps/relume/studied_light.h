@@ -13,8 +13,11 @@ struct StudiedLightArguments {
 
     void add(CLI::App& command);
     // At the moment that the options name; a single environment's fine cube has all of its
-    // resolution that 6 × kTruthFaceSize² texels can hold.
+    // resolution that 6 × kTruthFaceSize² texels can hold. Throws Error for light that is black.
     StudiedLight studied() const;
+
+  private:
+    StudiedLight sampled() const;
 };
 
 } // namespace relume

@@ -1,6 +1,7 @@
 #include "apps/relume/options.h"
 #include "apps/relume/run_program.h"
 #include "apps/viewer/viewer.h"
+#include "apps/viewer/window.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 
@@ -24,10 +25,12 @@ int main(int argc, char** argv) {
         ->each([&options](const std::string& text) {
             ivec2 found(0);
             char rest;
-            if (std::sscanf(text.c_str(), "%dx%d%c", &found.x, &found.y, &rest) != 2 || found.x < 320 ||
-                found.y < 240 || found.x > 16384 || found.y > 16384)
-                throw UsageError(fmt::format(
-                    "--size: expected WIDTHxHEIGHT, from 320x240 to 16384x16384, found \"{}\"", text));
+            if (std::sscanf(text.c_str(), "%dx%d%c", &found.x, &found.y, &rest) != 2 ||
+                found.x < kSmallestWindow.x || found.y < kSmallestWindow.y || found.x > kLargestWindow ||
+                found.y > kLargestWindow)
+                throw UsageError(
+                    fmt::format("--size: expected WIDTHxHEIGHT, from {}x{} to {}x{}, found \"{}\"",
+                                kSmallestWindow.x, kSmallestWindow.y, kLargestWindow, kLargestWindow, text));
             options.size = found;
         });
     program.add_flag_callback(

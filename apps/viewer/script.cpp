@@ -5,8 +5,10 @@
 #include "engine/base/file.h"
 
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace relume {
 
@@ -59,6 +61,55 @@ vec2 pairOf(const json& step, const char* name) {
     return {value.at(0).get<float>(), value.at(1).get<float>()};
 }
 
+int wholeOf(const json& value, const char* name, int least, int most) {
+    if (!value.is_number_integer() || value < least || value > most)
+        throw Error(fmt::format("\"{}\": expected a whole number from {} to {}, found {}", name, least, most,
+                                value.dump()));
+    return value.get<int>();
+}
+
+void checkWait(const json& wait) {
+    constexpr double kMostSeconds = 1e6;
+    const bool isPasses = wait.is_object() && wait.size() == 1 && wait.contains("passes");
+    if (isPasses)
+        wholeOf(wait["passes"], "passes", 0, Comparison::kPasses);
+    else if (wait != "settled" && !(wait.is_number() && wait >= 0 && wait <= kMostSeconds))
+        throw Error(fmt::format("\"wait\": expected \"settled\", 0 to {} seconds, or {{\"passes\": N}} of a "
+                                "comparison, found {}",
+                                kMostSeconds, wait.dump()));
+}
+
+// Throws unless a step is one action with what belongs to it, in numbers that there are.
+void checkStep(const json& step) {
+    static const std::map<std::string, std::set<std::string>> kActions = {
+        {"double-click", {}}, {"drag", {"from", "by", "over"}},
+        {"drop", {}},         {"frames", {}},
+        {"key", {"at"}},      {"quit", {}},
+        {"resize", {}},       {"screenshot", {}},
+        {"set", {}},          {"wait", {}},
+        {"wheel", {"at"}}};
+    if (!step.is_object()) throw Error(fmt::format("expected an object, found {}", step.dump()));
+    const auto action =
+        std::ranges::find_if(kActions, [&](const auto& known) { return step.contains(known.first); });
+    if (action == kActions.end())
+        throw Error(
+            fmt::format("expected one of double-click, drag, drop, frames, key, quit, resize, screenshot, "
+                        "set, wait, wheel; found {}",
+                        step.dump()));
+    for (const auto& [key, value] : step.items())
+        if (key != action->first && !action->second.contains(key))
+            throw Error(fmt::format("\"{}\" is no part of \"{}\"; a step does one thing: make it two", key,
+                                    action->first));
+    constexpr int kMost = 1000000000;
+    if (step.contains("frames")) wholeOf(step["frames"], "frames", 0, kMost);
+    if (step.contains("over")) wholeOf(step["over"], "over", 1, kMost);
+    if (step.contains("wait")) checkWait(step["wait"]);
+    if (step.contains("resize")) {
+        wholeOf(step["resize"].at(0), "resize", kSmallestWindow.x, kLargestWindow);
+        wholeOf(step["resize"].at(1), "resize", kSmallestWindow.y, kLargestWindow);
+    }
+}
+
 } // namespace
 
 Script::Script(const std::filesystem::path& file) : mFile(file) {
@@ -66,25 +117,32 @@ Script::Script(const std::filesystem::path& file) : mFile(file) {
     const char* const text = reinterpret_cast<const char*>(bytes.data());
     mSteps = json::parse(text, text + bytes.size(), nullptr, false);
     if (!mSteps.is_array()) throw Error(fmt::format("{}: expected a JSON array of steps", file.string()));
+    for (; !hasEnded(); mStep++) tellStep([&] { checkStep(mSteps[mStep]); });
+    mStep = 0;
+}
+
+template <typename Work>
+void Script::tellStep(const Work& work) {
+    try {
+        work();
+    } catch (const json::exception& wrong) {
+        throw Error(fmt::format("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what()));
+    } catch (const Error& wrong) {
+        throw Error(fmt::format("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what()));
+    }
 }
 
 void Script::step(ScriptTarget& target) {
     while (!hasEnded()) {
-        try {
-            if (!run(target, mSteps[mStep])) return;
-        } catch (const json::exception& wrong) {
-            throw Error(fmt::format("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what()));
-        } catch (const Error& wrong) {
-            throw Error(fmt::format("{}: step {}: {}", mFile.string(), mStep + 1, wrong.what()));
-        }
+        bool isOver = false;
+        tellStep([&] { isOver = run(target, mSteps[mStep]); });
+        if (!isOver) return;
         mStep++;
         mFrame = 0;
     }
 }
 
 bool Script::run(ScriptTarget& target, const json& step) {
-    if (!step.is_object() || step.empty())
-        throw Error(fmt::format("expected an object, found {}", step.dump()));
     if (step.contains("drag")) return drag(target, step);
     const bool isFirst = mFrame++ == 0;
     if (step.contains("frames")) return mFrame > step["frames"].get<int>();
@@ -115,14 +173,9 @@ bool Script::run(ScriptTarget& target, const json& step) {
         target.resize(int(size.x), int(size.y));
     } else if (step.contains("screenshot")) {
         target.screenshot(step["screenshot"].get<std::string>());
-    } else if (step.contains("quit")) {
+    } else {
         target.quit();
-    } else
-        throw Error(fmt::format(
-            "expected one of double-click, drag, drop, frames, key, quit, resize, screenshot, set, "
-            "wait, wheel; "
-            "found {}",
-            step.dump()));
+    }
     return false;
 }
 
@@ -133,13 +186,7 @@ bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
     if (wait.is_number())
         return std::chrono::steady_clock::now() - mWaitsSince >=
                std::chrono::duration<double>(wait.get<double>());
-    if (!wait.is_object() || !wait.contains("passes"))
-        throw Error(
-            fmt::format("\"wait\": expected \"settled\", seconds, or {{\"passes\": N}} of a comparison"));
-    const int passes = wait["passes"].get<int>();
-    if (passes > Comparison::kPasses)
-        throw Error(fmt::format("\"passes\": expected at most {}, found {}", Comparison::kPasses, passes));
-    return target.comparedPasses() >= passes;
+    return target.comparedPasses() >= wait["passes"].get<int>();
 }
 
 // Pressed at `from`, moved by an equal part of `by` in each of `over` frames, released.
@@ -150,7 +197,7 @@ bool Script::drag(ScriptTarget& target, const json& step) {
         throw Error(fmt::format(
             "\"drag\": expected left, middle or right, after shift+ or ctrl+; found \"{}\"", name));
     const vec2 from = pairOf(step, "from"), by = pairOf(step, "by");
-    const int frames = std::max(1, step.value("over", 1));
+    const int frames = step.value("over", 1);
     using Kind = InputEvent::Kind;
     if (mFrame == 0) {
         target.input({Kind::Move, 0, false, 0, from});

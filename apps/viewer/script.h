@@ -39,6 +39,9 @@ class Script {
     // One step's inputs of this frame; true: it has ended.
     bool run(ScriptTarget& target, const nlohmann::json& step);
     bool drag(ScriptTarget& target, const nlohmann::json& step);
+    // Names file and step in what `work` throws.
+    template <typename Work>
+    void tellStep(const Work& work);
     bool hasWaited(const ScriptTarget& target, const nlohmann::json& wait);
 
     std::filesystem::path mFile;

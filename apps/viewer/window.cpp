@@ -52,7 +52,7 @@ Window::Window(const std::string& title, ivec2 size) {
         glfwTerminate();
         throw NoDeviceError(fmt::format(kNoDisplay, why));
     }
-    glfwSetWindowSizeLimits(mWindow, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowSizeLimits(mWindow, kSmallestWindow.x, kSmallestWindow.y, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwSetWindowUserPointer(mWindow, this);
     using Kind = InputEvent::Kind;
     glfwSetMouseButtonCallback(mWindow, [](GLFWwindow* window, int button, int action, int modifiers) {

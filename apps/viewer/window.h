@@ -12,6 +12,10 @@ struct GLFWwindow;
 
 namespace relume {
 
+// Pixels of a window that may be asked for.
+constexpr ivec2 kSmallestWindow(320, 240);
+constexpr int kLargestWindow = 16384;
+
 // Keys, buttons and modifiers are GLFW's. Places in pixels of the framebuffer, from the upper left.
 struct InputEvent {
     enum class Kind { Button, Move, Scroll, Key, Drop } kind;

@@ -2,6 +2,8 @@
 // what to do. Thrown where found, caught in main only, where the type decides the exit code.
 #pragma once
 
+#include "engine/base/printable.h"
+
 #include <stdexcept>
 
 namespace relume {
@@ -19,7 +21,7 @@ enum ExitCode : int {
 // Bad input or a failing environment: exit code 1.
 class Error : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit Error(const std::string& text) : std::runtime_error(printable(text)) {}
 };
 
 // Options that cannot be used as given: exit code 2.

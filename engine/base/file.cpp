@@ -62,6 +62,12 @@ void FileReader::read(uint64_t offset, std::span<std::byte> bytes) const {
     }
 }
 
+// What to say of a file after a call on it has failed.
+static std::string unwritten(const std::filesystem::path& path) {
+    return fmt::format("{}: cannot be written: {}; make room, or name a file elsewhere", path.string(),
+                       std::strerror(errno));
+}
+
 // The file that writing `path` replaces: a symbolic link's target. Refuses what is no regular file.
 static std::filesystem::path replacedFile(std::filesystem::path path) {
     std::error_code failure;
@@ -109,8 +115,7 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(mDescriptor, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written <= 0)
-            throw Error(fmt::format("{}: cannot be written: {}", mPath.string(), std::strerror(errno)));
+        if (written <= 0) throw Error(unwritten(mPath));
         bytes = bytes.subspan(size_t(written));
     }
 }
@@ -120,8 +125,7 @@ void AtomicFile::commit() {
     const int current = open(mTemporary.c_str(), O_RDONLY);
     const bool flushed = current >= 0 && fsync(current) == 0;
     if (current >= 0) close(current);
-    if (!flushed || rename(mTemporary.c_str(), mPath.c_str()) != 0)
-        throw Error(fmt::format("{}: cannot be written: {}", mPath.string(), std::strerror(errno)));
+    if (!flushed || rename(mTemporary.c_str(), mPath.c_str()) != 0) throw Error(unwritten(mPath));
     close(mDescriptor);
     mDescriptor = -1;
     // The new name outlives a crash of the machine only once its folder is on the disk.

@@ -1,5 +1,7 @@
 #include "engine/base/progress.h"
 
+#include "engine/base/printable.h"
+
 #include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -26,8 +28,8 @@ std::string durationText(double seconds) {
 
 } // namespace
 
-Progress::Progress(std::string title, uint64_t total, std::string unit, bool quiet)
-    : mTitle(std::move(title)), mUnit(std::move(unit)), mTotal(total), mQuiet(quiet),
+Progress::Progress(std::string_view title, uint64_t total, std::string unit, bool quiet)
+    : mTitle(printable(title)), mUnit(std::move(unit)), mTotal(total), mQuiet(quiet),
       mTerminal(isatty(STDERR_FILENO) != 0), mStart(Clock::now()), mLastPrint(mStart) {}
 
 Progress::~Progress() {
@@ -60,8 +62,8 @@ void Progress::update(const State& state) {
     print(state);
 }
 
-void Progress::setTitle(std::string title) {
-    mTitle = std::move(title);
+void Progress::setTitle(std::string_view title) {
+    mTitle = printable(title);
     if (mQuiet || !mTerminal || mLineOpen) return; // a bar shows it when it is drawn next
     fmt::print(stderr, "\r{}\033[K", mTitle);
     std::fflush(stderr);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace relume {
 
@@ -11,7 +12,7 @@ namespace relume {
 class Progress {
   public:
     // `total` items of work; `unit` names them in the plural ("vertices").
-    Progress(std::string title, uint64_t total, std::string unit, bool quiet = false);
+    Progress(std::string_view title, uint64_t total, std::string unit, bool quiet = false);
     // Ends the line of an unfinished bar, clears a title without one.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -28,7 +29,7 @@ class Progress {
     void update(const State& state);
 
     // The stage in hand: shown at once on a terminal.
-    void setTitle(std::string title);
+    void setTitle(std::string_view title);
 
   private:
     void print(const State& state);

@@ -1,5 +1,6 @@
 #include "engine/import/asset_info.h"
 
+#include "engine/import/json_object.h"
 #include "engine/transport/asset_meta.h"
 #include "engine/transport/chunk_file.h"
 
@@ -16,13 +17,9 @@ constexpr size_t kLargestDepth = 8; // of nested arrays and objects
 
 // JSON where the text is JSON of no great depth, else the text itself: printing recurses.
 Json jsonOrText(const std::string& text) {
-    bool isDeep = false;
-    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
-        isDeep |= size_t(depth) > kLargestDepth;
-        return !isDeep;
-    };
-    Json json = Json::parse(text, bound, false);
-    return isDeep || json.is_discarded() ? Json(text) : json;
+    if (isJsonDeeper(text, kLargestDepth)) return text;
+    const Json json = Json::parse(text, nullptr, false);
+    return json.is_discarded() ? Json(text) : json;
 }
 
 double ratio(uint64_t numerator, uint64_t denominator) {

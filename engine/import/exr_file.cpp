@@ -206,6 +206,7 @@ ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) t
     const int64_t width = int64_t(window.max.x) - window.min.x + 1;
     const int64_t height = int64_t(window.max.y) - window.min.y + 1;
     checkImageSize(name, width, height, bytes.size());
+    checkDensity(name, width, height, bytes.size());
     checkChunks(header, width, height, bytes.size(), name);
     const bool luminance = isLuminance(header.channels(), name);
     warnOfPrimaries(header, name);

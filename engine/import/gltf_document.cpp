@@ -2,21 +2,21 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/json_object.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
+#include <map>
 #include <string_view>
+#include <utility>
 
 namespace relume {
 namespace {
 
 using Json = nlohmann::json;
-
-// The name under which the binary chunk of a .glb is handed to the library.
-constexpr std::string_view kBinaryChunk = "binary-chunk-of-this-file";
 
 // A file's two parts; `binary` is empty but for .glb.
 struct Container {
@@ -59,40 +59,51 @@ constexpr std::array<std::string_view, 9> kGeometry = {"asset",       "scene",  
                                                        "bufferViews", "buffers", "extensionsRequired"};
 constexpr std::array<std::string_view, 4> kLooks = {"materials", "textures", "images", "samplers"};
 
-// Keeps of the document what geometry and looks need.
-Json readJson(const std::string& text, const std::string& name) {
-    const auto isOneOf = [](const auto& names, std::string_view key) {
-        return std::find(names.begin(), names.end(), key) != names.end();
-    };
-    bool isLook = false; // whether the parser is inside of one of kLooks
-    const auto keep = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if (depth > 64) throw Error(fmt::format("{}: is nested deeper than any glTF file", name));
-        if (event != Json::parse_event_t::key) return true;
-        const std::string& key = parsed.get_ref<const std::string&>();
-        if (depth == 1) {
-            isLook = isOneOf(kLooks, key);
-            return isLook || isOneOf(kGeometry, key);
-        }
-        return key != "extras" && key != "targets" && (isLook || key != "extensions");
-    };
-    try {
-        return Json::parse(text, keep);
-    } catch (const Json::exception& failure) {
-        throw Error(fmt::format("{}: is not valid glTF: {}", name, failure.what()));
-    }
+// Takes some members out of a document.
+Json takeMembers(Json& document, std::span<const std::string_view> keys) {
+    Json taken = Json::object();
+    for (const std::string_view key : keys)
+        if (const auto found = document.find(key); found != document.end())
+            taken[std::string(key)] = std::move(*found);
+    return taken;
 }
 
-// Takes the looks out of a document. They are not for the library, which indexes buffers by their numbers
-// unchecked, and recurses into extensions as deep as a file likes.
-Json takeLooks(Json& document) {
-    Json looks = Json::object();
-    for (const std::string_view key : kLooks) {
-        const auto found = document.find(key);
-        if (found == document.end()) continue;
-        looks[std::string(key)] = std::move(*found);
-        document.erase(found);
+std::string shorten(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40);
+}
+
+void checkVersion(const Json& document, const std::string& name) {
+    const auto asset = document.find("asset");
+    const Json version =
+        asset != document.end() && asset->is_object() ? asset->value("version", Json()) : Json();
+    if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2."))
+        throw Error(fmt::format("{}: expected glTF of asset version 2.0, found {}: export it as glTF 2.0",
+                                name, shorten(version)));
+}
+
+// Leaves out what nobody reads, and throws for what the library would take for another number: it has
+// defaults for those that are not whole or negative, and wraps large ones. `key` is that of the nearest
+// member.
+void checkGeometry(const std::string& key, Json& json, const std::string& name) {
+    static constexpr std::string_view kSizes[] = {"byteLength", "byteOffset", "count"};
+    static constexpr std::string_view kNumbers[] = {"attributes", "buffer",  "bufferView", "byteStride",
+                                                    "children",   "indices", "material",   "mesh",
+                                                    "mode",       "nodes",   "scene",      "componentType"};
+    const auto isOneOf = [&](const auto& keys) { return std::ranges::find(keys, key) != std::end(keys); };
+    if (json.is_object()) {
+        for (const char* unread : {"extras", "targets", "extensions"}) json.erase(unread);
+        for (auto& [member, value] : json.items())
+            checkGeometry(key == "attributes" ? key : member, value, name);
+    } else if (json.is_array()) {
+        for (Json& value : json) checkGeometry(key, value, name);
+    } else if (isOneOf(kNumbers) || isOneOf(kSizes)) {
+        const bool isWhole =
+            json.is_number_unsigned() && (isOneOf(kSizes) || json.get<uint64_t>() <= uint64_t(INT32_MAX));
+        if (!isWhole)
+            throw Error(
+                fmt::format("{}: \"{}\": expected a whole number from 0 on, found {}: export the file again",
+                            name, key, shorten(json)));
     }
-    return looks;
 }
 
 // Throws if the file cannot be understood without an extension that changes geometry.
@@ -115,61 +126,70 @@ std::filesystem::path folderOrHere(const std::filesystem::path& folder) {
     return folder.empty() ? std::filesystem::path(".") : folder;
 }
 
+// Symbolic links count as what they lead to.
 bool isFileInside(const std::filesystem::path& path, const std::filesystem::path& folder) {
-    const auto relative = path.lexically_normal().lexically_relative(folder.lexically_normal());
-    return !relative.empty() && *relative.begin() != ".." && std::filesystem::is_regular_file(path);
+    std::error_code failure, missing;
+    const auto place = std::filesystem::canonical(path, missing);
+    const auto relative = place.lexically_relative(std::filesystem::canonical(folder, failure));
+    return !missing && !failure && !relative.empty() && *relative.begin() != ".." &&
+           std::filesystem::is_regular_file(place, failure);
 }
 
-// What the library may read: the binary chunk, and files in the folder of the glTF file and below.
-struct FileAccess {
-    std::string folder;
-    const std::vector<unsigned char>* binary;
+// The buffers of a document by the names under which the library asks for them: it reads no files itself.
+constexpr const char* kBuffers = "buffers";
+using Buffers = std::map<std::string, std::vector<unsigned char>>;
 
-    bool isBinary(const std::string& path) const { return path == folder + "/" + std::string(kBinaryChunk); }
-    bool isInside(const std::string& path) const { return isFileInside(path, folder); }
-};
-
-tinygltf::FsCallbacks callbacksOf(FileAccess& access) {
+tinygltf::FsCallbacks callbacksOf(Buffers& buffers) {
     const auto exists = [](const std::string& path, void* data) {
-        const auto& files = *static_cast<FileAccess*>(data);
-        return files.isBinary(path) || files.isInside(path);
+        return static_cast<Buffers*>(data)->contains(path);
     };
-    const auto read = [](std::vector<unsigned char>* out, std::string* failure, const std::string& path,
-                         void* data) {
-        const auto& files = *static_cast<FileAccess*>(data);
-        if (files.isBinary(path)) {
-            *out = *files.binary;
-            return true;
-        }
-        try {
-            const std::vector<std::byte> bytes = readFile(path);
-            const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
-            out->assign(first, first + bytes.size());
-            return true;
-        } catch (const Error& error) {
-            *failure = error.what();
-            return false;
-        }
+    const auto read = [](std::vector<unsigned char>* out, std::string*, const std::string& path, void* data) {
+        *out = std::move(static_cast<Buffers*>(data)->at(path));
+        return true;
     };
     return {exists, [](const std::string& path, void*) { return path; }, read,
             [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-            &access};
+            &buffers};
+}
+
+// The bytes of a buffer: in its address, in a file, or, of a .glb's first without an address, in the binary
+// chunk, which may be padded.
+std::vector<unsigned char> readBuffer(const Json& buffer, Container& container,
+                                      const std::filesystem::path& folder, const std::string& place) {
+    const std::string uri = buffer.contains("uri") && buffer["uri"].is_string() ? buffer["uri"] : Json("");
+    std::vector<unsigned char> bytes;
+    if (uri.empty()) {
+        bytes = std::exchange(container.binary, {});
+    } else if (std::string type; tinygltf::IsDataURI(uri)) {
+        tinygltf::DecodeDataURI(&bytes, type, uri, 0, false);
+    } else {
+        const std::vector<std::byte> file = readFile(findGltfFile(uri, folder, place));
+        const auto* first = reinterpret_cast<const unsigned char*>(file.data());
+        bytes.assign(first, first + file.size());
+    }
+    const auto length = buffer.find("byteLength");
+    const size_t size = length != buffer.end() && length->is_number_unsigned() ? length->get<size_t>() : 0;
+    if (bytes.size() < size || (bytes.size() > size && !uri.empty()))
+        throw Error(
+            fmt::format("{}: expected {} bytes by its byteLength, found {}: the file is truncated or corrupt",
+                        place, size, bytes.size()));
+    bytes.resize(size);
+    return bytes;
 }
 
 tinygltf::Model readModel(Json document, Container container, const std::filesystem::path& folder,
                           const std::string& name) {
-    // The first buffer of a .glb has no address: it is the binary chunk, without its padding.
-    const auto buffers = document.find("buffers");
-    if (!container.binary.empty() && buffers != document.end() && buffers->is_array() && !buffers->empty() &&
-        buffers->front().is_object() && !buffers->front().contains("uri")) {
-        buffers->front()["uri"] = kBinaryChunk;
-        const auto length = buffers->front().find("byteLength");
-        if (length != buffers->front().end() && length->is_number_unsigned())
-            container.binary.resize(std::min(container.binary.size(), length->get<size_t>()));
-    }
-    FileAccess access{folderOrHere(folder).string(), &container.binary};
+    Buffers files;
+    if (const auto buffers = document.find("buffers"); buffers != document.end() && buffers->is_array())
+        for (size_t i = 0; i < buffers->size(); i++) {
+            Json& buffer = (*buffers)[i];
+            if (!buffer.is_object()) continue;
+            const std::string place = fmt::format("{}: buffers[{}]", name, i);
+            files[fmt::format("{}/{}", kBuffers, i)] = readBuffer(buffer, container, folder, place);
+            buffer["uri"] = fmt::format("{}", i);
+        }
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks(callbacksOf(access));
+    reader.SetFsCallbacks(callbacksOf(files));
     reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
@@ -178,8 +198,8 @@ tinygltf::Model readModel(Json document, Container container, const std::filesys
     const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (text.size() > std::numeric_limits<unsigned>::max())
         throw Error(fmt::format("{}: is too large", name));
-    const bool isRead = reader.LoadASCIIFromString(&model, &failure, &warning, text.data(),
-                                                   unsigned(text.size()), access.folder);
+    const bool isRead =
+        reader.LoadASCIIFromString(&model, &failure, &warning, text.data(), unsigned(text.size()), kBuffers);
     if (!isRead || !failure.empty())
         throw Error(
             fmt::format("{}: is not valid glTF: {}", name,
@@ -209,10 +229,17 @@ std::string decodeUri(std::string_view uri) {
 GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                               const std::string& name) {
     Container container = openContainer(bytes, name);
-    Json document = readJson(container.json, name);
-    checkExtensions(document, name);
-    Json looks = document.is_object() ? takeLooks(document) : Json::object();
-    return {readModel(std::move(document), std::move(container), folder, name), std::move(looks)};
+    Json whole = parseJson(container.json, name, 64);
+    if (!whole.is_object())
+        throw Error(
+            fmt::format("{}: is not valid glTF: expected an object, found {}", name, whole.type_name()));
+    // The looks are not for the library, which indexes buffers by their numbers unchecked, and recurses into
+    // extensions as deep as a file likes.
+    Json geometry = takeMembers(whole, kGeometry), looks = takeMembers(whole, kLooks);
+    checkVersion(geometry, name);
+    checkExtensions(geometry, name);
+    checkGeometry("", geometry, name);
+    return {readModel(std::move(geometry), std::move(container), folder, name), std::move(looks)};
 }
 
 std::filesystem::path findGltfFile(const std::string& uri, const std::filesystem::path& folder,

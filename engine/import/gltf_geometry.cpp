@@ -111,6 +111,9 @@ class SceneReader {
             log(LogLevel::Warning, fmt::format("{}: skipped points or lines", mName));
             return;
         }
+        if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+            throw Error(fmt::format("{}: a primitive has mode {}: expected 0 to {}: export the file again",
+                                    mName, primitive.mode, TINYGLTF_MODE_TRIANGLE_FAN));
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) return;
         const std::vector<vec3> positions = readGltfVectors(mModel, position->second, mName);
@@ -148,11 +151,21 @@ class SceneReader {
         }
     }
 
+    void checkCount(const std::string& attribute, size_t found, size_t expected) const {
+        if (found != expected)
+            throw Error(fmt::format(
+                "{}: a primitive has {} of {} vertices, but POSITION of {}: export the file again", mName,
+                attribute, found, expected));
+    }
+
     void addNormals(Mesh& mesh, const tinygltf::Primitive& primitive, size_t count,
                     const glm::dmat3& linear) const {
         const auto normal = primitive.attributes.find("NORMAL");
         std::vector<vec3> normals;
-        if (normal != primitive.attributes.end()) normals = readGltfVectors(mModel, normal->second, mName);
+        if (normal != primitive.attributes.end()) {
+            normals = readGltfVectors(mModel, normal->second, mName);
+            checkCount("NORMAL", normals.size(), count);
+        }
         // No normal has length zero: zeros here make cleanUp() discard all of them.
         normals.resize(count, vec3(0));
         const double orientation = glm::determinant(linear) < 0 ? -1 : 1;
@@ -172,11 +185,14 @@ class SceneReader {
         const auto found = primitive.attributes.find("TANGENT");
         std::vector<vec4> tangents;
         try {
-            if (found != primitive.attributes.end())
+            if (found != primitive.attributes.end()) {
                 tangents = readGltfFourVectors(mModel, found->second, mName);
+                checkCount("TANGENT", tangents.size(), count);
+            }
         } catch (const Error& unreadable) {
             log(LogLevel::Warning,
                 fmt::format("{}; brushed materials do without its tangents", unreadable.what()));
+            tangents.clear();
         }
         tangents.resize(count, vec4(0));
         for (const vec4& tangent : tangents) {
@@ -190,14 +206,14 @@ class SceneReader {
         const GltfWish wish = mWishes(std::max(primitive.material, -1));
         const auto uv = primitive.attributes.find(fmt::format("TEXCOORD_{}", wish.uvSet));
         if (wish.attributes.uvs && uv != primitive.attributes.end()) {
-            std::vector<vec2> uvs = readGltfUvs(mModel, uv->second, mName);
-            uvs.resize(count, vec2(0));
+            const std::vector<vec2> uvs = readGltfUvs(mModel, uv->second, mName);
+            checkCount(uv->first, uvs.size(), count);
             for (const vec2& place : uvs) mesh.uvs.push_back(vec2(wish.uvTransform * vec3(place, 1)));
         }
         const auto color = primitive.attributes.find("COLOR_0");
         if (wish.attributes.colors && color != primitive.attributes.end()) {
-            std::vector<vec4> colors = readGltfFourVectors(mModel, color->second, mName);
-            colors.resize(count, vec4(0));
+            const std::vector<vec4> colors = readGltfFourVectors(mModel, color->second, mName);
+            checkCount("COLOR_0", colors.size(), count);
             mesh.colors.insert(mesh.colors.end(), colors.begin(), colors.end());
         }
     }

@@ -27,4 +27,7 @@ std::vector<std::byte> encodeExr(const Image& image);
 // cannot take a large memory.
 void checkImageSize(const std::string& name, int64_t width, int64_t height, size_t bytes);
 
+// The same, for floating pixels, which take sixteen bytes each in memory: zeros compress a thousandfold.
+void checkDensity(const std::string& name, int64_t width, int64_t height, size_t bytes);
+
 } // namespace relume

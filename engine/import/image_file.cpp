@@ -58,6 +58,14 @@ void checkImageSize(const std::string& name, int64_t width, int64_t height, size
                         name, width, height, bytes));
 }
 
+void checkDensity(const std::string& name, int64_t width, int64_t height, size_t bytes) {
+    constexpr int64_t kAlwaysFine = int64_t(1) << 25, kPixelsPerByte = 16;
+    if (width * height > kAlwaysFine && uint64_t(width * height) / kPixelsPerByte > bytes)
+        throw Error(fmt::format(
+            "{}: holds {} x {} pixels in {} bytes: expected at most {} pixels, or {} a byte; scale it down",
+            name, width, height, bytes, kAlwaysFine, kPixelsPerByte));
+}
+
 ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name) {
     ImageFile file;
     if (isExr(bytes))

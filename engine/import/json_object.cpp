@@ -12,13 +12,25 @@ namespace relume {
 
 constexpr size_t kLargestFile = size_t(16) << 20;
 
-nlohmann::json parseJson(std::string_view text, const std::string& name) {
+bool isJsonDeeper(std::string_view text, size_t most) {
+    size_t depth = 0;
+    bool isInText = false;
+    for (size_t i = 0; i < text.size() && depth <= most; i++) {
+        const char c = text[i];
+        if (c == '"') isInText = !isInText;
+        if (isInText && c == '\\') i++;
+        if (isInText) continue;
+        if (c == '[' || c == '{') depth++;
+        if ((c == ']' || c == '}') && depth > 0) depth--;
+    }
+    return depth > most;
+}
+
+nlohmann::json parseJson(std::string_view text, const std::string& name, size_t mostDepth) {
+    if (isJsonDeeper(text, mostDepth))
+        throw Error(fmt::format("{}: is nested deeper than any such file", name));
     try {
-        return nlohmann::json::parse(
-            text.begin(), text.end(), [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-                if (depth > 32) throw Error(fmt::format("{}: is nested deeper than any such file", name));
-                return true;
-            });
+        return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& failure) {
         throw Error(fmt::format("{}: is not valid JSON: {}", name, failure.what()));
     }

@@ -16,8 +16,12 @@ namespace relume {
 nlohmann::json readJson(const std::filesystem::path& path);
 std::string readJsonText(const std::filesystem::path& path);
 
+// Whether arrays and objects are nested more than `most` deep, for which the library's parser has a callback
+// that takes the square of an array's length.
+bool isJsonDeeper(std::string_view text, size_t most);
+
 // `name` stands for the text in errors. Throws Error.
-nlohmann::json parseJson(std::string_view text, const std::string& name);
+nlohmann::json parseJson(std::string_view text, const std::string& name, size_t mostDepth = 32);
 
 class JsonObject {
   public:

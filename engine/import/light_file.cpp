@@ -17,9 +17,8 @@ using Json = nlohmann::json;
 using Keys = std::span<const std::string_view>;
 
 constexpr float kMostDegrees = 36000, kMostRadiance = 1e9f, kMostGain = 1e6f;
-constexpr float kSmallestRadius = 1e-4f; // degrees
-constexpr float kSequenceRate = 24;      // files a second
-constexpr float kMostHours = 100;        // of the day, a second
+constexpr float kSequenceRate = 24; // files a second
+constexpr float kMostHours = 100;   // of the day, a second
 
 vec3 directionOf(const JsonObject& object) {
     const float azimuth = object.requiredNumber("azimuth", -kMostDegrees, kMostDegrees);
@@ -27,7 +26,7 @@ vec3 directionOf(const JsonObject& object) {
 }
 
 float radiusOf(const JsonObject& object) {
-    return std::min(glm::radians(object.requiredNumber("radius", kSmallestRadius, 180)), kPi);
+    return std::min(glm::radians(object.requiredNumber("radius", kSmallestLampRadius, 180)), kPi);
 }
 
 // Adds an environment, or of a sequence the two files that the moment is between.

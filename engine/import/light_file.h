@@ -5,6 +5,8 @@
 
 namespace relume {
 
+constexpr float kSmallestLampRadius = 1e-4f; // degrees
+
 // Throws Error that names file and field.
 MovingLight readLight(const std::filesystem::path& path);
 

@@ -4,6 +4,7 @@
 #include "engine/import/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -44,12 +45,37 @@ std::string_view takeLine(std::string_view& text) {
     return line;
 }
 
-// Throws for what the library would misread: it takes words that are no numbers for zeros, and counts
-// corners in eight bits.
-void checkLine(std::string_view keyword, std::string_view rest, const std::string& name, size_t number) {
+// How many vertices, texture coordinates and normals there are so far, by which negative numbers count back.
+using Counts = std::array<int64_t, 3>;
+
+// Whether a word is a corner: "v", "v/t", "v//n" or "v/t/n", by numbers from 1 on or back from the last.
+bool isCorner(std::string_view word, const Counts& counts) {
+    for (size_t kind = 0; kind < counts.size(); kind++) {
+        const std::string_view digits = word.substr(0, word.find('/'));
+        int number = 0;
+        const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+        const bool isNumber = failure == std::errc() && end == digits.data() + digits.size() && number != 0 &&
+                              number >= -counts[kind];
+        const bool isLeftOut = kind == 1 && digits.empty() && digits.size() < word.size();
+        if (!isNumber && !isLeftOut) return false;
+        if (digits.size() == word.size()) return true;
+        word.remove_prefix(digits.size() + 1);
+    }
+    return false;
+}
+
+// Throws for what the library would misread: it takes words that are no numbers for zeros, wraps numbers that
+// are too large, and counts corners in eight bits.
+void checkLine(std::string_view keyword, std::string_view rest, const Counts& counts, const std::string& name,
+               size_t number) {
     if (keyword == "f") {
         size_t corners = 0;
-        while (!takeWord(rest).empty()) corners++;
+        for (std::string_view word; !(word = takeWord(rest)).empty(); corners++)
+            if (!isCorner(word, counts))
+                throw Error(
+                    fmt::format("{}: line {}: expected a corner v, v/t, v//n or v/t/n of numbers from 1 on, "
+                                "or from -1 back to the first; found \"{}\": export the mesh again",
+                                name, number, word.substr(0, 40)));
         if (corners > kMostCorners)
             throw Error(
                 fmt::format("{}: line {}: a face has {} corners, expected at most {}: triangulate the mesh "
@@ -70,29 +96,56 @@ void checkLine(std::string_view keyword, std::string_view rest, const std::strin
     }
 }
 
-// Keeps the lines that describe the surface and empties all others, so that line numbers stay: the library
-// reads other files on "mtllib" and believes the sizes that "t" lines claim.
+// Keeps the lines that describe the surface, each in one piece, and empties all others, so that line numbers
+// stay: the library reads other files on "mtllib", believes the sizes that "t" lines claim, and knows neither
+// byte order marks nor lines that go on after a backslash.
 std::string surfaceLines(std::string_view text, const std::string& name, bool areUvsWanted) {
     std::string kept;
     kept.reserve(text.size() + 1);
-    for (size_t number = 1; !text.empty(); number++) {
-        const std::string_view line = takeLine(text);
-        std::string_view rest = line;
-        const std::string_view keyword = takeWord(rest);
-        if (keyword == "v" || keyword == "vn" || keyword == "f" || (keyword == "vt" && areUvsWanted))
-            checkLine(keyword, rest, name, number);
-        if (keyword == "v" || keyword == "vn" || keyword == "vt" || keyword == "f") kept += line;
-        kept += '\n';
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    constexpr std::string_view kCounted[] = {"v", "vt", "vn"};
+    Counts counts{};
+    std::string line;
+    for (size_t number = 1, lines = 1; !text.empty(); number += lines) {
+        line = takeLine(text);
+        // A name or a comment may end in a backslash, too, and does not go on.
+        const size_t start = line.find_first_not_of(" \t");
+        const bool mayGoOn = start < line.size() && (line[start] == 'v' || line[start] == 'f');
+        for (lines = 1; mayGoOn && line.ends_with('\\') && !text.empty(); lines++) {
+            line.back() = ' ';
+            line += takeLine(text);
+        }
+        std::string_view rest = std::string_view(line).substr(0, line.find('#'));
+        const std::string_view surface = rest, keyword = takeWord(rest);
+        const auto kind = std::ranges::find(kCounted, keyword);
+        const bool isCounted = kind != std::end(kCounted);
+        if (keyword == "f" || (isCounted && (keyword != "vt" || areUvsWanted)))
+            checkLine(keyword, rest, counts, name, number);
+        if (isCounted) counts[size_t(kind - kCounted)]++;
+        if (keyword == "f" || isCounted) kept += surface;
+        kept.append(lines, '\n');
     }
     return kept;
 }
 
-// Whether every corner of every face has a number of this kind.
-bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::*number) {
+// Throws unless a face's number, here counted from 0, is one of `count`.
+void checkIndex(int index, size_t count, const char* what, const std::string& name) {
+    if (index < 0 || size_t(index) >= count)
+        throw Error(fmt::format("{}: a face refers to {} {}, but there are only {}: the file is corrupt",
+                                name, what, int64_t(index) + 1, count));
+}
+
+// Whether every corner of every face has a number of this kind; throws if one is not of those that there are.
+bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::*number, size_t count,
+             const char* what, const std::string& name) {
+    bool isComplete = count > 0;
     for (const tinyobj::shape_t& shape : shapes)
         for (const tinyobj::index_t& corner : shape.mesh.indices)
-            if (corner.*number < 0) return false;
-    return true;
+            if (corner.*number < 0)
+                isComplete = false;
+            else
+                checkIndex(corner.*number, count, what, name);
+    return isComplete;
 }
 
 // The faces' corners, whose position, normal and texture coordinates have numbers of their own, as vertices
@@ -132,9 +185,7 @@ class Corners {
     template <typename Vector>
     Vector element(const std::vector<tinyobj::real_t>& values, int index, const char* what) const {
         constexpr size_t kWidth = size_t(Vector::length());
-        if (index < 0 || size_t(index) >= values.size() / kWidth)
-            throw Error(fmt::format("{}: a face refers to {} {}, but there are only {}: the file is corrupt",
-                                    mName, what, int64_t(index) + 1, values.size() / kWidth));
+        checkIndex(index, values.size() / kWidth, what, mName);
         Vector vector;
         for (size_t i = 0; i < kWidth; i++) vector[int(i)] = values[kWidth * size_t(index) + i];
         return vector;
@@ -169,9 +220,10 @@ Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name, MeshAt
         throw Error(fmt::format("{}: is not a valid OBJ file: {}", name,
                                 failure.substr(0, failure.find_last_not_of('\n') + 1)));
 
-    const bool hasNormals = !attributes.normals.empty() && haveAll(shapes, &tinyobj::index_t::normal_index);
-    const bool hasUvs =
-        wanted.uvs && !attributes.texcoords.empty() && haveAll(shapes, &tinyobj::index_t::texcoord_index);
+    const bool hasNormals =
+        haveAll(shapes, &tinyobj::index_t::normal_index, attributes.normals.size() / 3, "normal", name);
+    const bool hasUvs = wanted.uvs && haveAll(shapes, &tinyobj::index_t::texcoord_index,
+                                              attributes.texcoords.size() / 2, "texture coordinates", name);
     Corners corners(attributes, hasNormals, hasUvs, name);
     for (const tinyobj::shape_t& shape : shapes) {
         size_t start = 0;

@@ -1,6 +1,7 @@
 #include "engine/import/old_asset.h"
 
 #include "engine/base/error.h"
+#include "engine/import/json_object.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
@@ -154,12 +155,9 @@ void readPart(const Reader& in, AssetMeta& meta) {
 }
 
 Json parseBounded(std::string_view text, const std::string& where) {
-    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
-        if (size_t(depth) > kLargestDepth) throw Error(fmt::format("{}: nested too deep", where));
-        return true;
-    };
+    if (isJsonDeeper(text, kLargestDepth)) throw Error(fmt::format("{}: nested too deep", where));
     try {
-        return Json::parse(text.begin(), text.end(), bound);
+        return Json::parse(text);
     } catch (const Json::exception& failure) {
         throw Error(fmt::format("{}: is not JSON: {}", where, failure.what()));
     }

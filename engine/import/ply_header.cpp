@@ -24,6 +24,8 @@ std::vector<std::string_view> splitWords(std::string_view line) {
     return words;
 }
 
+constexpr size_t kMostLines = 1000;
+
 class HeaderReader {
   public:
     HeaderReader(std::string_view text, const std::string& name) : mText(text), mName(name) {}
@@ -36,7 +38,7 @@ class HeaderReader {
             const std::vector<std::string_view> words = splitWords(line);
             const std::string_view keyword = words.empty() ? "" : words[0];
             if (keyword == "format" && words.size() == 3)
-                readFormat(words[1]);
+                readFormat(words[1], words[2]);
             else if (keyword == "element" && words.size() == 3)
                 readElement(words[1], words[2], line);
             else if (keyword == "property" && !mHeader.elements.empty())
@@ -46,6 +48,11 @@ class HeaderReader {
             else if (keyword != "comment" && keyword != "obj_info" && keyword != "")
                 fail(line);
         }
+        if (!mHasFormat)
+            throw Error(
+                fmt::format("{}: the PLY header has no format: expected a line \"format ascii 1.0\" or "
+                            "the like: export the mesh again",
+                            mName));
         mHeader.size = mStart;
         return std::move(mHeader);
     }
@@ -58,14 +65,23 @@ class HeaderReader {
 
     std::string_view takeLine() {
         const size_t end = mText.find('\n', mStart);
-        if (end == std::string_view::npos || ++mLine > 1000)
+        if (end == std::string_view::npos)
             throw Error(fmt::format("{}: the PLY header has no end: expected a line \"end_header\"", mName));
+        if (++mLine > kMostLines)
+            throw Error(
+                fmt::format("{}: the PLY header has more than {} lines: leave out comments, and elements "
+                            "other than vertices and faces",
+                            mName, kMostLines));
         const std::string_view line = mText.substr(mStart, end - mStart);
         mStart = end + 1;
         return line;
     }
 
-    void readFormat(std::string_view format) {
+    void readFormat(std::string_view format, std::string_view version) {
+        if (version != "1.0")
+            throw Error(fmt::format("{}: is PLY of version {}: expected 1.0: export the mesh again", mName,
+                                    version.substr(0, 40)));
+        mHasFormat = true;
         if (format == "ascii")
             mHeader.encoding = PlyEncoding::Ascii;
         else if (format == "binary_little_endian")
@@ -102,6 +118,7 @@ class HeaderReader {
     const std::string& mName;
     PlyHeader mHeader;
     size_t mStart = 0, mLine = 0;
+    bool mHasFormat = false;
 };
 
 } // namespace

@@ -75,6 +75,7 @@ class RadianceReader {
         // A run spends 2 bytes on at most 127 values of one component, so 16 pixels a byte: an eighth of what
         // checkImageSize allows (512) leaves room for the older runs, and no gigabytes for kilobytes.
         checkImageSize(mName, width, height, mBytes.size() / 8);
+        checkDensity(mName, width, height, mBytes.size());
         return Image(int(width), int(height));
     }
 

@@ -9,6 +9,7 @@
 #include "engine/import/mesh_file.h"
 #include "engine/import/mesh_formats.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace relume {
@@ -68,6 +69,19 @@ Bounds boundsOf(const Scene& scene) {
     return bounds;
 }
 
+void checkPlace(std::span<const Part> parts, const std::string& place) {
+    constexpr float kMostSizes = 1e4f;
+    Bounds bounds;
+    for (const Part& part : parts) bounds.add(boundsOf(part.mesh));
+    const vec3 extent = bounds.extent(), reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+    const float size = std::max({extent.x, extent.y, extent.z}), away = std::max({reach.x, reach.y, reach.z});
+    if (away > kMostSizes * size)
+        throw Error(fmt::format(
+            "{}: is {:g} units large and reaches {:g} from the origin: expected at most {:g} times "
+            "its size, beyond which its shape is rounded; move it nearer",
+            place, size, away, kMostSizes));
+}
+
 bool hasOwnMaterials(const std::string& mesh) { return !isBuiltinMesh(mesh) && isGltf(mesh); }
 
 std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optional<std::string>& material,
@@ -77,9 +91,13 @@ std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optio
         throw Error(fmt::format("{}: has no materials of its own: name one", mesh));
     if (!material && paint.isAny())
         throw Error(fmt::format("{}: name the material that is to be painted", mesh));
-    if (!material) return loadOwnParts(mesh, up);
     std::vector<Part> parts;
-    parts.push_back(loadPart(mesh, up, *material, {.uvs = paint.usesUvs(), .colors = paint.isByColors}));
+    if (material)
+        parts.push_back(loadPart(mesh, up, *material, {.uvs = paint.usesUvs(), .colors = paint.isByColors}));
+    else
+        parts = loadOwnParts(mesh, up);
+    checkPlace(parts, mesh);
+    if (!material) return parts;
     Part& part = parts.front();
     if (paint.usesUvs() && part.mesh.uvs.empty())
         throw Error(fmt::format(

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ struct Scene {
 };
 
 Bounds boundsOf(const Scene& scene);
+
+// Throws Error, in which `place` names the parts, if they are further from the origin than 10,000 times their
+// size: single precision rounds their shape there, by a thousandth and more.
+void checkPlace(std::span<const Part> parts, const std::string& place);
 
 // Whether `name` is "sphere", "torus", "knot" or "plane".
 bool isBuiltinMesh(const std::string& name);

@@ -84,6 +84,7 @@ std::vector<Part> readParts(const Json& json, const std::string& place, const st
         transform(part.mesh, translation, degrees, scale, place);
         part.brushRotation = brushRotation;
     }
+    checkPlace(parts, place);
     return parts;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/import/texture_check.h"
 
 #include "engine/base/error.h"
+#include "engine/scene/texture.h"
 
 #include <algorithm>
 #include <array>
@@ -37,6 +38,7 @@ class Reader {
         return value;
     }
 
+    const std::string& name() const { return mName; }
     Reader takeReader(size_t count) { return {take(count), mName}; }
 
     [[noreturn]] void fail(std::string_view what) const {
@@ -47,6 +49,13 @@ class Reader {
     Bytes mBytes;
     const std::string& mName;
 };
+
+void checkSides(uint32_t width, uint32_t height, const std::string& name) {
+    if (width > uint32_t(kLongestTextureSide) || height > uint32_t(kLongestTextureSide))
+        throw Error(
+            fmt::format("{}: is {} x {} pixels, expected at most {} a side for a texture: scale it down",
+                        name, width, height, kLongestTextureSide));
+}
 
 // CRC-32 as PNG has it (ISO 3309).
 uint32_t checkSum(Bytes bytes) {
@@ -125,7 +134,9 @@ class JpegWalk {
 
     void readFrame(Reader& segment) {
         if (!mComponents.empty()) segment.fail("it has more than one frame");
-        segment.take(5);
+        segment.take(1);
+        const uint32_t height = segment.takeNumber(2);
+        checkSides(segment.takeNumber(2), height, segment.name());
         const uint32_t count = segment.takeNumber(1);
         for (uint32_t i = 0; i < count; i++) {
             const uint32_t id = segment.takeNumber(1);
@@ -189,13 +200,18 @@ bool isJpeg(Bytes bytes) {
 }
 
 void checkPng(Bytes bytes, const std::string& name) {
-    constexpr uint32_t kEnd = 0x49454e44; // IEND
+    constexpr uint32_t kEnd = 0x49454e44, kHeader = 0x49484452; // IEND, IHDR
     Reader file(bytes.subspan(kPngSignature.size()), name);
     for (uint32_t kind = 0; kind != kEnd;) {
         const uint32_t size = file.takeNumber(4);
         if (size > 0x7fffffff) file.fail("a chunk claims to be larger than any");
         const Bytes chunk = file.take(size_t(size) + 4);
-        kind = Reader(chunk, name).takeNumber(4);
+        Reader content(chunk, name);
+        kind = content.takeNumber(4);
+        if (kind == kHeader) {
+            const uint32_t width = content.takeNumber(4);
+            checkSides(width, content.takeNumber(4), name);
+        }
         if (file.takeNumber(4) != checkSum(chunk)) file.fail("a check sum does not agree");
     }
 }

@@ -10,18 +10,6 @@
 #include <stb_image.h>
 
 namespace relume {
-namespace {
-
-void checkSize(std::span<const std::byte> bytes, int width, int height, const std::string& name) {
-    checkImageSize(name, width, height, bytes.size());
-    if (width > kLongestTextureSide || height > kLongestTextureSide)
-        throw Error(
-            fmt::format("{}: is {} x {} pixels, expected at most {} a side for a texture: scale it down",
-                        name, width, height, kLongestTextureSide));
-}
-
-} // namespace
-
 Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
     // The library would try many more formats, among them some that it does not read safely.
     if (isPng(bytes))
@@ -38,12 +26,12 @@ Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name,
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
-    checkSize(bytes, width, height, name);
+    checkImageSize(name, width, height, bytes.size());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
     if (!pixels) throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
     // Once more: the library reads the size anew, and a file may say it twice.
-    checkSize(bytes, width, height, name);
+    checkImageSize(name, width, height, bytes.size());
     Texture texture{width, height, std::vector<uint32_t>(size_t(width) * size_t(height)), srgb};
     for (size_t i = 0; i < texture.texelCount(); i++)
         for (int channel = 0; channel < 4; channel++)

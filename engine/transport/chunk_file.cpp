@@ -60,6 +60,12 @@ uint64_t headerChecksum(std::span<const std::byte> header, std::span<const std::
     return hash64(both);
 }
 
+// A chunk in words, for messages.
+std::string chunkText(ChunkTag tag, uint32_t owner) {
+    return owner == kWholeFile ? fmt::format("chunk {} of the file", tagText(tag))
+                               : fmt::format("chunk {} of part or set {}", tagText(tag), owner);
+}
+
 } // namespace
 
 std::string tagText(ChunkTag tag) {
@@ -159,8 +165,8 @@ ChunkFile::ChunkFile(ByteSource source, std::string name, uint32_t version)
         checkEntry(entry, offset, room);
         offset += entry.storedSize;
         if (!mIndex.try_emplace({entry.tag, entry.owner, entry.run}, i).second)
-            throw Error(fmt::format("{}: chunk {} of part or set {}, run {}, appears twice", mName,
-                                    tagText(entry.tag), entry.owner, entry.run));
+            throw Error(fmt::format("{}: {}, run {}, appears twice", mName, chunkText(entry.tag, entry.owner),
+                                    entry.run));
     }
     if (offset != mSource.size)
         throw Error(
@@ -227,9 +233,8 @@ void ChunkFile::checkEntry(const ChunkEntry& entry, uint64_t expectedOffset,
 
 void ChunkFile::expectChecksum(const ChunkEntry& entry, std::span<const std::byte> stored) const {
     if (hash64(stored) != entry.checksum)
-        throw Error(fmt::format(
-            "{}: chunk {} of part or set {} fails its checksum; the file is damaged: copy or bake it again",
-            mName, tagText(entry.tag), entry.owner));
+        throw Error(fmt::format("{}: {} fails its checksum; the file is damaged: copy or bake it again",
+                                mName, chunkText(entry.tag, entry.owner)));
 }
 
 std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
@@ -238,8 +243,7 @@ std::vector<ChunkEntry> ChunkFile::find(ChunkTag tag, uint32_t owner) const {
         const ChunkEntry& entry = mEntries[at->second];
         if (entry.tag != tag || entry.owner != owner) break;
         if (entry.run != runs.size())
-            throw Error(fmt::format("{}: chunk {} of part or set {}: run {} is missing", mName, tagText(tag),
-                                    owner, runs.size()));
+            throw Error(fmt::format("{}: {}: run {} is missing", mName, chunkText(tag, owner), runs.size()));
         runs.push_back(entry);
     }
     return runs;

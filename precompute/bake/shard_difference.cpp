@@ -1,5 +1,6 @@
 #include "precompute/bake/shard_difference.h"
 
+#include "engine/import/json_object.h"
 #include "engine/transport/asset_arrays.h"
 
 #include <algorithm>
@@ -29,13 +30,9 @@ std::string pair(const std::string& what, const std::string& first, const std::s
 // Null unless it is JSON that can be gone through: an array or object of flat values or flat objects.
 Json parseFlat(const std::string& text) {
     constexpr int kDeepest = 2;
-    bool isDeep = false;
-    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
-        isDeep |= depth > kDeepest;
-        return !isDeep;
-    };
-    Json json = Json::parse(text, bound, false);
-    return isDeep || json.is_discarded() ? Json() : json;
+    if (isJsonDeeper(text, kDeepest)) return {};
+    const Json json = Json::parse(text, nullptr, false);
+    return json.is_discarded() ? Json() : json;
 }
 
 std::string textOf(const Json& object, const std::string& key) {

@@ -23,7 +23,18 @@ std::vector<MaterialSet> MaterialFactory::make(const std::string& material,
     return known->second;
 }
 
-MaterialSet MaterialFactory::factor(const std::vector<NamedMaterial>& materials, bool isTextured) const {
+MaterialSet MaterialFactory::factor(const std::vector<NamedMaterial>& materials, bool isTextured) {
+    std::vector<std::string> descriptions;
+    for (const NamedMaterial& material : materials) descriptions.push_back(material.brdf->describe().dump());
+    const auto [known, isNew] = mFactored.try_emplace({descriptions, isTextured});
+    MaterialSet& set = known->second;
+    if (isNew) set = factorAnew(materials, isTextured);
+    MaterialSet named = set;
+    for (size_t i = 0; i < materials.size(); i++) named.materials[i].name = materials[i].name;
+    return named;
+}
+
+MaterialSet MaterialFactory::factorAnew(const std::vector<NamedMaterial>& materials, bool isTextured) const {
     const TexelValue value = texelValueOf(mOptions.method);
     MaterialSet set;
     std::vector<BrdfTable> tables;

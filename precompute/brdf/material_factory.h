@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// Factors each text once, however many parts wear it.
+// Factors equal materials once, however many parts wear them and whatever they are called.
 class MaterialFactory {
   public:
     MaterialFactory(const FactorizationOptions& options, int mapSize, DiskMapping mapping)
@@ -23,12 +23,14 @@ class MaterialFactory {
                                   bool isTextured);
 
   private:
-    MaterialSet factor(const std::vector<NamedMaterial>& materials, bool isTextured) const;
+    MaterialSet factor(const std::vector<NamedMaterial>& materials, bool isTextured);
+    MaterialSet factorAnew(const std::vector<NamedMaterial>& materials, bool isTextured) const;
 
     FactorizationOptions mOptions;
     int mMapSize;
     DiskMapping mMapping;
     std::map<std::tuple<std::string, std::filesystem::path, bool>, std::vector<MaterialSet>> mKnown;
+    std::map<std::pair<std::vector<std::string>, bool>, MaterialSet> mFactored; // by what the BRDFs describe
 };
 
 } // namespace relume

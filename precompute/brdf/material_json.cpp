@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/json_object.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/model_list.h"
 
@@ -30,13 +31,10 @@ json parseMaterial(const std::string& text) {
         throw UsageError(
             fmt::format("material of {} bytes: expected a name, or a JSON object of at most {} bytes",
                         text.size(), kMaxTextSize));
-    const auto checkDepth = [](int depth, json::parse_event_t, const json&) {
-        if (depth > kMaxDepth)
-            throw UsageError(fmt::format("material in JSON is nested more than {} levels deep", kMaxDepth));
-        return true;
-    };
+    if (isJsonDeeper(text, kMaxDepth))
+        throw UsageError(fmt::format("material in JSON is nested more than {} levels deep", kMaxDepth));
     try {
-        return json::parse(text, checkDepth);
+        return json::parse(text);
     } catch (const json::exception& error) {
         throw UsageError(fmt::format("material is not valid JSON: {}", error.what()));
     }

@@ -43,6 +43,11 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"bake -o x.relume --material ashikmin-shirley", "ashikhmin-shirley"},
              {"bake -o x.relume --validation all", "core, sync, gpu, best"},
              {"bake -o x.png", ".relume"},
+             {"bake -o x.relume --memory 0", "--memory"},
+             {"bake -o x.relume --memory -5", "found \"-5\""},
+             {"bake '' -o x.relume", "expected a value"},
+             {"render x.relume -o x.png -e ''", "-e: expected a value"},
+             {"render x.relume -o x.png --environment=", "--environment: expected a value"},
              {"bake -o x.relume --up z scene.json", "--up"},
              {"bake -o x.relume --ground-extent 2", "--ground"},
              {"brdf clay --terms 33", "1 to 32"},
@@ -186,6 +191,43 @@ TEST_CASE(
     refuses("-m clay=-1", "0 or more");
     refuses("-m clay=nan", "0 or more");
     refuses("-m clay -m clay", "named twice");
+}
+
+TEST_CASE("cli: cameras and lights too small to be any are refused") {
+    const TemporaryFolder folder;
+    REQUIRE_EQ(runRelume(folder, std::string(kSmallBake) + "-o a.relume").exitCode, 0);
+    for (const auto& [arguments, part] :
+         {std::pair("--orbit 0,0,1e-30", "--orbit: expected a distance"),
+          {"--sphere-light 0,0,1e-30", "--sphere-light: expected a radius of 0.0001"},
+          {"--eye 1,2,3 --target 1,2,3", "--eye: expected"}}) {
+        const Outcome outcome = runRelume(folder, std::string("render a.relume -o x.exr ") + arguments);
+        CHECK_EQ(outcome.exitCode, 2);
+        CHECK(says(outcome.err, part));
+    }
+}
+
+TEST_CASE("cli: names with control characters cannot command the terminal") {
+    const TemporaryFolder folder;
+    folder.write("scene.json",
+                 R"({"parts": [{"name": "\u001b[2Jred", "mesh": "sphere", "material": "clay"}]})");
+    const Outcome bake = runRelume(folder, "bake scene.json -K 1 -N 32 --visibility-size 64 --face-size 32 "
+                                           "--map-size 16 -o a.relume");
+    REQUIRE_EQ(bake.exitCode, 0);
+    const Outcome info = runRelume(folder, "info a.relume");
+    for (const std::string& text : {bake.err, info.out}) {
+        CHECK(says(text, "\\x1b[2Jred"));
+        CHECK_FALSE(says(text, "\x1b"));
+    }
+}
+
+TEST_CASE("cli: what cannot be printed is a failure, also of help") {
+    const TemporaryFolder folder;
+    for (const char* arguments : {"--help", "--version", "bake --help", "materials"}) {
+        const Outcome full = runProgram(folder, "/bin/sh",
+                                        std::string("-c '" RELUME_PROGRAM " ") + arguments + " >/dev/full'");
+        CHECK_EQ(full.exitCode, 1);
+        CHECK(says(full.err, "is its disk full"));
+    }
 }
 
 TEST_CASE("cli: a material that cannot be used is named before the work") {

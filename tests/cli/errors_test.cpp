@@ -77,6 +77,9 @@ TEST_CASE("errors: what it cannot look at is said") {
     fails("errors a.relume --size 9000x9000", 2, "--size");
     std::ofstream(folder.path() / "dark.json") << R"({"lamps": []})";
     fails("errors a.relume --size 16x12 --light dark.json", 1, "black");
+    // Before the work: so many pixels take minutes.
+    fails("errors a.relume --size 500x500 --light dark.json", 1, "the light is black");
+    fails("errors a.relume --size 500x500 --images a.relume/inside", 1, "cannot be written");
     fails("advise sphere", 2, "--error");
     fails("advise sphere --error 0", 2, "--error");
 }

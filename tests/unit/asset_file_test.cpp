@@ -193,6 +193,18 @@ TEST_CASE("asset file: on disk, and errors name the file") {
     CHECK_THROWS_AS(readAsset(path), Error);
 }
 
+TEST_CASE("asset file: what fails its checksum is named") {
+    std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    bytes.back() ^= std::byte(1);
+    CHECK_THROWS_WITH_AS(decodeAsset(bytes, "sample"),
+                         doctest::Contains("of part or set 2 fails its checksum"), Error);
+    const uint32_t chunks = uint32_t(sampleChunks().size());
+    bytes = encodeAsset(sampleAsset());
+    bytes[32 + 48 * chunks] ^= std::byte(1); // the first chunk
+    CHECK_THROWS_WITH_AS(decodeAsset(bytes, "sample"),
+                         doctest::Contains("chunk META of the file fails its checksum"), Error);
+}
+
 TEST_CASE("asset file: transport is cut into blocks, and what zstd would shrink too far is stored plainly") {
     std::mt19937 random(3);
     Asset asset = sampleAsset();

@@ -199,6 +199,9 @@ TEST_CASE("image file: claims beyond what the file can hold are refused") {
     patchAttribute(large, kDataWindow, 8, (1 << 14) - 1);
     patchAttribute(large, kDataWindow, 12, (1 << 14) - 1);
     CHECK_THROWS_AS(readBytes(large), Error);
+    // Zeros compress as far, and take gigabytes in memory.
+    large.resize(size_t(1) << 20);
+    CHECK_THROWS_WITH_AS(readBytes(large), doctest::Contains("scale it down"), Error);
     Imf::Header tiled(6, 4);
     tiled.setTileDescription(Imf::TileDescription(4, 2));
     writeHalves(folder.path() / "tiled.exr", tiled, {"R", "G", "B"});
@@ -258,6 +261,8 @@ TEST_CASE("image file: damaged Radiance is an error, never a crash") {
          {"", "-Y 0 +X 0\n", "-Y 100000 +X 100000\n", "-Y 16384 +X 16384\n", "-Y 99999999999999999999 +X 1\n",
           "-Y -3 +X 3\n", "+Y 2 +X 2\n", "-Y 2 -X 2\n", "+X 2 -Y 2\n", "-Y 2\n", "-Y 2 +X\n"})
         CHECK_THROWS_AS(readText(header + resolution + std::string(1000, '\x40')), Error);
+    CHECK_THROWS_WITH_AS(readText(header + "-Y 8192 +X 8192\n" + std::string(1 << 21, '\x40')),
+                         doctest::Contains("scale it down"), Error);
     CHECK_THROWS_AS(readText("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd"), Error);
     // A count of zero makes no progress.
     CHECK_THROWS_AS(

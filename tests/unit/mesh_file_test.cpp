@@ -6,7 +6,9 @@
 #include "engine/import/polygon.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/textured_glb.h"
 
+#include <ctime>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <random>
@@ -210,15 +212,34 @@ TEST_CASE("OBJ: errors name the line, and nothing but the surface is read") {
     CHECK(failureOf("v 0 0 0\r\nv 1 0\r\n", "a.obj").find("line 2") != std::string::npos);
     CHECK(failureOf("v 0 0 1e999\n", "a.obj").find("line 1") != std::string::npos);
     CHECK(failureOf(corners + "f 1 2 4\n", "a.obj").find("vertex 4") != std::string::npos);
-    CHECK(failureOf(corners + "f 1 2 -9\n", "a.obj").find("vertex") != std::string::npos);
-    CHECK(failureOf(corners + "f 0 1 2\n", "a.obj") != "");
-    CHECK(failureOf(corners + "f 1 2 x\n", "a.obj") != "");
-    CHECK(failureOf(corners + "f 1//9 2//9 3//9\nvn 0 0 1\n", "a.obj").find("normal") != std::string::npos);
+    // Neither cut off nor wrapped, 4294967299 would be 3.
+    for (const char* corner : {"-4", "0", "x", "3.7", "3abc", "4294967299", "99999999999999999999", "3/",
+                               "3//", "3/1/1/1", "3//0", "3//-2", "+3", "3/x/1"}) {
+        CAPTURE(corner);
+        const std::string failure = failureOf(corners + "vn 0 0 1\nf 1 2 " + corner + "\n", "a.obj");
+        CHECK(failure.find("line 5: expected a corner") != std::string::npos);
+        CHECK(failure.find(fmt::format("\"{}\"", corner)) != std::string::npos);
+    }
+    CHECK(failureOf(corners + "f 1 2 2147483647\n", "a.obj").find("vertex 2147483647") != std::string::npos);
+    CHECK(failureOf(corners + "f 1//9 2//9 3//9\nvn 0 0 1\n", "a.obj").find("normal 9") != std::string::npos);
+    CHECK(failureOf(corners + "f 1//1 2//1 3//1\n", "a.obj").find("normal 1") != std::string::npos);
+    CHECK(failureOf(corners + "vn 0 0 1\nf 1//1 2//7 3\n", "a.obj").find("normal 7") != std::string::npos);
     CHECK(failureOf("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "a.obj").find("degenerate") != std::string::npos);
     CHECK(failureOf("v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").find("within") != std::string::npos);
     // Subdivision tags claim any amount of memory, material libraries name other files.
     const std::string hostile = "t x 2000000000/2000000000/2000000000\rvw 0 1\nmtllib /dev/zero\nusemtl a\n";
     CHECK(decode(hostile + corners + hostile + "f 1 2 3\n" + hostile, "a.obj").triangleCount() == 1);
+}
+
+TEST_CASE("OBJ: byte order marks, comments behind the data, and lines that go on") {
+    const Mesh mesh =
+        decode("\xef\xbb\xbfv 0 0 0 # the origin\r\nv 1 0 \\\r\n 0\nv 0 \\\n1 \\\n0\n# C:\\meshes\\\n"
+               "v 1 1 0\no a\\\nf 1 2 \\\n 3 # one\nf 3\\\n 2 4\n",
+               "a.obj");
+    CHECK(mesh.vertexCount() == 4);
+    CHECK(mesh.triangleCount() == 2);
+    CHECK(failureOf("v 0 0 \\\n0\nv 1 \\\nx 0\n", "a.obj").find("line 3") != std::string::npos);
+    CHECK(failureOf("v 0 0 \\", "a.obj").find("line 1") != std::string::npos);
 }
 
 TEST_CASE("PLY: foreign elements, properties and types are skipped or converted") {
@@ -255,6 +276,16 @@ TEST_CASE("PLY: counts and indices that are not true") {
     CHECK(failureOf("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply").find("end_header") !=
           std::string::npos);
     CHECK(failureOf("plum\n", "a.ply").find("PLY") != std::string::npos);
+    const std::string good = fileOf("3", "1", "3 0 1 2"), format = "format ascii 1.0\n";
+    CHECK(failureOf("ply\n" + good.substr(4 + format.size()), "a.ply").find("no format") !=
+          std::string::npos);
+    CHECK(
+        failureOf("ply\nformat ascii 2.0\n" + good.substr(4 + format.size()), "a.ply").find("version 2.0") !=
+        std::string::npos);
+    std::string comments = "ply\n" + format;
+    for (int i = 0; i < 1000; i++) comments += "comment\n";
+    CHECK(failureOf(comments + good.substr(4 + format.size()), "a.ply").find("more than 1000 lines") !=
+          std::string::npos);
 }
 
 TEST_CASE("glTF: node transforms apply, and mirrors keep the outside out") {
@@ -301,9 +332,37 @@ TEST_CASE("glTF: documents that lie") {
     CHECK(changed("\"byteOffset\":0", "\"byteOffset\":18446744073709551000").find("a.glb") !=
           std::string::npos);
     CHECK(changed("\"bufferView\":0", "\"bufferView\":12").find("a.glb") != std::string::npos);
-    CHECK(changed("\"buffer\":0", "\"buffer\":-3").find("buffer -3") != std::string::npos);
+    // What the library has defaults for, or wraps.
+    for (const auto& [from, key, value] : {std::tuple("\"buffer\":0", "buffer", "-3"),
+                                           {"\"byteOffset\":0", "byteOffset", "-4"},
+                                           {"\"bufferView\":0", "bufferView", "\"0\""},
+                                           {"\"indices\":2", "indices", "4294967298"},
+                                           {"\"indices\":2", "indices", "2.5"},
+                                           {"\"mesh\":0", "mesh", "4294967296"},
+                                           {"\"nodes\":[0]", "nodes", "[0.5]"},
+                                           {"\"scene\":0", "scene", "-1"}}) {
+        const std::string failure = changed(from, fmt::format("\"{}\":{}", key, value));
+        CAPTURE(failure);
+        CHECK(failure.find(fmt::format("\"{}\": expected a whole number", key)) != std::string::npos);
+    }
+    CHECK(changed("\"NORMAL\":1", "\"NORMAL\":-1").find("whole number") != std::string::npos);
+    CHECK(changed("\"indices\":2", "\"indices\":2,\"mode\":99").find("mode 99") != std::string::npos);
+    CHECK(changed("\"version\":\"2.0\"", "\"version\":\"1.0\"").find("found \"1.0\"") != std::string::npos);
+    CHECK(changed("\"version\":\"2.0\"", "\"version\":2.0").find("version 2.0") != std::string::npos);
+    const std::string normals = R"("bufferView":1,"componentType":5126,"count":42)";
+    CHECK(changed(normals, normals.substr(0, normals.size() - 1) + "1").find("NORMAL of 41 vertices") !=
+          std::string::npos);
     CHECK(changed("VEC3", "VEC2").find("VEC3") != std::string::npos);
     CHECK(changed("5125", "5126").find("unsigned") != std::string::npos);
+}
+
+TEST_CASE("glTF: chains of nodes and long lists take time by their length, not its square") {
+    std::string nodes = R"({"mesh":0,"children":[1]})";
+    constexpr int kNodes = 100000;
+    for (int i = 1; i < kNodes; i++) nodes += fmt::format(R"(,{{"children":[{}]}})", i + 1);
+    const std::clock_t start = std::clock();
+    CHECK(decode(sampleGlb(makeSphere(0), nodes + ",{}"), "a.glb").triangleCount() == 20);
+    CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 4); // not ten
 }
 
 TEST_CASE("glTF: vertex colours of any type, three channels leave the fourth weight 0") {
@@ -366,11 +425,25 @@ TEST_CASE("glTF: buffers come from the file's own folder only") {
     folder.write("inner/data.bin", sampleBuffer(sphere));
     folder.write("outside.bin", sampleBuffer(sphere));
     checkSame(readMesh(folder.write("inner/good.gltf", sampleGltf(sphere, "data.bin"))), sphere);
-    CHECK_THROWS_AS(readMesh(folder.write("inner/up.gltf", sampleGltf(sphere, "../outside.bin"))), Error);
-    CHECK_THROWS_AS(readMesh(folder.write("inner/absolute.gltf",
-                                          sampleGltf(sphere, (folder.path() / "outside.bin").string()))),
-                    Error);
-    CHECK_THROWS_AS(readMesh(folder.write("inner/none.gltf", sampleGltf(sphere, "missing.bin"))), Error);
+    std::filesystem::create_symlink("data.bin", folder.path() / "inner/inside.bin");
+    std::filesystem::create_symlink("../outside.bin", folder.path() / "inner/link.bin");
+    checkSame(readMesh(folder.write("inner/good.gltf", sampleGltf(sphere, "inside.bin"))), sphere);
+    for (const std::string& uri : {std::string("../outside.bin"), (folder.path() / "outside.bin").string(),
+                                   std::string("missing.bin"), std::string("link.bin")})
+        CHECK_THROWS_WITH_AS(readMesh(folder.write("inner/bad.gltf", sampleGltf(sphere, uri))),
+                             doctest::Contains("no file in its folder or below"), Error);
+    folder.write("inner/short.bin", sampleBuffer(sphere).substr(1));
+    CHECK_THROWS_WITH_AS(readMesh(folder.write("inner/bad.gltf", sampleGltf(sphere, "short.bin"))),
+                         doctest::Contains("buffers[0]: expected 1968 bytes by its byteLength, found 1967"),
+                         Error);
+    const std::string data = "data:application/octet-stream;base64,";
+    checkSame(readMesh(folder.write("inner/good.gltf",
+                                    sampleGltf(sphere, data + encodeBase64(sampleBuffer(sphere))))),
+              sphere);
+    const std::string echo =
+        failureOf(sampleGltf(sphere, data + encodeBase64(sampleBuffer(sphere) + "x")), "a.gltf");
+    CHECK(echo.find("found 1969") != std::string::npos);
+    CHECK(echo.find("base64") == std::string::npos);
     CHECK_THROWS_AS(readMesh(folder.path() / "missing.obj"), Error);
     CHECK_THROWS_AS(readMesh(folder.write("mesh.stl", "solid")), Error);
 }

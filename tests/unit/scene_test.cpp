@@ -169,6 +169,20 @@ TEST_CASE("scene: a glTF file without a named material keeps its own") {
     CHECK(named.parts[1].baseColor->texels == TexturedGlb::kBlue.texels);
 }
 
+TEST_CASE("scene: what is placed where single precision would round its shape is refused") {
+    const auto placed = [](const std::string& more) {
+        return failureOf(R"({"parts": [{"mesh": "sphere", "material": "clay", )" + more + "}]}");
+    };
+    CHECK(placed(R"("translate": [9000, 0, 0])") == "");
+    CHECK(placed(R"("translate": [0, 1e9, 0])").find("parts[0]: is 2 units large") != std::string::npos);
+    CHECK(placed(R"("translate": [0, 0, -1], "scale": 1e-9)").find("move it nearer") != std::string::npos);
+    const TemporaryFolder folder;
+    const std::string far =
+        folder.write("far.obj", "v 4e6 5e5 0\nv 4e6 500100 0\nv 4000100 5e5 0\nf 1 2 3\n");
+    CHECK_THROWS_WITH_AS(loadParts(far, UpAxis::Y, "clay"), doctest::Contains("far.obj: is 100 units large"),
+                         Error);
+}
+
 TEST_CASE("scene: paint that does not fit its mesh") {
     const TemporaryFolder folder;
     folder.write("bare.obj", sampleObj(makeSphere(0)));

@@ -90,6 +90,8 @@ TEST_CASE("texture: truncated, absurd and foreign files") {
     CHECK(failureOf("GIF89a").find("PNG or JPEG") != std::string::npos);
     // The header's claim, with a check sum that agrees.
     CHECK(failureOf(samplePngHeader(100000, 100000) + png.substr(33)).find("picture") != std::string::npos);
+    CHECK(failureOf(samplePngHeader(60000, 60000) + png.substr(33))
+              .find("60000 x 60000 pixels, expected at most") != std::string::npos);
     CHECK(failureOf(samplePngHeader(8193, 1) + png.substr(33)).find("8192") != std::string::npos);
     CHECK(failureOf(samplePngHeader(8192, 8192) + png.substr(33)).find("hold") != std::string::npos);
     CHECK(failureOf(samplePngHeader(0, 4) + png.substr(33)) != "");

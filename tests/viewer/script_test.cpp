@@ -1,4 +1,6 @@
 // What scripts do: inputs, settings, files; and how a session ends.
+#include "apps/viewer/script.h"
+#include "engine/base/error.h"
 #include "tests/support/viewer_session.h"
 
 using namespace relume;
@@ -84,6 +86,29 @@ TEST_CASE("viewer: says what is wrong with a script, and that there is no displa
     CHECK_EQ(runProgram(folder, RELUME_VIEWER, "--size 3x4").exitCode, 2);
     CHECK_EQ(runProgram(folder, RELUME_VIEWER, "--screenshot a.png").exitCode, 2); // of which frame?
     CHECK_EQ(runProgram(folder, RELUME_VIEWER, "--exit-frame 1 --screenshot a.jpg").exitCode, 2);
+}
+
+TEST_CASE("viewer: steps that cannot be done are refused before the first") {
+    const TemporaryFolder folder;
+    const auto expectRefused = [&](const json& step, const char* why) {
+        const auto file = folder.write("script.json", json::array({{{"frames", 1}}, step}).dump());
+        CHECK_THROWS_WITH_AS(Script{file}, doctest::Contains(why), Error);
+        CHECK_THROWS_WITH_AS(Script{file}, doctest::Contains("script.json: step 2: "), Error);
+    };
+    expectRefused({{"frames", -1}}, "\"frames\": expected a whole number from 0");
+    expectRefused({{"frames", 1.5}}, "whole number");
+    expectRefused({{"wait", -5}}, "\"wait\": expected \"settled\", 0 to");
+    expectRefused({{"wait", "long"}}, "found \"long\"");
+    expectRefused({{"wait", {{"passes", -1}}}}, "\"passes\"");
+    expectRefused({{"frames", 2}, {"quit", true}}, "a step does one thing");
+    expectRefused({{"drag", "left"}, {"from", {1, 2}}, {"by", {3, 4}}, {"over", 0}}, "\"over\"");
+    expectRefused({{"wheel", 1}, {"over", 2}}, "\"over\" is no part of \"wheel\"");
+    expectRefused({{"resize", {0, 0}}}, "\"resize\": expected a whole number from 320");
+    expectRefused({{"resize", {800, 1e9}}}, "\"resize\"");
+    expectRefused({{"resize", {800}}}, "");
+    expectRefused(7, "expected an object");
+    CHECK_NOTHROW(
+        Script(folder.write("script.json", R"([{"wait": {"passes": 8}}, {"key": "A", "at": [1, 2]}])")));
 }
 
 TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
