@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Mapping, Optional
 
 import relume
 
@@ -21,7 +21,7 @@ class Scale:
     name: str
     triangles: int  # that models are simplified to; 0: all
     ground: Optional[int]  # quads a side; None: the paper's
-    visibility: int  # texels a side of the cube's faces
+    options: Mapping[str, Any]  # of every bake, besides its own
     wide: tuple[int, int]  # pixels
     terms: int  # most, of figures that count them
     noise: float  # of a reference, as a share of the least error
@@ -41,12 +41,12 @@ class Scale:
         if self == FULL:
             return ""
         return (f"With {self.name}: models simplified to {self.triangles} triangles on grounds of "
-                f"{(self.ground + 1) ** 2} vertices, visibility at 6 x {self.visibility}² instead of 6 x 256², images of "
-                f"{self.wide[0]} x {self.wide[1]} pixels, fewer samples.")
+                f"{(self.ground + 1) ** 2} vertices, visibility at 6 x {self.options['visibility_size']}² instead of "
+                f"6 x 256², images of {self.wide[0]} x {self.wide[1]} pixels, fewer samples.")
 
 
-FULL = Scale("full", 0, None, 256, (640, 480), 32, 0.15, 256, (120, 90), 1024, 15, 3)
-QUICK = Scale("--quick", 5000, 40, 128, (320, 240), 16, 0.3, 64, (64, 48), 256, 5, 1)
+FULL = Scale("full", 0, None, {}, (640, 480), 32, 0.15, 256, (120, 90), 1024, 15, 3)
+QUICK = Scale("--quick", 5000, 40, {"visibility_size": 128}, (320, 240), 16, 0.3, 64, (64, 48), 256, 5, 1)
 
 
 @dataclasses.dataclass
@@ -106,11 +106,8 @@ def default_options(**others: Any) -> dict[str, Any]:
 def scene_recipe(setup: Setup, model: str, found: Input, material: str, options: dict[str, Any],
                  has_ground: bool = True) -> Recipe:
     """The model on the ground that the paper tessellates for it, or as small as the scale has it."""
-    scale = setup.scale
-    if scale.visibility != FULL.visibility:
-        options = {**options, "visibility_size": scale.visibility}
-    ground = (scale.ground or _GROUND_QUADS[model]) if has_ground else None
-    return Recipe(str(found), found, material, options, ground, scale.triangles)
+    ground = (setup.scale.ground or _GROUND_QUADS[model]) if has_ground else None
+    return Recipe(str(found), found, material, {**options, **setup.scale.options}, ground, setup.scale.triangles)
 
 
 def paper_recipe(setup: Setup, scene: PaperScene, terms: int) -> Recipe:

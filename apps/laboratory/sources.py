@@ -1,5 +1,6 @@
 """Where error comes from: every stage made exact in turn, low-order harmonics instead, and refined grounds."""
 
+import dataclasses
 from typing import Any
 
 import numpy as np
@@ -142,8 +143,7 @@ def refinement(setup: Setup) -> Section:
                 "errors": [result["parts"][-1]["sources"]["interpolation"]["rms"] for result in numbers]}
 
     def step_of(name: str, ground: str, quads: int, options: dict[str, Any]) -> tuple[str, Step]:
-        recipe = Recipe(str(model), model, "white-diffuse",
-                        scene_recipe(setup, "bunny", model, "white-diffuse", options).options, quads, scale.triangles)
+        recipe = dataclasses.replace(scene_recipe(setup, "bunny", model, "white-diffuse", options), ground=quads)
         return ground, Step(f"refinement-{name}", f"Refinement: the bunny's ground, {ground}",
                             [light.hash for light in lights], lambda work: study(work, recipe), [recipe])
     uniform = [step_of(f"uniform-{quads}", f"{quads} x {quads} quads", quads, paper_options(1)) for quads in _UNIFORM]
@@ -156,7 +156,8 @@ def refinement(setup: Setup) -> Section:
             "an image, relative root mean square (the source \"vertex interpolation\" of the ground alone). Uniform grounds, "
             f"and grounds that were refined to an error over the whole scene, from {_COARSE_QUADS} x {_COARSE_QUADS} quads on.")
         if scale != FULL:
-            chapter.say(f"With {scale.name} the bunny has fewer triangles, and visibility 6 x {scale.visibility}².")
+            chapter.say(f"With {scale.name} the bunny has fewer triangles, and visibility "
+                        f"6 x {scale.options['visibility_size']}².")
         rows = [[ground, f"{results[step.name]['vertices']}", *map(_percent, results[step.name]["errors"])]
                 for ground, step in uniform + refined]
         chapter.items.append(Table("refinement", "Vertices against error",
