@@ -3,9 +3,15 @@
 import argparse
 import difflib
 import sys
-from typing import Optional, Sequence
+from typing import Callable, Optional, Sequence
 
 import relume
+
+try:
+    import jinja2 as _
+    import matplotlib as _
+except ImportError as missing:
+    sys.exit(f"laboratory: {missing}; it needs matplotlib and Jinja2: install python3-matplotlib and python3-jinja2")
 
 from . import factorization, layouts, paper_figures, sources, tables
 from .evaluation import Evaluation
@@ -25,18 +31,6 @@ SECTIONS = {  # in the report's order
     "refinement": sources.refinement,
     "layouts": tables.layouts,
 }
-_WHAT = {
-    "table-1": "bake times and sizes",
-    "table-2": "view and light changes",
-    "figure-2": "the number of BRDF terms",
-    "figure-3": "the number of wavelet coefficients",
-    "figure-4": "BRDFs factored",
-    "figure-5": "diffuse, one polar term, four terms",
-    "scenes": "the scenes of figures 1, 6 and 7",
-    "sources": "where error comes from, and 25 spherical harmonics",
-    "refinement": "refined grounds against uniform ones",
-    "layouts": "the paper's transport against the layouts and factorizations of now",
-}
 
 
 def _named(text: str) -> tuple[str, Path]:
@@ -47,7 +41,7 @@ def _named(text: str) -> tuple[str, Path]:
     return (name if equals else Path(file).stem), Path(file)
 
 
-def _numbers(kind: type, low: float, high: float):
+def _numbers(kind: type, low: float, high: float) -> Callable[[str], list]:
     def parse(text: str) -> list:
         values = [kind(part) for part in text.split(",")]
         if not all(low <= value <= high for value in values):
@@ -56,7 +50,7 @@ def _numbers(kind: type, low: float, high: float):
     return parse
 
 
-def _number(low: int, high: int):
+def _number(low: int, high: int) -> Callable[[str], int]:
     def parse(text: str) -> int:
         if not low <= int(text) <= high:
             raise argparse.ArgumentTypeError(f"expected {low} to {high}, found {text}")
@@ -95,20 +89,21 @@ def _parser() -> argparse.ArgumentParser:
     command = commands.add_parser(
         "evaluate", help="measure what the paper measured, and write a report beside its numbers",
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="sections:\n" + "".join(f"  {name:<11} {what}\n" for name, what in _WHAT.items()) +
+        epilog="sections:\n" + "".join(f"  {name:<11} {make.__doc__}\n" for name, make in SECTIONS.items()) +
         "\nResults are kept in FOLDER as they are made: after Ctrl-C the same command goes on from there,\n"
         "and a later one does nothing twice. docs/evaluation.md says what is measured.")
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER",
                          help="where report.html and all else is written to")
     command.add_argument("--data", type=_folder, metavar="FOLDER",
-                         help="folder with meshes/{buddha,dragon,lucy}*.obj and environments/{grace,stpeters,rnl,uffizi}*.hdr; "
-                         "what is missing is named and skipped")
+                         help="folder with meshes/{buddha,dragon,lucy}*.obj and "
+                         "environments/{grace,stpeters,rnl,uffizi}*.hdr; what is missing is named and skipped")
     command.add_argument("--quick", action="store_true",
-                         help="in minutes: smaller scenes and images; what is missing is replaced by what is installed; the "
-                         "report says where")
+                         help="in minutes: smaller scenes and images; what is missing is replaced by what is "
+                         "installed; the report says where")
     command.add_argument("--only", type=_sections, action="extend", default=[], metavar="SECTION,…",
                          help="sections to run, all if none is named; the report has others that are done, too")
-    command.add_argument("--device", default="", metavar="SELECT", help="a device's index, name or UUID, of relume devices")
+    command.add_argument("--device", default="", metavar="SELECT",
+                         help="a device's index, name or UUID, as relume devices lists them")
 
     command = commands.add_parser("factorization", parents=[light], help="compare the ways to factor a BRDF",
                                   description="Writes factorization.csv and figures, prints tables in Markdown.")
@@ -116,28 +111,30 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--only", action="store_true", help="only these, not the usual ones")
     command.add_argument("--sets", action="store_true",
                          help="price sets instead: print the errors of each material alone and in sets of 2, 4, 8 …")
-    command.add_argument("-o", "--output", type=Path, default=Path("."), metavar="FOLDER")
-    command.add_argument("--sizes", type=_numbers(int, 4, 64), default=[16, 32, 48, 64], metavar="S,S,…",
+    command.add_argument("-o", "--output", type=Path, default=Path("."), metavar="FOLDER", help="where to write to (.)")
+    command.add_argument("--sizes", type=_numbers(int, 4, 64), default="16,32,48,64", metavar="S,S,…",
                          help="sides of maps (%(default)s)")
     command.add_argument("--orientations", type=_number(1, 100000), default=240, metavar="COUNT",
                          help="orientations of the light (%(default)s)")
 
-    command = commands.add_parser("layouts", parents=[light], help="measure what layouts of transport lose for their bytes",
+    command = commands.add_parser("layouts", parents=[light],
+                                  help="measure what layouts of transport lose for their bytes",
                                   description="Writes layouts.csv and figures, prints tables in Markdown.")
     command.add_argument("bakes", nargs="+", type=_named, metavar="[NAME=]FILE",
                          help="bakes in rows of many coefficients (.relume)")
-    command.add_argument("-o", "--output", type=Path, default=Path("."), metavar="FOLDER")
-    command.add_argument("--rows", type=_numbers(int, 1, 24576), default=[24, 48, 96, 192], metavar="N,N,…",
+    command.add_argument("-o", "--output", type=Path, default=Path("."), metavar="FOLDER", help="where to write to (.)")
+    command.add_argument("--rows", type=_numbers(int, 1, 24576), default="24,48,96,192", metavar="N,N,…",
                          help="most coefficients of a row, in rows (%(default)s)")
-    command.add_argument("--budgets", type=_numbers(float, 1, 1e6), default=[50, 100, 200, 400, 800, 1600],
+    command.add_argument("--budgets", type=_numbers(float, 1, 1e6), default="50,100,200,400,800,1600",
                          metavar="B,B,…", help="bytes a vertex of clusters and bases (%(default)s)")
     command.add_argument("--width", type=_number(16, 4096), default=320, help="of images (%(default)s)")
     command.add_argument("--height", type=_number(16, 4096), default=240, help="of images (%(default)s)")
 
     command = commands.add_parser("brdf", parents=[light], help="draw how far the terms of a BRDF are from it")
     command.add_argument("material", metavar="MATERIAL", help="as of relume bake")
-    command.add_argument("-K", "--terms", type=_number(1, 32), default=16)
-    command.add_argument("--factorization", default="environment", metavar="METHOD")
+    command.add_argument("-K", "--terms", type=_number(1, 32), default=16, metavar="K", help="terms (%(default)s)")
+    command.add_argument("--factorization", default="environment", metavar="METHOD",
+                         help="as of relume bake (%(default)s)")
     command.add_argument("--size", type=_number(4, 64), default=48, metavar="S", help="side of a map (%(default)s)")
     command.add_argument("--plot", type=_svg, metavar="SVG", help="errors over the number of terms")
     command.add_argument("--slice", type=_svg, metavar="SVG",

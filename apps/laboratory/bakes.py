@@ -31,7 +31,7 @@ class Recipe:
         return [self._mesh_key(), self.material, dict(self.options)]
 
     def visibility_key(self) -> Optional[Any]:
-        """What recipes have in common whose vertices are the same and see the same. None: refined, of this one alone."""
+        """What recipes have in common whose vertices are the same and see the same. None: refined, its own alone."""
         if self.options.get("refine", "off" if self.is_published else "auto") != "off":
             return None
         return [self._mesh_key(), self.is_published, self.options.get("visibility_size")]

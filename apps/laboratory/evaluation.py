@@ -1,4 +1,7 @@
-"""Sections of the evaluation as steps, and what runs them. Each step's result is a file: what is there is not done again."""
+"""Sections of the evaluation as steps, and what runs them.
+
+Each step's result is a file: what is there is not done again.
+"""
 
 import contextlib
 import dataclasses
@@ -56,9 +59,9 @@ def picture(step: str, file: str) -> Path:
     return Path("images") / step / file
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Step:
-    """A piece of work, with numbers and files as its result. What decides them must be in `inputs`, `recipes`, `after`."""
+    """A piece of work, with numbers and files as its result. `inputs`, `recipes` and `after` hold what decides them."""
     name: str  # SECTION-…, among all; a file's name
     title: str
     inputs: Any
@@ -97,9 +100,9 @@ class Evaluation:
             "Device": f"{self._device['name']} ({self._device['type']}), {self._device['driver']}",
             "Processor": f"{os.cpu_count()} hardware threads",
             "The paper's machine": "Pentium 4, 2.6 GHz, 1 GB, GeForce 5900 (2004)",
-            "Errors": "Root mean square over the covered pixels and channels of the linear image, relative to that of the "
-                      "reference; free of the reference's noise; in brackets what two standard errors of it leave open. "
-                      "Pictures are tone-mapped (ACES); .exr files beside them are linear.",
+            "Errors": "Root mean square over the covered pixels and channels of the linear image, relative to that of "
+                      "the reference; free of the reference's noise; in brackets what two standard errors of it leave "
+                      "open. Pictures are tone-mapped (ACES); .exr files beside them are linear.",
         }
         self._failures: dict[str, str] = {}  # by step
 
@@ -110,32 +113,30 @@ class Evaluation:
         that fails is told in the report, and the others go on. Returns whether none failed.
         """
         with locked(self._folder):
-            asked, others, missing = {}, {}, []
+            sections, steps, missing = [], [], []
             for name, make in makers.items():
                 inputs = Inputs(self._data, stand_ins=self._scale != FULL)
                 section = make(Setup(inputs, self._scale))
-                is_done = bool(section.steps) and all(self._result(step) is not None for step in section.steps)
-                if only and name not in only:
-                    if not is_done:
-                        continue
-                    others[name] = section
-                else:
-                    asked[name] = section
+                is_asked = not only or name in only
+                if not is_asked and not self._is_done(section):
+                    continue
+                sections.append(section)
+                steps += section.steps if is_asked else []
                 missing += [line for line in inputs.missing if line not in missing]
             for line in missing:
                 log(line)
-            sections = [section for name in makers for section in (asked.get(name), others.get(name)) if section]
-            steps = [step for section in asked.values() for step in section.steps]
             left = [step for step in steps if self._result(step) is None]
             log(f"{len(steps)} steps, {len(steps) - len(left)} of them done before")
             self._remove_bakes([step for step in steps if step not in left], left)
             report = self._write_report(sections, missing)
-            while left:
-                step = left.pop(0)
-                log(f"step {steps.index(step) + 1} of {len(steps)}: {step.title}")
-                self._do(step)
-                self._remove_bakes([step], left)
-                if not left or left[0] not in next(s.steps for s in asked.values() if step in s.steps):
+            for section in sections:
+                undone = [step for step in section.steps if step in left]
+                for step in undone:
+                    left.remove(step)
+                    log(f"step {steps.index(step) + 1} of {len(steps)}: {step.title}")
+                    self._do(step)
+                    self._remove_bakes([step], left)
+                if undone:
                     report = self._write_report(sections, missing)
             self._bakes.remove_meshes()
             log(str(report))
@@ -150,6 +151,9 @@ class Evaluation:
         if not isinstance(stored, dict) or not {"numbers", "files"} <= stored.keys():
             return None
         return stored["numbers"] if all((self._folder / file).is_file() for file in stored["files"]) else None
+
+    def _is_done(self, section: Section) -> bool:
+        return bool(section.steps) and all(self._result(step) is not None for step in section.steps)
 
     def _do(self, step: Step) -> None:
         start = time.monotonic()

@@ -145,7 +145,8 @@ def _file_name(name: str) -> str:
 
 
 def _csv_of(studies: Sequence[Study], options: Options) -> str:
-    rows: list[Sequence[Any]] = [("material", "approach", "size", "factored_terms", "terms", "measure", "environment", "error")]
+    rows: list[Sequence[Any]] = [("material", "approach", "size", "factored_terms", "terms", "measure", "environment",
+                                  "error")]
     for study in studies:
         for curve in study.curves:
             approach = APPROACHES[curve["approach"]]
@@ -204,8 +205,9 @@ def _summary(studies: Sequence[Study], options: Options) -> str:
     def means(columns: dict[str, tuple[int, int]], measure: str) -> str:
         """Over all materials and lights, by approach and (size, terms)."""
         return markdown_of(["approach", *columns], [
-            [str(approach), *(_mean([study.error(number, *column, measure, light) for study in studies for light in lights])
-                              for column in columns.values())] for number, approach in enumerate(APPROACHES)])
+            [str(approach), *(_mean([study.error(number, size, terms, measure, light)
+                                     for study in studies for light in lights]) for size, terms in columns.values())]
+            for number, approach in enumerate(APPROACHES)])
     by_terms = {f"K = {terms}": (size, terms) for terms in _COUNTS}
     by_size = {f"S = {side}": (side, _MAIN_TERMS) for side in options.sizes}
     default = markdown_of(["material, environment", *by_terms], [
@@ -268,8 +270,9 @@ def draw_brdf(material: str, lights: dict[str, Path], terms: int, factorization:
         curves = {"RMS of f cos cos": factors["rms_relative"], "Frobenius residual": factors["frobenius"],
                   "radiance, expected": factors["expected"]}
         loaded = [relume.Light.environment(light) for light in lights.values()]
-        measured = {name: errors[0] for name, errors in zip(lights, relume.radiance_errors(material, [factors], loaded))}
-        panel = plots.Panel("", [plots.Curve(name, range(1, len(values) + 1), values, color, name in curves)
+        errors = relume.radiance_errors(material, [factors], loaded)
+        measured = {name: of_light[0] for name, of_light in zip(lights, errors)}
+        panel = plots.Panel("", [plots.curve_of_terms(name, values, color, name in curves)
                                  for color, (name, values) in enumerate({**curves, **measured}.items())])
         plots.draw_lines(plot, title, "terms K", "relative error", [panel])
     if lobes:

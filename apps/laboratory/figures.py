@@ -149,7 +149,8 @@ def pictures_of(figure: Figure, results: Results, title: str, remark: str = "") 
     shown = [image for image in figure.images if image.is_shown]
     pictures = [Picture(picture(figure.reference, f"{image.name}.png"), image.title,
                         str(error_of(figure, results, image.name)) if image.is_compared else "") for image in shown]
-    pictures.append(Picture(picture(figure.reference, "reference.png"), "reference", f"{numbers['passes']} samples a pixel"))
+    pictures.append(Picture(picture(figure.reference, "reference.png"), "reference",
+                            f"{numbers['passes']} samples a pixel"))
     columns = len(pictures)
     pictures += [Picture(picture(figure.reference, f"{image.name}-error.png"), "", f"error of {image.title}")
                  for image in shown if image.is_compared]

@@ -81,8 +81,11 @@ class BakeStudy:
             path.unlink()
 
     def _measure(self, path: Path, layout: str) -> dict[str, Any]:
-        """Bytes of transport a vertex, in memory and compressed in the file; relative errors of its coefficients and, by
-        light, of tuples under all of the light, both against the bake, and of an image against the exact one."""
+        """Bytes of transport a vertex, in memory and compressed in the file; and relative errors.
+
+        Of its coefficients and, by light, of tuples under all of the light, both against the bake; and by light of an
+        image against the exact one.
+        """
         asset, total = relume.Asset.load(path), self._program.json("info", path)["total"]
         renderers = [relume.Renderer(one, self._options.size, samples=1) for one in (asset, self._exact)]
         for renderer in renderers:
@@ -115,8 +118,9 @@ def run(folder: Path, bakes: dict[str, Path], options: Options, program: Program
                                       "environment", "relit_error", "image_error")]
         for study in studies:
             for layout, own in [("source", study.source), *((own["layout"], own) for own in study.variants)]:
-                rows += [(study.name, study.vertices, study.terms, layout, f"{own['bytes']:.6g}", f"{own['on_disk']:.6g}",
-                          f"{own['transport_error']:.6g}", light, f"{relit:.6g}", f"{image:.6g}")
+                rows += [(study.name, study.vertices, study.terms, layout, f"{own['bytes']:.6g}",
+                          f"{own['on_disk']:.6g}", f"{own['transport_error']:.6g}", light, f"{relit:.6g}",
+                          f"{image:.6g}")
                          for light, relit, image in zip(options.lights, own["relit_errors"], own["image_errors"])]
         write_text(folder / "layouts.csv", csv_of(rows))
         _draw(folder / "layouts_relit.svg", studies, options, "relit_errors", "Error of relit tuples")

@@ -66,7 +66,8 @@ def noise_of(halves: tuple[np.ndarray, np.ndarray]) -> float:
 def are_distinguishable(a: MeasuredError, b: MeasuredError) -> bool:
     """Whether the squared errors differ by more than two standard errors of their difference.
 
-    Their noise is taken as if it were independent: of images held against one reference this asks for more than it takes.
+    Their noise is taken as if it were independent: of images held against one reference this asks for more than it
+    takes.
     """
     reaches = (error.high ** 2 - error.value ** 2 for error in (a, b))
     return abs(a.value ** 2 - b.value ** 2) > math.hypot(*reaches)

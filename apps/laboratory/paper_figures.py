@@ -32,18 +32,19 @@ def figure_2(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "The paper shows the Buddha in Ashikhmin and Shirley's BRDF (kd 0.5, ks 0.75, nu 10, nv 100) under a single "
-            "distant light, and finds four terms visually accurate. Here the first K terms of the paper's factorization, "
-            "maps of 48 x 48; the reference has the analytic BRDF under the same light, in the texels of 6 x 64². There is "
-            "no ground, so that the error is that of the highlights.")
+            "The paper shows the Buddha in Ashikhmin and Shirley's BRDF (kd 0.5, ks 0.75, nu 10, nv 100) under a "
+            "single distant light, and finds four terms visually accurate. Here the first K terms of the paper's "
+            "factorization, maps of 48 x 48; the reference has the analytic BRDF under the same light, in the texels "
+            "of 6 x 64². There is no ground, so that the error is that of the highlights.")
         chapter.say(setup.scale.note)
-        chapter.say("The terms alone: rays find what the light reaches, and nothing is lost but by the BRDF's approximation.")
+        chapter.say("The terms alone: rays find what the light reaches, and nothing is lost but by the BRDF's "
+                    "approximation.")
         chapter.items.append(pictures_of(traced, results, f"{model}, terms alone"))
-        chapter.say("The same of the factorization that weighs what light and pixels ask for (--factorization environment), "
-                    "in equal-area maps.")
+        chapter.say("The same of the factorization that weighs what light and pixels ask for "
+                    "(--factorization environment), in equal-area maps.")
         chapter.items.append(pictures_of(weighed, results, f"{model}, terms alone, weighed"))
-        chapter.say("As it is relit in the paper's way, from one bake of rows of 96 coefficients. What this adds is lost to "
-                    "these: a single direction needs all of them.")
+        chapter.say("As it is relit in the paper's way, from one bake of rows of 96 coefficients. What this adds is "
+                    "lost to these: a single direction needs all of them.")
         chapter.items.append(pictures_of(relit, results, f"{model}, relit"))
         chapter.items.append(Table(
             "figure_2", "Relative RMSE over K",
@@ -56,8 +57,8 @@ def figure_2(setup: Setup) -> Section:
             return [f"{100 * error_of(figure, results, f'k{terms}').value:.0f} %" for figure in (traced, weighed)]
         four, all_terms = percents(4), percents(most)
         chapter.findings.append(
-            f"Figure 2: under a single direction four terms of the paper's factorization alone leave an error of {four[0]}, "
-            f"of terms weighed by environments {four[1]}; {most} terms {all_terms[0]} and {all_terms[1]}.")
+            "Figure 2: under a single direction four terms of the paper's factorization alone leave an error of "
+            f"{four[0]}, of terms weighed by environments {four[1]}; {most} terms {all_terms[0]} and {all_terms[1]}.")
 
     return Section(title, [*figure_steps(relit), traced_step(traced), traced_step(weighed)], write)
 
@@ -71,8 +72,8 @@ def figure_3(setup: Setup) -> Section:
     quads = setup.scale.ground or 96
     images = []
     for coefficients in (64, 96, 160, 256, ALL_COEFFICIENTS):
-        recipe = dataclasses.replace(
-            scene_recipe(setup, "bunny", model, "grey-diffuse", paper_options(1, coefficients=coefficients)), ground=quads)
+        options = paper_options(1, coefficients=coefficients)
+        recipe = dataclasses.replace(scene_recipe(setup, "bunny", model, "grey-diffuse", options), ground=quads)
         what = "lossless" if coefficients == ALL_COEFFICIENTS else f"N = {coefficients}"
         images += [FigureImage(f"n{coefficients}", what, recipe, threshold=PAPER_THRESHOLD),
                    FigureImage(f"n{coefficients}-all-light", what, recipe, threshold=0, is_shown=False)]
@@ -81,11 +82,12 @@ def figure_3(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "The paper varies how many coefficients a transport vector keeps, and finds 96 to give visually good shadows. The "
-            f"same here, for a diffuse bunny under {light.name} on a ground of {(quads + 1) ** 2} vertices, the same for all "
-            "N: coarser than the paper's 22,201, since lossless transport of these would be too large for a device. What "
-            "lossless transport leaves is the ground's vertices being far apart, and a light of 6 x 64² texels held against a "
-            f"reference of 6 x {light.face_size}², and shadows of a simplified occluder.")
+            "The paper varies how many coefficients a transport vector keeps, and finds 96 to give visually good "
+            f"shadows. The same here, for a diffuse bunny under {light.name} on a ground of {(quads + 1) ** 2} "
+            "vertices, the same for all N: coarser than the paper's 22,201, since lossless transport of these would be "
+            "too large for a device. What lossless transport leaves is the ground's vertices being far apart, and a "
+            f"light of 6 x 64² texels held against a reference of 6 x {light.face_size}², and shadows of a simplified "
+            "occluder.")
         chapter.say(setup.scale.note)
         chapter.items.append(pictures_of(figure, results, str(model)))
         chapter.items.append(Table(
@@ -94,8 +96,8 @@ def figure_3(setup: Setup) -> Section:
             [[kept.title, str(error_of(figure, results, kept.name)), str(error_of(figure, results, everything.name)),
               f"{results[figure.step_of(kept.name)]['bytes_per_vertex']:.0f}"]
              for kept, everything in zip(images[::2], images[1::2])],
-            "All vertices, of the object and the ground, have one term. Lossless: all 24,576 coefficients, but for those that "
-            "are zero in 11 bits."))
+            "All vertices, of the object and the ground, have one term. Lossless: all 24,576 coefficients, but for "
+            "those that are zero in 11 bits."))
 
     return Section(title, figure_steps(figure), write)
 
@@ -130,23 +132,22 @@ def figure_4(setup: Setup) -> Section:
         for material, name, environment in _BRDFS:
             if light := setup.inputs.environment(environment):
                 recipe = scene_recipe(setup, "bunny", model, material, paper_options(4), has_ground=False)
-                bunnies.append(Figure(f"figure-4-bunny-{material}", f"Figure 4: {name} bunny under {light}", setup.scale,
-                                      environment_light(light), [FigureImage("k4", "K = 4", recipe)], azimuth=-20,
-                                      elevation=12))
+                bunnies.append(Figure(f"figure-4-bunny-{material}", f"Figure 4: {name} bunny under {light}",
+                                      setup.scale, environment_light(light), [FigureImage("k4", "K = 4", recipe)],
+                                      azimuth=-20, elevation=12))
     for bunny in bunnies:
         steps += figure_steps(bunny)
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            f"The first eight light maps (S = {_SHEET_SIZE}) of the paper's four BRDFs in its factorization: each scaled by "
-            "its own largest magnitude, magenta where negative. The two Lafortune fits are the paper's kind; the plastics "
-            "are ours, as the paper does not give its parameters.")
-        chapter.items.append(Pictures("First eight terms", 2, [Picture(picture(f"figure-4-{material}", "maps.png"), name)
-                                                               for material, name, _ in _BRDFS]))
+            f"The first eight light maps (S = {_SHEET_SIZE}) of the paper's four BRDFs in its factorization: each "
+            "scaled by its own largest magnitude, magenta where negative. The two Lafortune fits are the paper's kind; "
+            "the plastics are ours, as the paper does not give its parameters.")
+        chapter.items.append(Pictures("First eight terms", 2, [
+            Picture(picture(f"figure-4-{material}", "maps.png"), name) for material, name, _ in _BRDFS]))
         errors = {material: results[f"figure-4-{material}"] for material, _, _ in _BRDFS}
-        panels = [plots.Panel(name, [plots.Curve(f"S = {size}", range(1, len(values) + 1), values, color)
-                                     for color, size in enumerate(_MAP_SIZES) if (values := errors[material][f"{size}"])])
-                  for material, name, _ in _BRDFS]
+        panels = [plots.Panel(name, [plots.curve_of_terms(f"S = {size}", errors[material][f"{size}"], color)
+                                     for color, size in enumerate(_MAP_SIZES)]) for material, name, _ in _BRDFS]
         chapter.items.append(Plot("figure_4", "RMS over the number of terms", lambda path: plots.draw_lines(
             path, "RMS error, weighted by cosines", "terms K", "RMS of f cos cos", panels,
             ticks=range(0, terms + 1, max(1, terms // 4)))))
@@ -155,24 +156,26 @@ def figure_4(setup: Setup) -> Section:
             "figure_4", "RMS of f cos θi cos θo over K and S", ["BRDF", "S", *(f"K = {count}" for count in counts)],
             [[name, f"{size}", *(f"{errors[material][f'{size}'][:count][-1]:.4f}" for count in counts)]
              for material, name, _ in _BRDFS for size in _MAP_SIZES],
-            "Of 80,000 random pairs of directions, mean over color channels. The paper plots such curves weighted by cos θi, "
-            "without numbers; and sees that beyond S = 32 little is gained."))
+            "Of 80,000 random pairs of directions, mean over color channels. The paper plots such curves weighted by "
+            "cos θi, without numbers; and sees that beyond S = 32 little is gained."))
         chapter.say(
-            "Where a larger S does worse: f grows steeply towards grazing angles, how near to the horizon the outermost "
-            "centers of a map fall is a matter of chance, and at S = 64 the first terms of Ashikhmin-Shirley describe these.")
+            "Where a larger S does worse: f grows steeply towards grazing angles, how near to the horizon the "
+            "outermost centers of a map fall is a matter of chance, and at S = 64 the first terms of "
+            "Ashikhmin-Shirley describe these.")
         chapter.items += [pictures_of(bunny, results, bunny.title) for bunny in bunnies]
 
     return Section("Figure 4: BRDFs factored", steps, write)
 
 
 def figure_5(setup: Setup) -> Section:
-    """What a single term gives where its map is polar."""
+    """Diffuse, one polar term, four terms."""
     title = "Figure 5: one term against four"
     model, light = setup.inputs.model("lucy"), setup.inputs.environment("grace")
     if not model or not light:
         return skipped(title, "there is no Lucy or no Grace Cathedral")
 
-    def image(name: str, what: str, options: dict[str, Any], material: str = ASHIKHMIN_SHIRLEY, **others: Any) -> FigureImage:
+    def image(name: str, what: str, options: dict[str, Any], material: str = ASHIKHMIN_SHIRLEY,
+              **others: Any) -> FigureImage:
         return FigureImage(name, what, scene_recipe(setup, "lucy", model, material, options), **others)
     polar = paper_options(1, map="polar-sine")
     figure = Figure("figure-5", "Figure 5", setup.scale, environment_light(light), [
@@ -185,8 +188,9 @@ def figure_5(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "Lucy in gray diffuse, in a single term of Ashikhmin-Shirley from polar maps, and in four terms from orthographic "
-            f"ones; under {light}, the paper's light not being known. The reference is of Ashikhmin-Shirley.")
+            "Lucy in gray diffuse, in a single term of Ashikhmin-Shirley from polar maps, and in four terms from "
+            f"orthographic ones; under {light}, the paper's light not being known. The reference is of "
+            "Ashikhmin-Shirley.")
         chapter.say(setup.scale.note)
         chapter.items.append(pictures_of(figure, results, str(model)))
         chapter.items.append(Table("figure_5", "Relative RMSE", ["maps", "RMSE (interval)"],
@@ -211,7 +215,8 @@ class _Scene:
 
 
 _SCENES = (
-    _Scene("dragon", "Figure 1, left: dragon, Ashikhmin-Shirley", "dragon", ASHIKHMIN_SHIRLEY, "uffizi", -20, False, "grace"),
+    _Scene("dragon", "Figure 1, left: dragon, Ashikhmin-Shirley", "dragon", ASHIKHMIN_SHIRLEY, "uffizi", -20, False,
+           "grace"),
     _Scene("bunny", "Figure 1, right: bunny, red plastic", "bunny", "red-plastic", "grace", -20, False),
     _Scene("buddha", "Figure 6, left: Buddha, Ashikhmin-Shirley", "buddha", ASHIKHMIN_SHIRLEY, "stpeters", 0),
     _Scene("lucy-area", "Figure 6, right: Lucy, Ashikhmin-Shirley", "lucy", ASHIKHMIN_SHIRLEY, None),
@@ -223,7 +228,7 @@ _PAPER, _DEFAULTS = "the paper's way is closer", "the defaults are closer"
 
 
 def scenes(setup: Setup) -> Section:
-    """Figures 1, 6 and 7: scenes in the light of environments and of a small lamp."""
+    """The scenes of figures 1, 6 and 7, under environments and a small lamp."""
     title = "Figures 1, 6 and 7: scenes under all-frequency light"
     figures: list[tuple[Figure, str, str]] = []  # with a title and a remark
     for scene in _SCENES:
@@ -251,9 +256,9 @@ def scenes(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "Each in the paper's way (its factorization, K = 4, rows of 96 coefficients, the light above its threshold of "
-            "1024), as relume bakes and renders it if asked for nothing (K = 8, bases, 512 coefficients of the light), and "
-            "the reference: exact BRDF, full mesh, light of 6 x 256² texels.")
+            "Each in the paper's way (its factorization, K = 4, rows of 96 coefficients, the light above its threshold "
+            "of 1024), as relume bakes and renders it if asked for nothing (K = 8, bases, 512 coefficients of the "
+            "light), and the reference: exact BRDF, full mesh, light of 6 x 256² texels.")
         chapter.say(setup.scale.note)
         rows, errors = [], []
         for figure, name, remark in figures:

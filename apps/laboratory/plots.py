@@ -30,6 +30,11 @@ class Curve:
     dashed: bool = False
 
 
+def curve_of_terms(label: str, values: Sequence[float], color: int, dashed: bool = False) -> Curve:
+    """Of values after each of K terms."""
+    return Curve(label, range(1, len(values) + 1), values, color, dashed)
+
+
 @dataclasses.dataclass
 class Panel:
     title: str

@@ -25,7 +25,7 @@ def _camera(asset: relume.Asset, scale: Scale, elevation: float) -> relume.Camer
 
 
 def sources(setup: Setup) -> Section:
-    """What every approximation costs, and what 25 spherical harmonics would leave."""
+    """Where error comes from, and what 25 spherical harmonics would leave."""
     title, scale = "Where error comes from", setup.scale
     lights = setup.inputs.environments(("grace", "stpeters", "rnl"))
     models = [(name, setup.inputs.model(name)) for name in _MODELS[:scale.models]]
@@ -62,16 +62,18 @@ def sources(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "Each point of an image is computed again, stage after stage made exact: first with light that nothing shadows "
-            "summed instead of looked up in lit spheres, then with all of the light's coefficients, then transport as it was "
-            "before it was stored, then all its coefficients, its own instead of its triangle's corners', all terms of the "
-            "tabulated BRDF, the BRDF itself, taken as finely as rays are cast, the light's own resolution, the full mesh, "
-            "and 6 x 512² rays. What a stage changes is the error of what it replaces. Baked with relume's defaults.")
+            "Each point of an image is computed again, stage after stage made exact: first with light that nothing "
+            "shadows summed instead of looked up in lit spheres, then with all of the light's coefficients, then "
+            "transport as it was before it was stored, then all its coefficients, its own instead of its triangle's "
+            "corners', all terms of the tabulated BRDF, the BRDF itself, taken as finely as rays are cast, the light's "
+            "own resolution, the full mesh, and 6 x 512² rays. What a stage changes is the error of what it replaces. "
+            "Baked with relume's defaults.")
         chapter.say(scale.note)
         _add_error_tables(chapter, [([str(model), material, light.name], numbers) for name, model, material in studies
                                     for light, numbers in zip(lights, results[name])])
         for name, model, material in studies:
-            shown = {"drawn": "drawn", "reference": "reference", "harmonics": "25 spherical harmonics", "total": "all error"}
+            shown = {"drawn": "drawn", "reference": "reference", "harmonics": "25 spherical harmonics",
+                     "total": "all error"}
             shown.update({source: values["title"] for source, values in results[name][0]["sources"].items()})
             chapter.items.append(Pictures(
                 f"{model}, {material}, {lights[0]}", 5,
@@ -97,29 +99,29 @@ def _add_error_tables(chapter: Chapter, scenes: list[tuple[list[str], dict[str, 
                 f"{numbers['total'] / numbers['measured']:.3f}" if numbers["measured"] > 0 else "-",
                 *(_percent(numbers[key]) for key in ("root_sum_of_squares", "reference_noise", "unexplained_truth"))]
                for scene, numbers in scenes],
-              "Measured: the device's image against the sampled reference. Summed: the changes of all sources, point by "
-              "point; independent: the root of the sum of their squares. Not accounted for: of the reference."),
+              "Measured: the device's image against the sampled reference. Summed: the changes of all sources, point "
+              "by point; independent: the root of the sum of their squares. Not accounted for: of the reference."),
         Table("error-sources", "Where error comes from", [*columns, *titles],
               [[*scene, *(f"{100 * source['rms']:.2f}\u00a0({round(100 * source['share'])})"
                           for source in numbers["sources"].values())] for scene, numbers in scenes],
-              "The change by each source in percent of the truth, root mean square; in brackets its share of the squared "
-              "total in percent, below 0 where it makes up for others."),
+              "The change by each source in percent of the truth, root mean square; in brackets its share of the "
+              "squared total in percent, below 0 where it makes up for others."),
         Table("error-harmonics", "Against 25 spherical harmonics",
               [*columns, "relume", "harmonics, same K terms", "harmonics, exact BRDF"],
               [[*scene, *(_percent(numbers[key])
                           for key in ("measured", "spherical_harmonics_of_terms", "spherical_harmonics"))]
                for scene, numbers in scenes],
-              "Harmonics: the environment in those of degrees 0 to 4 alone; shadows exact, nothing interpolated or stored; of "
-              "relume's K terms, and of the exact BRDF.")]
+              "Harmonics: the environment in those of degrees 0 to 4 alone; shadows exact, nothing interpolated or "
+              "stored; of relume's K terms, and of the exact BRDF.")]
     measured = [numbers for _, numbers in scenes if numbers["measured"] > 0]
     if not measured:
         return
     sums = [numbers["total"] / numbers["measured"] for numbers in measured]
     harmonics = [numbers["spherical_harmonics_of_terms"] / numbers["measured"] for numbers in measured]
     chapter.findings.append(
-        f"Sources of error: over {len(sums)} scenes their sum is {sum(sums) / len(sums):.3f} of the measured error in the "
-        f"mean, and {max(sums, key=lambda ratio: abs(ratio - 1)):.3f} where it is furthest from 1. 25 spherical harmonics "
-        f"with the same terms leave {range_text(harmonics)} times relume's error.")
+        f"Sources of error: over {len(sums)} scenes their sum is {sum(sums) / len(sums):.3f} of the measured error in "
+        f"the mean, and {max(sums, key=lambda ratio: abs(ratio - 1)):.3f} where it is furthest from 1. 25 spherical "
+        f"harmonics with the same terms leave {range_text(harmonics)} times relume's error.")
 
 
 _UNIFORM = (37, 74, 148)  # quads a side
@@ -128,7 +130,7 @@ _COARSE_QUADS = 16  # that grounds are refined from
 
 
 def refinement(setup: Setup) -> Section:
-    """Vertices where shadows end: refined grounds against uniform ones."""
+    """Refined grounds against uniform ones."""
     title, scale = "Vertices where shadows end", setup.scale
     model, lights = setup.inputs.model("bunny"), setup.inputs.environments(("rnl", "grace", "stpeters"))
     if not model or not lights:
@@ -152,9 +154,10 @@ def refinement(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "The bunny, white-diffuse like its ground: what interpolation between vertices changes of the ground's points in "
-            "an image, relative root mean square (the source \"vertex interpolation\" of the ground alone). Uniform grounds, "
-            f"and grounds that were refined to an error over the whole scene, from {_COARSE_QUADS} x {_COARSE_QUADS} quads on.")
+            "The bunny, white-diffuse like its ground: what interpolation between vertices changes of the ground's "
+            "points in an image, relative root mean square (the source \"vertex interpolation\" of the ground alone). "
+            f"Uniform grounds, and grounds that were refined to an error over the whole scene, from {_COARSE_QUADS} x "
+            f"{_COARSE_QUADS} quads on.")
         if scale != FULL:
             chapter.say(f"With {scale.name} the bunny has fewer triangles, and visibility "
                         f"6 x {scale.options['visibility_size']}².")
@@ -168,11 +171,12 @@ def refinement(setup: Setup) -> Section:
         good = [(results[step.name]["vertices"], ground) for ground, step in refined
                 if all(own <= other for own, other in zip(results[step.name]["errors"], wanted["errors"]))]
         if not good:
-            chapter.findings.append(f"Refinement: none of the refined grounds is as good as {finest} under every light.")
+            chapter.findings.append(f"Refinement: none of the refined grounds is as good as {finest} under every "
+                                    "light.")
             return
         vertices, ground = min(good)
         chapter.findings.append(
-            f"Refinement: {vertices} vertices ({ground}) interpolate the ground as well as {wanted['vertices']} uniform ones "
-            f"under every light: {wanted['vertices'] / vertices:.1f} times fewer.")
+            f"Refinement: {vertices} vertices ({ground}) interpolate the ground as well as {wanted['vertices']} "
+            f"uniform ones under every light: {wanted['vertices'] / vertices:.1f} times fewer.")
 
     return Section(title, [step for _, step in uniform + refined], write)

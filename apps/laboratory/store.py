@@ -67,7 +67,7 @@ def read_result(path: Path) -> Any:
 
 
 def kept(folder: Path, name: str, inputs: Any, work: Callable[[], Any]) -> Any:
-    """The result of `work`: from FOLDER/steps/NAME-HASH.json where that exists, HASH being that of all that decides it."""
+    """The result of `work`: from FOLDER/steps/NAME-HASH.json where that exists; HASH is that of `inputs`."""
     path = folder / "steps" / f"{name}-{hash_of(inputs)}.json"
     result = read_result(path)
     if result is None:

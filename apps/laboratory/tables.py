@@ -14,7 +14,7 @@ _MACHINE = "The paper's machine was a Pentium 4 of 2.6 GHz with a GeForce 5900."
 
 
 def table_1(setup: Setup) -> Section:
-    """What a bake takes."""
+    """What a bake takes: time and bytes."""
     title, scenes = "Table 1: bake time and size", paper_scenes(setup)
     if not scenes:
         return skipped(title, "there are no models")
@@ -42,11 +42,11 @@ def table_1(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            "Bakes in the paper's way (relume bake --preset paper): Ashikhmin-Shirley on the object, white diffuse on the "
-            "ground (one term), the paper's factorization, maps of 48 x 48, visibility drawn at 6 x 256² from a model "
-            "simplified to 5000 triangles, the BRDF at every texel of it, rows of 96 coefficients. How far the paper "
-            "simplifies is not known; its models and ours differ in their numbers of vertices, so that times and bytes are "
-            "compared by the vertex.")
+            "Bakes in the paper's way (relume bake --preset paper): Ashikhmin-Shirley on the object, white diffuse on "
+            "the ground (one term), the paper's factorization, maps of 48 x 48, visibility drawn at 6 x 256² from a "
+            "model simplified to 5000 triangles, the BRDF at every texel of it, rows of 96 coefficients. How far the "
+            "paper simplifies is not known; its models and ours differ in their numbers of vertices, so that times and "
+            "bytes are compared by the vertex.")
         chapter.say(setup.scale.note)
         rows, stages, ours = [], [], []
         names = list(results[step_name(scenes[0], PAPER_TERMS[-1])]["stages"])
@@ -57,8 +57,8 @@ def table_1(setup: Setup) -> Section:
                 paper_ms = model.minutes[which] * 60e3 / model.all_vertices
                 paper_bytes = model.megabytes[which] * 1e6 / model.all_vertices
                 bases = own.get("bases_bytes_per_vertex")
-                ours.append((own["ms_per_vertex"], paper_ms / own["ms_per_vertex"], own["bytes_per_vertex"] / paper_bytes,
-                             bases / paper_bytes if bases else None))
+                ours.append((own["ms_per_vertex"], paper_ms / own["ms_per_vertex"],
+                             own["bytes_per_vertex"] / paper_bytes, bases / paper_bytes if bases else None))
                 rows.append([scene.input.name, f"{terms}", f"{own['vertices']}", f"{model.all_vertices}",
                              f"{own['ms_per_vertex']:.3g}", f"{paper_ms:.3g}", f"{model.minutes[which]}",
                              f"{ours[-1][1]:.0f}", f"{own['bytes_per_vertex']:.0f}", f"{paper_bytes:.0f}",
@@ -70,14 +70,14 @@ def table_1(setup: Setup) -> Section:
                   ["model with ground", "K", "vertices", "paper's vertices", "ms per vertex", "paper's ms per vertex",
                    "paper's minutes", "times faster", "bytes per vertex", "paper's bytes per vertex", "paper's MB",
                    "bytes per vertex in bases"], rows,
-                  f"{_MACHINE} Bytes are of transport, in memory. In bases: the same transport in the layout that relume bake "
-                  "gives if not asked for another."),
+                  f"{_MACHINE} Bytes are of transport, in memory. In bases: the same transport in the layout that "
+                  "relume bake gives if not asked for another."),
             Table("table_1_stages", "Milliseconds of a vertex, by stages", ["model with ground", "K", *names], stages,
                   "As the device's clock has them, but for the host's own.")]
         ms, speed, bytes_of_rows, bases = zip(*ours)
         chapter.findings.append(
-            f"Table 1: bakes in the paper's way take {range_text(ms)} ms a vertex, {range_text(speed)} times faster than on "
-            f"its machine of 2004, and {range_text(bytes_of_rows)} times its bytes a vertex; kept in bases, "
+            f"Table 1: bakes in the paper's way take {range_text(ms)} ms a vertex, {range_text(speed)} times faster "
+            f"than on its machine of 2004, and {range_text(bytes_of_rows)} times its bytes a vertex; kept in bases, "
             f"{range_text(share for share in bases if share)} times.")
 
     return Section(title, [step_of(scene, terms) for scene in scenes for terms in PAPER_TERMS], write)
@@ -107,9 +107,9 @@ def table_2(setup: Setup) -> Section:
             numbers = {}
             for width, height in _FRAMES:
                 # As relume render --preset paper has it, for bases too.
-                times = work.program.json("bench", "view", *files, bases, "-e", light.file, "--size", f"{width}x{height}",
-                                          "--orbit=30,20,1", "--threshold", PAPER_THRESHOLD, "--residual", "off",
-                                          "--repeats", setup.scale.rounds)
+                times = work.program.json(
+                    "bench", "view", *files, bases, "-e", light.file, "--size", f"{width}x{height}", "--orbit=30,20,1",
+                    "--threshold", PAPER_THRESHOLD, "--residual", "off", "--repeats", setup.scale.rounds)
                 numbers[f"{width}x{height}"] = {name: {"view_ms": file["view_ms"], "light_ms": file["light_ms"]}
                                                 for (name, _, _), file in zip(_VARIANTS, times["files"])}
             bases.unlink()
@@ -118,9 +118,9 @@ def table_2(setup: Setup) -> Section:
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            f"Wall-clock medians under {light}, turned by a degree from image to image, with the paper's light threshold of "
-            "1024, one sample a pixel and no residual. A view change draws the object anew; a light change samples, "
-            "transforms and quantizes the light, relights every vertex in full, and draws.")
+            f"Wall-clock medians under {light}, turned by a degree from image to image, with the paper's light "
+            "threshold of 1024, one sample a pixel and no residual. A view change draws the object anew; a light "
+            "change samples, transforms and quantizes the light, relights every vertex in full, and draws.")
         chapter.say(setup.scale.note)
         rows = []
         for scene in scenes:
@@ -135,8 +135,8 @@ def table_2(setup: Setup) -> Section:
             "table_2", "View and light changes",
             ["model", "K", "layout", "image", "view change, ms", "view change, fps", "paper's view change, fps",
              "light change, ms", "light change, fps", "paper's light change, fps"], rows,
-            f"{_MACHINE} The size of its images is not known. Its bunny has 36,000 vertices, Buddha 56,000, dragon 100,000 "
-            "and Lucy 180,000; Table 1 has the numbers of ours."))
+            f"{_MACHINE} The size of its images is not known. Its bunny has 36,000 vertices, Buddha 56,000, dragon "
+            "100,000 and Lucy 180,000; Table 1 has the numbers of ours."))
 
         width, height = _FRAMES[0]
 
@@ -162,7 +162,7 @@ class _Way:
 
 
 def layouts(setup: Setup) -> Section:
-    """Beyond the paper: its way against the layouts and factorizations of now."""
+    """The paper's transport against the layouts and factorizations of now."""
     title, scenes = "Beyond the paper: equal bytes, equal time", paper_scenes(setup)
     light = setup.inputs.environment("grace") or setup.inputs.any_environment()
     if not scenes or not light:
@@ -198,16 +198,16 @@ def layouts(setup: Setup) -> Section:
         found = min((way for way in ways if cost(way) <= 1.05 * cost(paper)), key=lambda way: way.error.value)
         if found is paper or not are_distinguishable(found.error, paper.error):
             return f"Within the paper's {what}, none is distinguishably closer to the reference than its way."
-        return (f"Within the paper's {what}, \"{found.title}\" is the closest to the reference: {found.error} instead of "
-                f"{paper.error}, at {found.bytes:.0f} bytes a vertex instead of {paper.bytes:.0f} and {found.light_ms:.1f} "
-                f"ms for a change of light instead of {paper.light_ms:.1f}.")
+        return (f"Within the paper's {what}, \"{found.title}\" is the closest to the reference: {found.error} instead "
+                f"of {paper.error}, at {found.bytes:.0f} bytes a vertex instead of {paper.bytes:.0f} and "
+                f"{found.light_ms:.1f} ms for a change of light instead of {paper.light_ms:.1f}.")
 
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
-            f"The {scene.input} in Ashikhmin-Shirley under {light}. The paper's way: its factorization, orthographic maps of "
-            "48 x 48, rows of 96 coefficients, drawn visibility of a simplified occluder. The default factorization is "
-            "nonnegative, in equal-area maps, and what its terms leave is added; bases are the default layout. Errors are "
-            "against the exact BRDF and the light's 6 x 256² texels.")
+            f"The {scene.input} in Ashikhmin-Shirley under {light}. The paper's way: its factorization, orthographic "
+            "maps of 48 x 48, rows of 96 coefficients, drawn visibility of a simplified occluder. The default "
+            "factorization is nonnegative, in equal-area maps, and what its terms leave is added; bases are the "
+            "default layout. Errors are against the exact BRDF and the light's 6 x 256² texels.")
         chapter.say(scale.note)
         ways = [_Way(image.title, results[figure.step_of(image.name)]["bytes_per_vertex"],
                      **results[times.name][image.name], error=error_of(figure, results, image.name))
@@ -215,7 +215,8 @@ def layouts(setup: Setup) -> Section:
         chapter.items.append(Table(
             "layouts", "What ways to keep transport cost and give",
             ["way", "bytes per vertex", "light change, ms", "view change, ms", "RMSE (interval)"],
-            [[way.title, f"{way.bytes:.0f}", f"{way.light_ms:.1f}", f"{way.view_ms:.1f}", str(way.error)] for way in ways],
+            [[way.title, f"{way.bytes:.0f}", f"{way.light_ms:.1f}", f"{way.view_ms:.1f}", str(way.error)]
+             for way in ways],
             "A light change includes drawing; medians, all in alternation."))
         by_bytes = best(ways, lambda way: way.bytes, "bytes")
         chapter.say(by_bytes)

@@ -24,7 +24,8 @@ from relume.laboratory import __main__ as laboratory, evaluation, paper_figures,
 from relume.laboratory.bakes import Recipe
 from relume.laboratory.evaluation import Evaluation
 from relume.laboratory.inputs import Inputs
-from relume.laboratory.measures import MeasuredError, are_distinguishable, exposure_of, measured_error, noise_of, range_text
+from relume.laboratory.measures import (MeasuredError, are_distinguishable, exposure_of, measured_error, noise_of,
+                                        range_text)
 from relume.laboratory.scenes import QUICK
 from relume.laboratory.store import LabError, kept, locked, replacing
 
@@ -194,7 +195,8 @@ class InputsTest(Folder):
 class EvaluationTest(Folder):
     def test_every_section_is_reported(self):
         for module, name, few in ((tables, "_FRAMES", ((32, 24),)), (paper_figures, "_MAP_SIZES", (6, 8)),
-                                  (paper_figures, "_SHEET_SIZE", 8), (paper_figures, "_BRDFS", paper_figures._BRDFS[:2]),
+                                  (paper_figures, "_SHEET_SIZE", 8),
+                                  (paper_figures, "_BRDFS", paper_figures._BRDFS[:2]),
                                   (paper_figures, "_SCENES", paper_figures._SCENES[:2]),
                                   (sources, "_MATERIALS", sources._MATERIALS[:1]), (sources, "_UNIFORM", (4, 8)),
                                   (sources, "_REFINED", (0.05,))):
@@ -211,8 +213,8 @@ class EvaluationTest(Folder):
         for text in ("not done yet", "Failed:", "Skipped:"):
             self.assertNotIn(text, report)
         self.assertEqual({path.stem for path in (self.out / "tables").iterdir()},
-                         {"table_1", "table_1_stages", "table_2", "figure_2", "figure_3", "figure_4", "figure_5", "scenes",
-                          "error-sums", "error-sources", "error-harmonics", "refinement", "layouts"})
+                         {"table_1", "table_1_stages", "table_2", "figure_2", "figure_3", "figure_4", "figure_5",
+                          "scenes", "error-sums", "error-sources", "error-harmonics", "refinement", "layouts"})
         self.assertEqual(list((self.out / "bakes").iterdir()), [])
 
         rows = self.table("table_1")
@@ -328,8 +330,8 @@ class CommandTest(Folder):
         self.assertIn("2 steps, 1 of them done before", self.evaluate("table-1", scale=QUICK)[1])
 
     def test_factorizations_are_compared(self):
-        arguments = ("factorization", "--only", "clay", "gold", "-e", self.light(), "--sizes", "6,8", "--orientations", 2,
-                     "-o", self.out)
+        arguments = ("factorization", "--only", "clay", "gold", "-e", self.light(), "--sizes", "6,8", "--orientations",
+                     2, "-o", self.out)
         code, tables, said = self.run_command(*arguments)
         self.assertEqual(code, 0, said)
         self.assertIn("| clay |", tables)
@@ -385,8 +387,8 @@ class CommandTest(Folder):
 
     def test_a_brdf_is_drawn(self):
         plot, lobes = self.folder / "plot.svg", self.folder / "lobes.svg"
-        code, _, said = self.run_command("brdf", "red-plastic", "-K", 4, "--size", 12, "-e", self.light(), "--plot", plot,
-                                         "--slice", lobes)
+        code, _, said = self.run_command("brdf", "red-plastic", "-K", 4, "--size", 12, "-e", self.light(), "--plot",
+                                         plot, "--slice", lobes)
         self.assertEqual(code, 0, said)
         self.assertIn("radiance, expected", plot.read_text())
         self.assertIn("sky", plot.read_text())

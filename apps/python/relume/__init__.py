@@ -205,8 +205,8 @@ def brdf(material, terms=8, factorization="environment", map_size=48, mapping=No
     """A material's factors: light_maps and view_maps (K, S, S, 3), mapping, and after each term the errors frobenius,
     rms_absolute, rms_relative and expected (docs/factorization.md).
 
-    A list of materials shares its light maps, and gives a list. mapping: orthographic, polar-sine or equal-area; texels:
-    centers or means; None: what the factorization takes.
+    A list of materials shares its light maps, and gives a list. mapping: orthographic, polar-sine or equal-area;
+    texels: centers or means; None: what the factorization takes.
     """
     materials = [material] if isinstance(material, str) else list(material)
     factors = _relume._brdf(materials, terms, factorization, map_size, mapping, texels)
