@@ -2,6 +2,7 @@
 
 import argparse
 import difflib
+import signal
 import sys
 from typing import Callable, Optional, Sequence
 
@@ -174,6 +175,7 @@ def _run(arguments: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser = _parser()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # stops as Ctrl-C does
     try:
         return _run(parser.parse_args(arguments), parser)
     except KeyboardInterrupt:

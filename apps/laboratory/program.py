@@ -28,8 +28,8 @@ class Program:
         command = [self.path, *map(str, arguments)]
         if self.device and arguments[0] in _ON_DEVICE:
             command += ["--device", self.device]
-        with tempfile.TemporaryFile("w+", encoding="utf-8") as output:
-            process = subprocess.Popen(command, stdout=output, stderr=subprocess.PIPE, text=True, errors="replace")
+        with (tempfile.TemporaryFile("w+", encoding="utf-8") as output,
+              subprocess.Popen(command, stdout=output, stderr=subprocess.PIPE, text=True, errors="replace") as process):
             message = ""
             try:
                 for line in process.stderr:
@@ -37,12 +37,12 @@ class Program:
                     message = line.strip() or message
                 process.wait()
             except BaseException:
-                # Bakes keep what is done. A terminal's Ctrl-C reaches them too; a second signal would end them at once.
+                # Bakes end with what is done. A terminal's Ctrl-C reaches them too; a second signal ends them at once.
                 try:
-                    process.wait(timeout=1)
+                    process.communicate(timeout=10)
                 except subprocess.TimeoutExpired:
                     process.send_signal(signal.SIGINT)
-                    process.wait()
+                    process.communicate()
                 raise
             if process.returncode in (130, 143):
                 raise KeyboardInterrupt
