@@ -70,6 +70,7 @@ set(CPACK_DEBIAN_VIEWER_PACKAGE_DEPENDS "relume (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-relume)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy, mesa-vulkan-drivers | vulkan-icd")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "relume, python3-matplotlib, python3-jinja2") # relume.laboratory
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librelume-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS

@@ -3,6 +3,7 @@
 #include "apps/python/module.h"
 #include "engine/import/asset_info.h"
 #include "engine/render/appearance.h"
+#include "precompute/bake/bake_plan.h"
 #include "precompute/bake/bake_preset.h"
 
 #include <fmt/format.h>
@@ -139,6 +140,30 @@ std::shared_ptr<Asset> bakeScene(const SceneBuilder& builder,
     return asset;
 }
 
+std::shared_ptr<Asset> planScene(const SceneBuilder& builder, const py::kwargs& kwargs) {
+    const BakeOptions options = optionsFrom(kwargs);
+    const Scene scene = builder.build(options.refinement.has_value());
+    const std::shared_ptr<const vk::Device> on = device();
+    const py::gil_scoped_release unlocked;
+    BakeObserver silent;
+    return std::make_shared<Asset>(planBake(*on, scene, options, silent).asset);
+}
+
+// (rows, 6 F²) vectors of the first set of a part.
+py::array_t<float> coefficientsOfRows(const Asset& asset, size_t part, const std::vector<size_t>& rows) {
+    const Transport& transport = asset.parts.at(part).sets.front().transport;
+    const size_t count = size_t(6 * asset.faceSize * asset.faceSize),
+                 all = size_t(verticesOf(transport)) * termsOf(transport);
+    std::vector<vec3> values;
+    values.reserve(rows.size() * count);
+    for (const size_t row : rows) {
+        if (row >= all) throw py::index_error(fmt::format("row {}: the part has {} rows", row, all));
+        const std::vector<vec3> own = coefficientsOf(transport, row, count);
+        values.insert(values.end(), own.begin(), own.end());
+    }
+    return arrayOf(std::move(values), {py::ssize_t(rows.size()), py::ssize_t(count)});
+}
+
 } // namespace
 
 void addBake(py::module_& module) {
@@ -175,8 +200,10 @@ void addBake(py::module_& module) {
              })
         .def(
             "mesh", [](const Asset& asset, size_t part) { return asset.parts.at(part).mesh; },
-            py::arg("part") = 0);
+            py::arg("part") = 0)
+        .def("coefficients", coefficientsOfRows, py::arg("part"), py::arg("rows"));
     module.def("_bake", bakeScene);
+    module.def("_plan", planScene);
 }
 
 } // namespace relume::python

@@ -39,9 +39,12 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tag = f"cp{sys.version_info[0]}{sys.version_info[1]}"
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     info = f"{NAME}-{version}.dist-info"
-    files = {f"{NAME}/{path.name}": path.read_bytes() for path in sorted(built.iterdir()) if path.is_file()}
+    files = {f"{NAME}/{path.relative_to(built)}": path.read_bytes() for path in sorted(built.rglob("*"))
+             if path.is_file() and path.parent.name != "__pycache__"}
     files[f"{info}/METADATA"] = (f"Metadata-Version: 2.1\nName: {NAME}\nVersion: {version}\n"
-                                 "License: Apache-2.0\nRequires-Dist: numpy\n").encode()
+                                 "License: Apache-2.0\nRequires-Dist: numpy\nProvides-Extra: laboratory\n"
+                                 "Requires-Dist: matplotlib; extra == \"laboratory\"\n"
+                                 "Requires-Dist: jinja2; extra == \"laboratory\"\n").encode()
     files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: relume\nRoot-Is-Purelib: false\n"
                               f"Tag: {tag}-{tag}-{platform}\n").encode()
     record = f"{info}/RECORD"

@@ -17,18 +17,20 @@ void useDevice(const std::string& select) {
     selectedDevice = select;
 }
 
+py::dict dictOf(const vk::DeviceInfo& info) {
+    py::dict entry;
+    entry["index"] = info.index;
+    entry["name"] = info.name;
+    entry["type"] = info.type;
+    entry["driver"] = info.driver;
+    entry["uuid"] = info.uuid;
+    entry["unsuitable"] = info.unsuitable;
+    return entry;
+}
+
 py::list listedDevices() {
     py::list list;
-    for (const vk::DeviceInfo& info : vk::listDevices()) {
-        py::dict entry;
-        entry["index"] = info.index;
-        entry["name"] = info.name;
-        entry["type"] = info.type;
-        entry["driver"] = info.driver;
-        entry["uuid"] = info.uuid;
-        entry["unsuitable"] = info.unsuitable;
-        list.append(entry);
-    }
+    for (const vk::DeviceInfo& info : vk::listDevices()) list.append(dictOf(info));
     return list;
 }
 
@@ -88,12 +90,14 @@ PYBIND11_MODULE(_relume, module) {
     });
     setLog(logToPython);
     module.def("devices", listedDevices);
+    module.def("device", [] { return dictOf(device()->info()); });
     module.def("use_device", useDevice, py::arg("select"));
     addScene(module);
     addLight(module);
     addBake(module);
     addRenderer(module);
     addStudies(module);
+    addBrdfs(module);
     // Before the interpreter goes: the driver's threads and Python's log end in order.
     py::module_::import("atexit").attr("register")(py::cpp_function([] {
         openDevice.reset();

@@ -42,5 +42,6 @@ void addLight(py::module_& module);
 void addRenderer(py::module_& module);
 void addBake(py::module_& module);
 void addStudies(py::module_& module);
+void addBrdfs(py::module_& module);
 
 } // namespace relume::python

@@ -37,6 +37,11 @@ class Renderer {
         if (threshold || coefficients) mSelection = {threshold, coefficients.value_or(kDefaultLightCount)};
     }
 
+    void setTerms(int terms) {
+        if (terms < 0) throw py::value_error("terms: expected a number of terms, or 0 for all");
+        mView.setTerms(terms);
+    }
+
     Image render(const Light& light, const std::optional<Camera>& camera, bool showsLight) {
         const Camera eye = camera.value_or(defaultCamera(objectBounds(*mAsset), glm::radians(35.0f),
                                                          float(mSize.first) / float(mSize.second)));
@@ -137,6 +142,7 @@ void addRenderer(py::module_& module) {
              py::arg("size"), py::arg("samples"), py::arg("residual"),
              py::call_guard<py::gil_scoped_release>())
         .def("wear", &Renderer::wear)
+        .def("select_terms", &Renderer::setTerms, py::arg("terms"))
         .def("select_light", &Renderer::setSelection, py::arg("threshold") = py::none(),
              py::arg("coefficients") = py::none())
         .def(

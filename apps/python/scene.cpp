@@ -3,6 +3,7 @@
 #include "engine/import/mesh_cleanup.h"
 #include "engine/import/mesh_file.h"
 #include "precompute/brdf/material_list.h"
+#include "precompute/visibility/occluder.h"
 
 namespace relume::python {
 
@@ -28,6 +29,16 @@ Mesh makeMesh(const Array<float>& positions, const Array<uint32_t>& triangles,
     if (colors) expectCount((mesh.colors = elementsOf<vec4>(*colors, "colors")).size(), "colors");
     const py::gil_scoped_release unlocked;
     return cleanUp(std::move(mesh), "mesh");
+}
+
+// As bakes simplify what casts shadows, with normals made anew; other attributes go.
+Mesh simplified(const Mesh& mesh, size_t triangles) {
+    if (triangles == 0) throw py::value_error("triangles: expected 1 or more");
+    Scene scene;
+    scene.parts.emplace_back().mesh = mesh;
+    Mesh few = makeOccluder(scene, triangles).mesh;
+    makeNormals(few);
+    return few;
 }
 
 py::array_t<uint32_t> trianglesOf(const Mesh& mesh) {
@@ -85,6 +96,7 @@ void addScene(py::module_& module) {
         .def_static(
             "load", [](const std::filesystem::path& path) { return readMesh(path); }, py::arg("path"),
             py::call_guard<py::gil_scoped_release>())
+        .def("simplified", simplified, py::arg("triangles"), py::call_guard<py::gil_scoped_release>())
         .def_property_readonly(
             "positions",
             [](const Mesh& mesh) { return arrayOf(mesh.positions, {py::ssize_t(mesh.positions.size())}); })

@@ -1,14 +1,11 @@
-// References, errors, advice, materials and factored BRDFs.
+// References, errors and advice.
 #include "apps/python/module.h"
-#include "engine/math/disk_map.h"
-#include "precompute/brdf/brdf.h"
-#include "precompute/brdf/factorization.h"
-#include "precompute/brdf/factorization_error.h"
-#include "precompute/brdf/material_json.h"
 #include "precompute/error/advice.h"
+#include "precompute/error/heat_maps.h"
 #include "precompute/error/study_json.h"
 #include "precompute/reference/reference_image.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace relume::python {
@@ -20,48 +17,128 @@ Camera cameraOr(const std::optional<Camera>& camera, const Asset& asset, std::pa
         defaultCamera(objectBounds(asset), glm::radians(35.0f), float(size.first) / float(size.second)));
 }
 
+// The asset with the first terms of its BRDFs, for references: its transport is that of all.
+Asset withTerms(Asset asset, int terms) {
+    for (AssetPart& part : asset.parts)
+        for (MaterialSet& set : part.sets) {
+            FactoredBrdf& brdf = set.brdf;
+            FactoredBrdf few = brdf;
+            few.terms = std::min(terms, brdf.terms);
+            const size_t texels = size_t(few.terms) * brdf.mapTexels();
+            few.lightMaps.resize(texels);
+            few.eigenvalues.resize(size_t(few.terms));
+            few.viewMaps.clear();
+            for (int layer = 0; layer < brdf.layers; layer++)
+                few.viewMaps.insert(few.viewMaps.end(), brdf.viewMap(layer, 0),
+                                    brdf.viewMap(layer, 0) + texels);
+            brdf = std::move(few);
+        }
+    return asset;
+}
+
 py::array_t<float> reference(const std::shared_ptr<const Asset>& asset, const Light& light,
                              const std::optional<Camera>& camera, std::pair<int, int> size, int samples,
-                             const std::string& brdf, const py::object& progress) {
+                             const std::string& brdf, int rays, int terms, const py::object& progress) {
     ReferenceOptions options;
     options.width = size.first;
     options.height = size.second;
     options.samples = samples;
+    options.raysPerTexelSide = int(std::lround(std::sqrt(rays)));
+    if (rays < 1 || rays > 64 || options.raysPerTexelSide * options.raysPerTexelSide != rays)
+        throw UsageError("rays: expected 1, 4, 16 or 64 through each texel of the light");
     if (brdf == "factored")
         options.brdf = ReferenceBrdf::Factored;
     else if (brdf == "residual")
         options.brdf = ReferenceBrdf::Residual;
     else if (brdf != "exact")
         throw UsageError("brdf: expected exact, factored or residual");
+    if (terms < 0 || (terms > 0 && options.brdf != ReferenceBrdf::Factored))
+        throw UsageError("terms: expected a number of terms, with brdf=\"factored\" alone");
     Image image;
     runLong(progress, [&](const std::function<void(double)>& tell) {
-        image = renderReference(*asset, cameraOr(camera, *asset, size), sampleLight(light, asset->faceSize),
-                                options, [&](int rows) { tell(double(rows) / double(size.second)); });
+        const Asset few = terms > 0 ? withTerms(*asset, terms) : Asset();
+        image = renderReference(terms > 0 ? few : *asset, cameraOr(camera, *asset, size),
+                                sampleLight(light, asset->faceSize), options,
+                                [&](int rows) { tell(double(rows) / double(size.second)); });
     });
     return arrayOf(std::move(image));
 }
 
-// The light is taken as finely as its maps are known.
-StudiedLight studied(const Light& light) {
-    return {light, sampleLight(light, kTruthFaceSize), LightSelection()};
+// The light in a cube of `faceSize` texels a side, of its maps as finely as that can hold them.
+LightCube fineLight(Light light, int faceSize) {
+    for (EnvironmentLight& environment : light.environments)
+        if (environment.picture)
+            environment.map =
+                std::make_shared<const Environment>(prepareForSampling(*environment.picture, 8 * faceSize));
+    return sampleLight(light, faceSize);
 }
 
-py::object errors(const std::shared_ptr<const Asset>& asset, const Light& light,
-                  const std::optional<Camera>& camera, std::pair<int, int> size, bool residual,
-                  const py::object& progress) {
+// A reference that gets better; keeps the asset that it refers to.
+class SampledReference {
+  public:
+    SampledReference(std::shared_ptr<const Asset> asset, const Light& light,
+                     const std::optional<Camera>& camera, std::pair<int, int> size, int samples, int faceSize)
+        : mAsset(std::move(asset)), mReference(*mAsset) {
+        if (size.first < 1 || size.second < 1) throw UsageError("size: expected a pixel or more");
+        if (faceSize < 1 || faceSize > 1024) throw UsageError("face_size: expected 1 to 1024");
+        mReference.restart(cameraOr(camera, *mAsset, size), fineLight(light, faceSize),
+                           defaultAppearance(*mAsset), size.first, size.second, samples);
+    }
+
+    void addPasses(int count, const py::object& progress) {
+        runLong(progress, [&](const std::function<void(double)>& tell) {
+            for (int i = 1; i <= count; i++) {
+                mReference.addPass();
+                tell(double(i) / double(count));
+            }
+        });
+    }
+    int passes() const { return mReference.passes(); }
+    py::array_t<float> mean() const { return arrayOf(mReference.mean()); }
+    std::pair<py::array_t<float>, py::array_t<float>> halves() const {
+        if (passes() < 2) throw py::value_error("halves: add two passes first");
+        auto [even, odd] = mReference.halves();
+        return {arrayOf(std::move(even)), arrayOf(std::move(odd))};
+    }
+
+  private:
+    std::shared_ptr<const Asset> mAsset;
+    ProgressiveReference mReference;
+};
+
+StudiedLight studied(const Light& light) { return {light, fineLight(light, kTruthFaceSize), {}}; }
+
+py::dict imagesOf(const ErrorStudy& study, const ViewPoints& points) {
+    py::dict images;
+    images["drawn"] = arrayOf(study.drawn);
+    images["reference"] = arrayOf(study.reference);
+    images["harmonics"] = arrayOf(study.lowOrder->image);
+    for (HeatMap& heat : heatMaps(study, points, 1)) images[heat.name.c_str()] = arrayOf(std::move(heat.map));
+    return images;
+}
+
+py::list errors(const std::shared_ptr<const Asset>& asset, const std::vector<Light>& lights,
+                const std::optional<Camera>& camera, std::pair<int, int> size, bool residual, int passes,
+                bool withImages, const py::object& progress) {
     const std::shared_ptr<const vk::Device> on = device();
-    std::string text;
+    ErrorStudies studies;
     runLong(progress, [&](const std::function<void(double)>& tell) {
-        const StudiedLight one = studied(light);
-        const ErrorStudies studies =
-            studyErrors(*on, *asset, defaultAppearance(*asset), std::span(&one, 1),
-                        {.view = {cameraOr(camera, *asset, size), size.first, size.second},
-                         .lowOrder = 5, // as `relume errors`: 25 harmonics
-                         .residual = residual},
-                        tell);
-        text = describe(studies.lights.front()).dump();
+        std::vector<StudiedLight> all;
+        for (const Light& light : lights) all.push_back(studied(light));
+        studies = studyErrors(*on, *asset, defaultAppearance(*asset), all,
+                              {.view = {cameraOr(camera, *asset, size), size.first, size.second},
+                               .mostPasses = passes,
+                               .lowOrder = 5, // as `relume errors`: 25 harmonics
+                               .residual = residual},
+                              tell);
     });
-    return parsed(text);
+    py::list results;
+    for (const ErrorStudy& study : studies.lights) {
+        const py::object result = parsed(describe(study, studies.points, *asset).dump());
+        if (withImages) result["images"] = imagesOf(study, studies.points);
+        results.append(result);
+    }
+    return results;
 }
 
 py::object advice(const SceneBuilder& scene, const Light& light, double error, size_t points, bool asIs,
@@ -78,37 +155,20 @@ py::object advice(const SceneBuilder& scene, const Light& light, double error, s
     return parsed(text);
 }
 
-py::dict factored(const std::string& material, int terms, const std::string& factorization, int mapSize) {
-    const std::optional<Factorization> method = factorizationFromName(factorization);
-    if (!method) throw UsageError("factorization: \"" + factorization + "\" is unknown");
-    FactoredBrdf brdf;
-    std::vector<float> frobenius, expected;
-    {
-        const py::gil_scoped_release unlocked;
-        const DiskMapping mapping = isPublished(*method) ? DiskMapping::Orthographic : DiskMapping::EqualArea;
-        const BrdfTable table = tabulate(*makeBrdf(material), mapSize, mapping, texelValueOf(*method));
-        brdf = factorize(table, {.terms = terms, .method = *method});
-        frobenius = frobeniusResiduals(table, brdf);
-        expected = expectedErrors(table, brdf);
-    }
-    const py::ssize_t side = brdf.size, count = brdf.terms;
-    py::dict result;
-    result["light_maps"] = arrayOf(std::move(brdf.lightMaps), {count, side, side});
-    result["view_maps"] = arrayOf(std::move(brdf.viewMaps), {count, side, side});
-    result["mapping"] = std::string(diskMappingName(brdf.mapping));
-    result["frobenius"] = frobenius;
-    result["expected"] = expected;
-    return result;
-}
-
 } // namespace
 
 void addStudies(py::module_& module) {
+    py::class_<SampledReference>(module, "SampledReference")
+        .def(py::init<std::shared_ptr<const Asset>, const Light&, const std::optional<Camera>&,
+                      std::pair<int, int>, int, int>(),
+             py::call_guard<py::gil_scoped_release>())
+        .def("add_passes", &SampledReference::addPasses)
+        .def_property_readonly("passes", &SampledReference::passes)
+        .def("mean", &SampledReference::mean)
+        .def("halves", &SampledReference::halves);
     module.def("_reference", reference);
     module.def("_errors", errors);
     module.def("_advise", advice);
-    module.def("_brdf", factored);
-    module.def("materials", [] { return parsed(describeMaterials().dump()); });
 }
 
 } // namespace relume::python

@@ -1,9 +1,8 @@
-#include "apps/plot/map_sheet.h"
 #include "apps/relume/brdf_report.h"
 #include "apps/relume/command_files.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/factorization_arguments.h"
-#include "apps/relume/lobe_plot.h"
+#include "apps/relume/map_sheet.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/import/environment_file.h"
@@ -24,34 +23,22 @@ struct Arguments {
     int size = 48;
     FactorizationArguments factorization;
     std::vector<std::string> environments;
-    std::filesystem::path maps, plot, slice;
+    std::filesystem::path maps;
     bool json = false;
 };
 
-void checkOutput(const char* option, const std::filesystem::path& path, const char* extension) {
-    if (path.empty()) return;
-    if (path.extension() != extension)
-        throw UsageError(
-            fmt::format("{}: expected a name ending in {}, found \"{}\"", option, extension, path.string()));
-    expectWritable(path);
-}
-
-// To what fits above a plot; UTF-8 stays whole.
-std::string shortened(const std::string& text) {
-    constexpr size_t kMost = 50;
-    if (text.size() <= kMost) return text;
-    size_t end = kMost;
-    while (end > 0 && (text[end] & 0xc0) == 0x80) end--;
-    return text.substr(0, end) + "…";
+void checkOutput(const std::filesystem::path& maps) {
+    if (maps.empty()) return;
+    if (maps.extension() != ".png")
+        throw UsageError(fmt::format("--maps: expected a name ending in .png, found \"{}\"", maps.string()));
+    expectWritable(maps);
 }
 
 constexpr FactorizationOptions kStudied{.terms = 16};
 
 void run(Arguments& arguments) {
     arguments.factorization.resolve(kStudied);
-    checkOutput("--maps", arguments.maps, ".png");
-    checkOutput("--plot", arguments.plot, ".svg");
-    checkOutput("--slice", arguments.slice, ".svg");
+    checkOutput(arguments.maps);
     CommandFiles files;
     const std::unique_ptr<Brdf> brdf = makeBrdf(arguments.material);
     std::vector<NamedLight> lights;
@@ -59,8 +46,6 @@ void run(Arguments& arguments) {
         lights.push_back({file, sampleEnvironment(prepareForSampling(readEnvironment(file)), kLightSize, 0)});
 
     files.addOutput("--maps", arguments.maps);
-    files.addOutput("--plot", arguments.plot);
-    files.addOutput("--slice", arguments.slice);
     files.check();
 
     const FactorizationArguments& how = arguments.factorization;
@@ -70,12 +55,7 @@ void run(Arguments& arguments) {
     else
         fmt::print("{}", tableOf(report));
 
-    const std::string title =
-        fmt::format("{}, factorization {}", shortened(arguments.material), factorizationName(report.method));
     if (!arguments.maps.empty()) writePng(arguments.maps, drawMapSheet(report.factored));
-    if (!arguments.plot.empty()) writeFileAtomically(arguments.plot, plotOf(report, title));
-    if (!arguments.slice.empty())
-        writeFileAtomically(arguments.slice, drawLobes(*brdf, report.factored, title));
     spdlog::info("{} directions tabulated in {:.2f} s, {} terms factored in {:.2f} s", report.directions,
                  report.tabulationSeconds, report.factored.terms, report.factorizationSeconds);
 }
@@ -104,12 +84,6 @@ void addBrdfCommand(CLI::App& program) {
         ->add_option("--maps", arguments->maps,
                      "Write the first 8 light maps: each over its largest magnitude, magenta where negative")
         ->type_name("PNG");
-    command->add_option("--plot", arguments->plot, "Write the errors over the number of terms")
-        ->type_name("SVG");
-    command
-        ->add_option("--slice", arguments->slice,
-                     "Write lobes in the plane of incidence: the BRDF solid, its terms dashed")
-        ->type_name("SVG");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer("Errors are relative, after each term: Frobenius over the table, RMS of f cos cos over "
                     "80,000 pairs\nof directions (first absolute), reflected radiance as expected under "

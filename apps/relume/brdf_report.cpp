@@ -1,6 +1,5 @@
 #include "apps/relume/brdf_report.h"
 
-#include "apps/plot/line_plot.h"
 #include "precompute/brdf/factorization_error.h"
 
 #include <algorithm>
@@ -102,22 +101,6 @@ std::string tableOf(const BrdfReport& report) {
         table += "\n";
     }
     return table;
-}
-
-std::string plotOf(const BrdfReport& report, const std::string& title) {
-    PlotPanel panel;
-    const auto add = [&](const std::string& name, const std::vector<float>& values, bool dashed) {
-        PlotCurve& curve = panel.curves.emplace_back(name, panel.curves.size(), dashed);
-        for (size_t k = 0; k < values.size(); k++) curve.points.emplace_back(double(k + 1), values[k]);
-    };
-    add("RMS of f cos cos", report.relative.values, true);
-    add("Frobenius residual", report.frobenius.values, true);
-    add("radiance, expected", report.expected.values, true);
-    for (const BrdfReport::Curve& light : report.radiance) add(stemOf(light.name), light.values, false);
-    LinePlot plot{title, "terms K", "relative error", {}, true, 1, {panel}};
-    const int step = report.factored.terms > 16 ? 4 : report.factored.terms > 8 ? 2 : 1;
-    for (int tick = 0; tick < report.factored.terms + step; tick += step) plot.xTicks.push_back(tick);
-    return drawLinePlot(plot);
 }
 
 } // namespace relume

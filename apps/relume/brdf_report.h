@@ -37,7 +37,5 @@ BrdfReport reportOn(const Brdf& brdf, int size, DiskMapping mapping, const Facto
 nlohmann::ordered_json describeReport(const BrdfReport& report);
 // A table of some term counts, for people.
 std::string tableOf(const BrdfReport& report);
-// Relative errors over the number of terms, as SVG.
-std::string plotOf(const BrdfReport& report, const std::string& title);
 
 } // namespace relume

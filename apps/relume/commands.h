@@ -21,7 +21,6 @@ void addInfoCommand(CLI::App& program);
 void addAdviseCommand(CLI::App& program);
 void addMaterialsCommand(CLI::App& program);
 void addBrdfCommand(CLI::App& program);
-void addEvaluateCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addBenchCommand(CLI::App& program);
 void addBenchBakeCommand(CLI::App& bench);

@@ -93,7 +93,7 @@ void run(const Arguments& arguments) {
     const ErrorStudy& study = studies.lights.front();
     if (!arguments.images.empty()) writeImages(arguments.images, study, studies.points);
     if (arguments.json)
-        fmt::print("{}\n", describe(study).dump(2));
+        fmt::print("{}\n", describe(study, studies.points, asset).dump(2));
     else
         print(study);
     DeviceArguments::expectNoMessages(*device);

@@ -1,11 +1,12 @@
 #include "apps/relume/commands.h"
 #include "engine/base/error.h"
 #include "engine/import/asset_info.h"
-#include "engine/transport/asset.h"
+#include "engine/transport/asset_arrays.h"
 #include "engine/transport/kept_visibility.h"
 #include "precompute/bake/bake_preset.h"
 #include "precompute/bake/baked_options.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -40,6 +41,14 @@ static nlohmann::json describePreset(const Asset& asset) {
     return nullptr;
 }
 
+// Returns the bytes that transport takes in the file, compressed.
+static uint64_t storedTransport(const ChunkFile& file) {
+    uint64_t bytes = 0;
+    for (const ChunkEntry& entry : file.entries())
+        if (std::ranges::find(kLayoutTags, entry.tag) != std::end(kLayoutTags)) bytes += entry.storedSize;
+    return bytes;
+}
+
 void addInfoCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "Say what a bake holds and how it was made");
     struct Arguments {
@@ -51,9 +60,10 @@ void addInfoCommand(CLI::App& program) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] {
         const Asset asset = readAsset(arguments->file);
-        const std::string text = describeAssetJson(asset, std::filesystem::file_size(arguments->file),
-                                                   KeptVisibility(arguments->file).storedBytes());
-        auto info = nlohmann::ordered_json::parse(text);
+        const KeptVisibility kept(arguments->file);
+        auto info = nlohmann::ordered_json::parse(
+            describeAssetJson(asset, std::filesystem::file_size(arguments->file), kept.storedBytes()));
+        info["total"]["stored_transport_bytes"] = storedTransport(kept.file());
         info["preset"] = describePreset(asset);
         if (arguments->json)
             fmt::print("{}\n", info.dump(2));

@@ -28,7 +28,6 @@ int main(int argc, char** argv) {
     addInfoCommand(program);
     addMaterialsCommand(program);
     addBrdfCommand(program);
-    addEvaluateCommand(program);
     addDevicesCommand(program);
     addBenchCommand(program);
     return runProgram(program, argc, argv, [] {});

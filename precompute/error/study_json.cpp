@@ -5,13 +5,35 @@
 
 namespace relume {
 
-nlohmann::ordered_json describe(const ErrorStudy& study) {
+static nlohmann::ordered_json describeSources(const ErrorBudget& budget) {
     nlohmann::ordered_json sources;
     for (size_t i = 0; i < kErrorSources; i++)
-        sources[std::string(errorSourceName(ErrorSource(i)))] = {{"rms", study.budget.sources[i].rms},
-                                                                 {"share", study.budget.sources[i].share}};
+        sources[std::string(errorSourceName(ErrorSource(i)))] = {{"title", errorSourceTitle(ErrorSource(i))},
+                                                                 {"rms", budget.sources[i].rms},
+                                                                 {"share", budget.sources[i].share}};
+    return sources;
+}
+
+// A part's errors are relative to what is true of its own points.
+static nlohmann::ordered_json describeParts(const ErrorStudy& study, const ViewPoints& points,
+                                            const Asset& asset) {
+    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    for (size_t part = 0; part < asset.parts.size(); part++) {
+        std::vector<StageRadiance> own;
+        for (size_t i = 0; i < points.hits.size(); i++)
+            if (points.hits[i].mesh == part) own.push_back(study.stages[i]);
+        if (own.empty()) continue;
+        parts.push_back({{"name", asset.parts[part].name},
+                         {"points", own.size()},
+                         {"sources", describeSources(errorBudget(own))}});
+    }
+    return parts;
+}
+
+nlohmann::ordered_json describe(const ErrorStudy& study, const ViewPoints& points, const Asset& asset) {
     nlohmann::ordered_json json = {{"points", study.stages.size()},
-                                   {"sources", sources},
+                                   {"sources", describeSources(study.budget)},
+                                   {"parts", describeParts(study, points, asset)},
                                    {"total", study.budget.total},
                                    {"total_standard_error", study.budget.uncertainty},
                                    {"root_sum_of_squares", study.budget.rootSumSquares},

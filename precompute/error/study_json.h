@@ -8,9 +8,9 @@
 
 namespace relume {
 
-// All of the study's numbers: relative root mean squares, and shares of the squared total. The harmonics'
-// where the study has any.
-nlohmann::ordered_json describe(const ErrorStudy& study);
+// All of the study's numbers: relative root mean squares, and shares of the squared total, of all points and
+// of those of each part that is seen. The harmonics' where the study has any.
+nlohmann::ordered_json describe(const ErrorStudy& study, const ViewPoints& points, const Asset& asset);
 
 // The options of `relume bake` for an advised bake.
 std::string commandLineOf(const BakeOptions& options);

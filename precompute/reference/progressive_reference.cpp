@@ -93,15 +93,25 @@ bool ProgressiveReference::addPass(std::stop_token stop) {
     return true;
 }
 
-Image ProgressiveReference::mean() const {
+template <typename Value>
+Image ProgressiveReference::imageOf(const Value& valueOf) const {
     Image image(mWidth, mHeight);
-    if (mPasses == 0) return image;
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++)
-        if (const float coverage = coverageOf(pixel); coverage > 0) {
-            const glm::dvec3 mean = (mHalves[0][pixel] + mHalves[1][pixel]) / double(mPasses);
-            image.pixels[pixel] = vec4(glm::max(vec3(mean), vec3(0)), coverage);
-        }
+        if (const float coverage = coverageOf(pixel); coverage > 0)
+            image.pixels[pixel] = vec4(glm::max(vec3(valueOf(pixel)), vec3(0)), coverage);
     return image;
+}
+
+Image ProgressiveReference::mean() const {
+    if (mPasses == 0) return Image(mWidth, mHeight);
+    return imageOf([&](size_t pixel) { return (mHalves[0][pixel] + mHalves[1][pixel]) / double(mPasses); });
+}
+
+std::array<Image, 2> ProgressiveReference::halves() const {
+    RELUME_CHECK(mPasses >= 2);
+    const double even = (mPasses + 1) / 2, odd = mPasses / 2;
+    return {imageOf([&](size_t pixel) { return mHalves[0][pixel] / even; }),
+            imageOf([&](size_t pixel) { return mHalves[1][pixel] / odd; })};
 }
 
 std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) const {

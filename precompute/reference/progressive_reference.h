@@ -55,6 +55,9 @@ class ProgressiveReference {
     // before the first pass. Factors can be negative, the mean is not.
     Image mean() const;
 
+    // The means of the even and of the odd passes, likewise: their noise is independent. After two passes.
+    std::array<Image, 2> halves() const;
+
     // Of an image of this size; its alpha does not count. None before the second pass, or if nothing is seen.
     std::optional<ReferenceError> errorOf(const Image& image) const;
 
@@ -67,6 +70,9 @@ class ProgressiveReference {
         return std::span(mSurfaces).subspan(pixel * mSamples, mSamples);
     }
     float coverageOf(size_t pixel) const;
+    // Radiance of every covered pixel, held at 0.
+    template <typename Value>
+    Image imageOf(const Value& valueOf) const;
 
     const Asset& mAsset;
     ReferenceBrdf mKind;

@@ -72,8 +72,7 @@ TEST_CASE("cli: no command writes over what it reads, or twice to a file") {
              "reference a.relume -e images/drawn.exr -o images/drawn.exr",
              "verify a.relume -e images/drawn.exr --visibility-image map.png",
              "errors a.relume -e images/drawn.exr --images here/images",
-             "brdf material.json --maps material.png",
-             "brdf material.json --plot new.svg --slice here/new.svg"}) {
+             "brdf material.json --maps material.png"}) {
         CAPTURE(arguments);
         const Outcome outcome = folder.run(arguments);
         CHECK_EQ(outcome.exitCode, 2);

@@ -127,6 +127,99 @@ class ModuleTest(unittest.TestCase):
         self.assertAlmostEqual(ours["relative_rmse"], theirs["relative_rmse"], places=9)
         self.assertAlmostEqual(ours["flip"], theirs["flip"], places=9)
 
+    def test_references_take_rays_terms_and_plans(self):
+        factored = [relume.reference(self.asset, self.light, size=(40, 30), samples=1, rays=1, brdf="factored",
+                                     terms=terms) for terms in (1, 2, None)]
+        run("reference", self.path, "--size", "40x30", "--samples", 1, "--rays", 1, "--brdf", "factored", "-o",
+            self.file("factored.exr"))
+        np.testing.assert_array_equal(factored[2], relume.load_image(self.file("factored.exr")))
+        np.testing.assert_array_equal(factored[1], factored[2])
+        self.assertGreater(np.abs(factored[0] - factored[1]).max(), 0)
+        # A plan has all that references need.
+        scene = relume.Scene().add("sphere", material="gold")
+        scene.add_ground(tessellation=10)
+        np.testing.assert_array_equal(
+            relume.reference(relume.plan(scene, **OPTIONS), self.light, size=(40, 30), samples=1, rays=1,
+                             brdf="factored"), factored[2])
+        for wrong in (dict(rays=3), dict(terms=1)):
+            with self.assertRaises(relume.UsageError):
+                relume.reference(self.asset, self.light, size=(8, 6), **wrong)
+
+    def test_drawn_terms_are_those_of_the_command_line(self):
+        renderer = relume.Renderer(self.asset, SIZE)
+        renderer.select_terms(1)
+        few = renderer.render(self.light)
+        run("render", self.path, "--size", "160x120", "--terms", 1, "-o", self.file("terms.exr"))
+        np.testing.assert_array_equal(few, relume.load_image(self.file("terms.exr")))
+        renderer.select_terms()
+        self.assertGreater(np.abs(renderer.render(self.light) - few).max(), 0)
+
+    def test_sampled_references_converge(self):
+        size = (40, 30)
+        reference = relume.SampledReference(self.asset, self.light, size=size, face_size=64)
+        with self.assertRaises(ValueError):
+            reference.halves()
+        shares = []
+        for count in (16, 240):
+            reference.add_passes(count, progress=shares.append)
+            even, odd = reference.halves()
+            np.testing.assert_allclose((even + odd) / 2, reference.mean(), rtol=1e-4, atol=1e-6)
+            exact = relume.reference(self.asset, self.light, size=size, samples=1)
+            errors = [relume.compare(image, exact)["relative_rmse"] for image in (even, odd, reference.mean())]
+            # Noise that is independent: the mean's is smaller than the halves', by the root of two.
+            self.assertLess(errors[2], 0.9 * min(errors[:2]))
+        self.assertEqual(reference.passes, 256)
+        self.assertEqual(shares[-1], 1)
+        self.assertLess(errors[2], 0.05)
+
+    def test_coefficients_are_those_that_light_is_weighed_by(self):
+        """Light that is even all around has one coefficient a face, the first: its radiance times 64."""
+        rows = self.asset.coefficients(0, [0, 1, 10, 11])  # of vertices 0 and 5, of 2 terms each
+        self.assertEqual(rows.shape, (4, 6 * 64 * 64, 3))
+        even = relume.Light.environment(np.ones((32, 64, 3), np.float32))
+        tuples = relume.Renderer(self.asset, SIZE).relight(even)[0]
+        np.testing.assert_allclose(64 * rows[:, ::64 * 64].sum(axis=1), tuples[[0, 5]].reshape(4, 3), rtol=1e-3,
+                                   atol=1e-4)
+        with self.assertRaises(IndexError):
+            self.asset.coefficients(0, [2 * len(self.asset.mesh(0).positions)])
+
+    def test_meshes_are_simplified(self):
+        mesh = self.asset.mesh(0)
+        few = mesh.simplified(200)
+        self.assertLessEqual(len(few.triangles), 200)
+        self.assertGreater(len(few.triangles), 100)
+        np.testing.assert_allclose(np.linalg.norm(few.normals, axis=1), 1, rtol=1e-5)
+        np.testing.assert_allclose(np.linalg.norm(few.positions, axis=1).mean(),
+                                   np.linalg.norm(mesh.positions, axis=1).mean(), rtol=0.1)
+
+    def test_factors_are_measured(self):
+        light = relume.Light.environment(np.random.default_rng(1).random((32, 64, 3), dtype=np.float32))
+        pixels = np.random.default_rng(1).random((32, 64, 3), dtype=np.float32)
+        relume.Image(np.dstack([pixels, np.ones((32, 64), np.float32)])).save(self.file("factors.exr"))
+        report = run_json("brdf", "clay", "-K", 3, "--size", 12, "--factorization", "cosine", "-e",
+                          self.file("factors.exr"))
+        factors = relume.brdf("clay", 3, "cosine", 12)
+        np.testing.assert_allclose(factors["rms_absolute"], report["rms_absolute"], rtol=1e-4)
+        np.testing.assert_allclose(factors["rms_relative"], report["rms_relative"], rtol=1e-4)
+        errors, = relume.radiance_errors("clay", [factors], [light])
+        np.testing.assert_allclose(errors[0], report["radiance_error"][self.file("factors.exr")], rtol=1e-4)
+        # Members of a set share their light maps, and none is nearer than alone.
+        clay, gold = relume.brdf(["clay", "gold"], 3, "cosine", 12)
+        np.testing.assert_array_equal(clay["light_maps"], gold["light_maps"])
+        together, = relume.radiance_errors("clay", [clay, factors], [light], 5)
+        self.assertGreater(together[0][-1], together[1][-1])
+        # Terms stand for the BRDF.
+        directions = np.array([[0, 0, 1], [0.6, 0, 0.8], [-0.6, 0, 0.8]], np.float32)
+        exact = relume.brdf_values("clay", directions, directions[::-1])
+        self.assertEqual(exact.shape, (3, 3))
+        np.testing.assert_allclose(relume.brdf_values(relume.brdf("clay", 16, "cosine", 24), directions,
+                                                      directions[::-1]), exact, rtol=0.2)
+        for wrong in (dict(texels="corners"), dict(mapping="square"), dict(terms=0), dict(factorization="qr")):
+            with self.assertRaises(relume.UsageError):
+                relume.brdf("clay", **wrong)
+        with self.assertRaises(ValueError):
+            relume.brdf_values({"light_maps": directions}, directions, directions)
+
     def test_info_materials_and_brdf(self):
         info = self.asset.info()
         self.assertEqual(info["parts"][0]["vertices"], run_json("info", self.path)["parts"][0]["vertices"])
@@ -136,6 +229,7 @@ class ModuleTest(unittest.TestCase):
         report = run_json("brdf", "gold", "-K", "4", "--factorization", "environment")
         np.testing.assert_allclose(factors["expected"], report["expected_radiance_error"], rtol=1e-4)
         self.assertEqual(relume.devices()[0]["name"], run_json("devices")[0]["name"])
+        self.assertIn(relume.device(), relume.devices())
 
     def test_errors_are_those_of_the_command_line(self):
         ours = relume.errors(self.asset, relume.Light.lamp(40, 50, 20, [1, 1, 1]), size=(24, 18))
@@ -144,6 +238,14 @@ class ModuleTest(unittest.TestCase):
             json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
         theirs = run_json("errors", self.path, "--light", light, "--size", "24x18")
         self.assertEqual(ours, theirs)
+        self.assertEqual([part["name"] for part in ours["parts"]], self.asset.parts)
+        self.assertEqual(sum(part["points"] for part in ours["parts"]), ours["points"])
+        both = relume.errors(self.asset, [relume.Light.lamp(40, 50, 20, [1, 1, 1]), self.light], size=(24, 18),
+                             passes=0, images=True)
+        self.assertEqual(both[0]["sources"], ours["sources"])
+        self.assertEqual(both[1]["measured"], 0)
+        self.assertEqual(both[1]["images"]["interpolation"].shape, (18, 24, 4))
+        self.assertEqual(len(both[1]["images"]), 4 + len(ours["sources"]))
 
     def test_advice_is_that_of_the_command_line(self):
         ours = relume.advise(relume.Scene().add("sphere", material="clay"), relume.Light.lamp(40, 50, 20, [1, 1, 1]),

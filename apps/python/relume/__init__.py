@@ -20,12 +20,12 @@ import tempfile
 import numpy as np
 
 from . import _relume
-from ._relume import (Asset, Camera, Error, Light, Mesh, NoDeviceError, Scene, UsageError, devices, materials,
-                      use_device)
+from ._relume import (Asset, Camera, Error, Light, Mesh, NoDeviceError, Scene, UsageError, brdf_values, device,
+                      devices, materials, use_device)
 
 __all__ = ["Asset", "Camera", "Error", "Image", "Light", "Mesh", "NoDeviceError", "Renderer", "Scene", "UsageError",
-           "advise", "bake", "brdf", "compare", "devices", "errors", "load_image", "materials", "reference",
-           "use_device"]
+           "SampledReference", "advise", "bake", "brdf", "brdf_values", "compare", "device", "devices", "errors",
+           "load_image", "materials", "plan", "radiance_errors", "reference", "use_device"]
 
 
 class Image(np.ndarray):
@@ -111,6 +111,16 @@ def bake(scene, output=None, *, progress=None, **options):
     return _relume._bake(scene, None if output is None else os.fspath(output), progress, **options)
 
 
+def plan(scene, **options):
+    """The Asset that bake() would make, before its first vertex: meshes and factored materials without transport.
+
+    That is all that reference() and SampledReference need.
+    """
+    if not isinstance(scene, Scene):
+        scene = Scene().add(scene)
+    return _relume._plan(scene, **options)
+
+
 class Renderer:
     """Draws an asset into images of a size (width, height)."""
 
@@ -125,6 +135,10 @@ class Renderer:
         """Which of the light's coefficients are kept: those above a threshold, or so many. Neither: the default."""
         self._renderer.select_light(threshold, coefficients)
 
+    def select_terms(self, terms=None):
+        """Sums the first of the K terms only. None: all."""
+        self._renderer.select_terms(terms or 0)
+
     def render(self, light, camera=None, background=False):
         """An Image under a Light. camera None: the default view. background: the light behind the object."""
         return Image(self._renderer.render(light, camera, background))
@@ -134,14 +148,50 @@ class Renderer:
         return self._renderer.relight(light)
 
 
-def reference(asset, light, camera=None, size=(960, 720), samples=4, brdf="exact", progress=None):
-    """The image that render() should give, ray-traced. brdf: exact, factored (the K terms) or residual."""
-    return Image(_relume._reference(asset, light, camera, tuple(size), samples, brdf, progress))
+def reference(asset, light, camera=None, size=(960, 720), samples=4, brdf="exact", rays=4, terms=None, progress=None):
+    """The image that render() should give, ray-traced.
+
+    brdf: exact, factored (the K terms, or the first of them: terms) or residual. rays: through each texel of the
+    light, 1, 4, 16 or 64.
+    """
+    return Image(_relume._reference(asset, light, camera, tuple(size), samples, brdf, rays, terms or 0, progress))
 
 
-def errors(asset, light, camera=None, size=(120, 90), residual=True, progress=None):
-    """An image's error taken apart, as `relume errors --json` does. Minutes for larger images."""
-    return _relume._errors(asset, light, camera, tuple(size), residual, progress)
+class SampledReference:
+    """The exact image by random rays, which gets better with every pass: the light in 6 x face_size^2 texels."""
+
+    def __init__(self, asset, light, camera=None, size=(960, 720), samples=1, face_size=256):
+        self._reference = _relume.SampledReference(asset, light, camera, tuple(size), samples, face_size)
+
+    def add_passes(self, count, progress=None):
+        """Sends `count` more rays through every pixel."""
+        self._reference.add_passes(count, progress)
+
+    @property
+    def passes(self):
+        """Rays of a pixel so far."""
+        return self._reference.passes
+
+    def mean(self):
+        """The Image so far."""
+        return Image(self._reference.mean())
+
+    def halves(self):
+        """Two Images, of the even and of the odd passes, with noise that is independent; after two passes."""
+        even, odd = self._reference.halves()
+        return Image(even), Image(odd)
+
+
+def errors(asset, light, camera=None, size=(120, 90), residual=True, passes=512, images=False, progress=None):
+    """An image's error taken apart, as `relume errors --json` does. Minutes for larger images.
+
+    light: a Light; or a list of them that share all rays, and then there is a result of each. passes: at most so many
+    of the reference that the image is held against, 0 for none. images: adds "images" by name, (height, width, 4):
+    drawn, reference and harmonics, linear; total and each source as heat, display values.
+    """
+    lights = [light] if isinstance(light, Light) else list(light)
+    results = _relume._errors(asset, lights, camera, tuple(size), residual, passes, images, progress)
+    return results[0] if isinstance(light, Light) else results
 
 
 def advise(scene, light, error, points=600, as_is=False, progress=None):
@@ -151,7 +201,23 @@ def advise(scene, light, error, points=600, as_is=False, progress=None):
     return _relume._advise(scene, light, error, points, as_is, progress)
 
 
-def brdf(material, terms=8, factorization="environment", map_size=48):
-    """A material's factors: light_maps and view_maps (K, S, S, 3), mapping, and after each term the errors frobenius
-    and expected (docs/factorization.md)."""
-    return _relume._brdf(material, terms, factorization, map_size)
+def brdf(material, terms=8, factorization="environment", map_size=48, mapping=None, texels=None):
+    """A material's factors: light_maps and view_maps (K, S, S, 3), mapping, and after each term the errors frobenius,
+    rms_absolute, rms_relative and expected (docs/factorization.md).
+
+    A list of materials shares its light maps, and gives a list. mapping: orthographic, polar-sine or equal-area;
+    texels: centers or means; None: what the factorization takes.
+    """
+    materials = [material] if isinstance(material, str) else list(material)
+    factors = _relume._brdf(materials, terms, factorization, map_size, mapping, texels)
+    return factors[0] if isinstance(material, str) else factors
+
+
+def radiance_errors(material, factors, lights, orientations=60, uniform=False):
+    """The relative RMS error of the radiance that unshadowed points reflect, after each term.
+
+    factors: what brdf() returned, in a list. Returns a list of each light, of each of the factors, of K numbers.
+    orientations: of the surface in the light, 40 views of each, as the pixels of a convex object have them or, with
+    uniform, uniformly over the hemisphere.
+    """
+    return _relume._radiance_errors(material, list(factors), list(lights), orientations, uniform)
