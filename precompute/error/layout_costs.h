@@ -10,7 +10,7 @@
 namespace relume {
 
 // LayoutOptions::error that are tried, falling.
-constexpr std::array<double, 7> kTriedLayoutErrors = {0.4, 0.25, 0.15, 0.1, 0.058, 0.03, 0.015};
+constexpr std::array<double, 7> kTriedLayoutErrors = {0.4, 0.25, 0.15, 0.1, 0.05, 0.03, 0.015};
 
 struct LayoutCosts {
     // By tried error: the radiance that bases give against that of rows of plan.options.coefficients, root

@@ -98,9 +98,9 @@ TEST_CASE("bake: bases unless another layout is asked for, about as small and as
     };
     const Json usual = bake("-N 100");
     CHECK_EQ(usual["layout"], "bases");
-    CHECK_EQ(usual["layout_error"]["wanted_error"], 0.058);
-    CHECK(usual["layout_error"]["error"].get<double>() == doctest::Approx(0.058).epsilon(0.15));
-    CHECK(says(usual["approximations"].dump(), "5.8 % being asked for"));
+    CHECK_EQ(usual["layout_error"]["wanted_error"], 0.05);
+    CHECK(usual["layout_error"]["error"].get<double>() == doctest::Approx(0.05).epsilon(0.15));
+    CHECK(says(usual["approximations"].dump(), "5 % being asked for"));
     CHECK_EQ(usual["provenance"]["options"]["layout"], "bases");
     const Json few = bake("-N 100 --budget 30");
     CHECK_EQ(few["layout_error"]["wanted_bytes_per_vertex"], 30);
