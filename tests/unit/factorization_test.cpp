@@ -216,6 +216,24 @@ TEST_CASE("factorization: a black channel or BRDF is zero everywhere") {
     }
 }
 
+TEST_CASE("factorization: nonnegative terms have gray light maps, and what is nearly gray stays so") {
+    const char* const steel =
+        R"({"model": "ggx", "f0": [0.527, 0.509, 0.491], "roughness_u": 0.5, "roughness_v": 0.2})";
+    for (const std::string& material : {std::string("gold"), std::string(steel)}) {
+        const FactoredBrdf brdf =
+            factorize(tableOf(material, 16, DiskMapping::EqualArea), {6, Factorization::NonNegative});
+        REQUIRE(brdf.terms == 6);
+        for (const vec3& value : brdf.lightMaps) CHECK((value.x == value.y && value.y == value.z));
+    }
+    // Channels that are factored one by one end in different optima.
+    const FactoredBrdf brdf =
+        factorize(tableOf(steel, 16, DiskMapping::EqualArea), {6, Factorization::NonNegative});
+    const auto largest = glm::length(
+        *std::ranges::max_element(brdf.viewMaps, {}, [](vec3 value) { return glm::length(value); }));
+    for (const vec3& value : brdf.viewMaps)
+        CHECK(glm::length(value / vec3(0.527f, 0.509f, 0.491f) * 0.509f - vec3(value.y)) < 0.04f * largest);
+}
+
 TEST_CASE("factorization: term counts out of range are refused") {
     const BrdfTable table = tableOf("clay", 4);
     for (int terms : {-1, 0, 33}) CHECK_THROWS_AS(factorize(table, {terms}), UsageError);

@@ -240,6 +240,19 @@ TEST_CASE("layout: a budget is met, and more bytes leave less error") {
     }
 }
 
+TEST_CASE("layout: errors of a diffuse set matter more") {
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    const SparseTransport rows = smoothRows(256, 1, 8), several = smoothRows(256, 2, 8);
+    const ClusterMatrix matrix = clusterMatrix(rows, 0, 256, basisKinds(factors(1, true)), spectrum, 1);
+    CHECK(matrix.importance == kDiffuseImportance);
+    CHECK(clusterMatrix(several, 0, 256, basisKinds(factors(2, true)), spectrum, 1).importance == 1);
+    BasisAnalysis analysis = analyse(matrix);
+    const double price = analysis.energy.sum() * 1e-5;
+    const BasisCut diffuse = cutFor(analysis, price);
+    analysis.importance = 1;
+    CHECK(diffuse.error < cutFor(analysis, price).error);
+}
+
 TEST_CASE("layout: bytes fall and error rises with the price") {
     const SparseTransport rows = smoothRows(512, 2, 8);
     const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
