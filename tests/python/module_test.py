@@ -3,8 +3,10 @@
 Run by ctest with RELUME_PROGRAM; PYTHONPATH names the module.
 """
 
+import ast
 import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -280,6 +282,15 @@ class ModuleTest(unittest.TestCase):
                   f"renderer = relume.Renderer(relume.Asset.load({self.path!r}), (16, 12))\n"
                   "renderer.render(relume.Light.sky())\n")
         self.assertEqual(subprocess.run([sys.executable, "-c", script]).returncode, 0)
+
+    def test_type_stubs_name_what_the_module_has_once(self):
+        stub = pathlib.Path(relume.__file__).with_suffix(".pyi")
+        names = [node.name for node in ast.parse(stub.read_text()).body
+                 if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not node.name.startswith("_")
+                 and not any(isinstance(mark, ast.Name) and mark.id == "overload" for mark in node.decorator_list)]
+        self.assertEqual(len(names), len(set(names)))
+        for name in names:
+            self.assertTrue(hasattr(relume, name), name)
 
     def test_errors_say_what_the_command_line_says(self):
         with self.assertRaisesRegex(relume.Error, "nowhere.relume"):
