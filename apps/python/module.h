@@ -29,7 +29,7 @@ struct SceneBuilder {
 };
 
 // Returns the device that all calls share, which is opened when first needed, as use_device() selected it.
-// What works on it holds it: another may be selected meanwhile, or Python may end.
+// Callers keep the pointer while they work: another device may be selected meanwhile, or Python may end.
 std::shared_ptr<const vk::Device> device();
 
 // Runs `work` without Python's lock. `work` is given a function that tells how far it is: that calls

@@ -62,7 +62,7 @@ void FileReader::read(uint64_t offset, std::span<std::byte> bytes) const {
     }
 }
 
-// What to say of a file after a call on it has failed.
+// Returns the message for a file on which a call has just failed, from errno.
 static std::string unwritten(const std::filesystem::path& path) {
     return fmt::format("{}: cannot be written: {}; make room, or name a file elsewhere", path.string(),
                        std::strerror(errno));

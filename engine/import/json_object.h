@@ -16,8 +16,8 @@ namespace relume {
 nlohmann::json readJson(const std::filesystem::path& path);
 std::string readJsonText(const std::filesystem::path& path);
 
-// Whether arrays and objects are nested more than `most` deep, for which the library's parser has a callback
-// that takes the square of an array's length.
+// Returns whether arrays and objects are nested more than `most` deep. The library's parser could tell by a
+// callback, but with one its time grows with the square of an array's length.
 bool isJsonDeeper(std::string_view text, size_t most);
 
 // `name` stands for the text in errors. Throws Error.

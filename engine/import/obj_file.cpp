@@ -48,7 +48,8 @@ std::string_view takeLine(std::string_view& text) {
 // How many vertices, texture coordinates and normals there are so far, by which negative numbers count back.
 using Counts = std::array<int64_t, 3>;
 
-// Whether a word is a corner: "v", "v/t", "v//n" or "v/t/n", by numbers from 1 on or back from the last.
+// Returns whether a word is a corner: "v", "v/t", "v//n" or "v/t/n", by numbers from 1 on or back from the
+// last.
 bool isCorner(std::string_view word, const Counts& counts) {
     for (size_t kind = 0; kind < counts.size(); kind++) {
         const std::string_view digits = word.substr(0, word.find('/'));
@@ -135,7 +136,7 @@ void checkIndex(int index, size_t count, const char* what, const std::string& na
                                 name, what, int64_t(index) + 1, count));
 }
 
-// Whether every corner of every face has a number of this kind; throws if one is not of those that there are.
+// Returns whether every corner of every face has a number of this kind. Throws if a number is out of range.
 bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::*number, size_t count,
              const char* what, const std::string& name) {
     bool isComplete = count > 0;

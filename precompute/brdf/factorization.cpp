@@ -171,7 +171,7 @@ std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
 
 // Factors all channels with one set of gray light maps. A nonnegative factorization has many local optima:
 // channels factored one by one end in different ones, and the errors of their terms color what is gray.
-// Transport of gray light maps also takes a third of the bytes.
+// Transport of gray light maps also takes less than half the bytes.
 std::array<ChannelFactors, 3> factorizeTogether(std::span<const BrdfTable> tables,
                                                 const std::array<size_t, 3>& first, const Weights& weights,
                                                 int terms) {

@@ -19,8 +19,7 @@ enum class Factorization {
     // of reflected radiance as it is seen.
     Environment,
     // Least squares of f cosθi over the pixels of a convex object, with maps that are nowhere negative: sums
-    // cannot
-    // undershoot, for a larger error. All channels share their light maps, which are gray.
+    // cannot undershoot, for a larger error. All channels share their light maps, which are gray.
     NonNegative,
     // One term, the normalized decomposition (Kautz and McCool 1999): the view map is the norm of f over
     // incoming directions, here of p = 2, the light map the mean over outgoing directions of f over it.

@@ -34,7 +34,7 @@ float transportUnit(const SparseTransport& rows, std::span<const float> spectrum
 constexpr size_t kAnalysedSide = 512;
 
 // A set of one term is diffuse, most often a ground: shadows are all that is seen on it, and no highlight
-// hides what storage loses of them. Such sets matter so much more than others.
+// hides what storage loses of them. Their squared errors count this many times.
 constexpr double kDiffuseImportance = 40;
 
 // Returns the matrix of vertices [first, first + count) of a set's rows.

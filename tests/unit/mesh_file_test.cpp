@@ -332,7 +332,7 @@ TEST_CASE("glTF: documents that lie") {
     CHECK(changed("\"byteOffset\":0", "\"byteOffset\":18446744073709551000").find("a.glb") !=
           std::string::npos);
     CHECK(changed("\"bufferView\":0", "\"bufferView\":12").find("a.glb") != std::string::npos);
-    // What the library has defaults for, or wraps.
+    // Values that the library would replace by defaults, or wrap.
     for (const auto& [from, key, value] : {std::tuple("\"buffer\":0", "buffer", "-3"),
                                            {"\"byteOffset\":0", "byteOffset", "-4"},
                                            {"\"bufferView\":0", "bufferView", "\"0\""},
