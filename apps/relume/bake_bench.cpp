@@ -1,10 +1,10 @@
 #include "apps/relume/bake_bench.h"
 
+#include "apps/bench/cpu_baker.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/bake_plan.h"
 #include "precompute/bake/part_passes.h"
-#include "precompute/cpu/cpu_baker.h"
 #include "precompute/visibility/raster_visibility.h"
 
 #include <algorithm>

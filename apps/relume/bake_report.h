@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/base/progress.h"
-#include "precompute/bake/bake_observer.h"
+#include "precompute/bake_observer.h"
 
 #include <chrono>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+#include "apps/bench/cpu_baker.h"
 #include "apps/bench/median.h"
 #include "apps/relume/bake_bench.h"
 #include "apps/relume/bake_traffic.h"
@@ -9,7 +10,6 @@
 #include "engine/base/progress.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/part_passes.h"
-#include "precompute/cpu/cpu_baker.h"
 
 #include <fmt/format.h>
 #include <functional>

@@ -8,7 +8,7 @@
 #include "engine/import/old_asset.h"
 #include "engine/transport/chunk_file.h"
 #include "engine/transport/kept_visibility.h"
-#include "precompute/bake/bake_observer.h"
+#include "precompute/bake_observer.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/layout/layout_scale.h"
 #include "precompute/residual/residuals.h"

@@ -5,8 +5,8 @@
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
 #include "engine/transport/asset_arrays.h"
-#include "precompute/bake/bake_observer.h"
 #include "precompute/bake/merge.h"
+#include "precompute/bake_observer.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/render/view_pass.h"
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/visibility/ray_tracer.h"
 
 #include <filesystem>
 

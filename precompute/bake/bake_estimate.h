@@ -1,7 +1,7 @@
 // How far a bake is and how long it will take, where vertices of different parts cost differently.
 #pragma once
 
-#include "precompute/bake/bake_observer.h"
+#include "precompute/bake_observer.h"
 
 #include <vector>
 

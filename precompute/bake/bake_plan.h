@@ -4,8 +4,8 @@
 #include "engine/import/scene.h"
 #include "engine/transport/asset.h"
 #include "engine/vk/device.h"
-#include "precompute/bake/bake_observer.h"
 #include "precompute/bake/bake_options.h"
+#include "precompute/bake_observer.h"
 #include "precompute/layout/layout_scale.h"
 
 namespace relume {

@@ -1,6 +1,6 @@
 #include "precompute/bake/row_interpolation.h"
 
-#include "precompute/reference/transport_stages.h"
+#include "precompute/layout/row_packing.h"
 
 #include <bit>
 #include <utility>
@@ -44,7 +44,7 @@ void RowInterpolator::appendSum(std::span<const CoarseNeighbour> neighbours, uin
             indices.push_back(uint16_t(word * 64 + size_t(std::countr_zero(mTouched[word]))));
             values.push_back(std::exchange(mSums[indices.back()], vec3(0)));
         }
-    const PackedRow row = packRow(values, selectLargest(values, mKept));
+    const PackedRow row = packLargest(values, mKept);
     SparseTransport& to = rows.transport;
     for (const uint16_t place : row.indices) to.indices.push_back(indices[place]);
     to.values.insert(to.values.end(), row.values.begin(), row.values.end());

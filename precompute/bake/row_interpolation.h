@@ -12,8 +12,8 @@ class RowInterpolator {
     // `coarse` outlives it. Rows keep the `kept` largest of `coefficients` coefficients.
     RowInterpolator(const BakedRows& coarse, int coefficients, int kept);
 
-    // Appends a vertex's rows: sums of its neighbours' times their shares, packed as any (packRow); those of
-    // a single neighbour as they are. What they lost is taken to be what the neighbours did.
+    // Appends a vertex's rows: sums of its neighbours' times their shares, packed as any (packLargest); those
+    // of a single neighbour as they are. What they lost is taken to be what the neighbours did.
     void append(std::span<const CoarseNeighbour> neighbours, BakedRows& rows);
 
   private:

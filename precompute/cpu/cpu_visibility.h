@@ -1,7 +1,7 @@
 // Visibility cubes by Embree, in streams of coherent rays.
 #pragma once
 
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/visibility/ray_tracer.h"
 
 namespace relume {
 

@@ -3,8 +3,8 @@
 
 #include "engine/render/appearance.h"
 #include "precompute/brdf/factorization.h"
+#include "precompute/brdf/material_brdfs.h"
 #include "precompute/brdf/tabulation.h"
-#include "precompute/reference/material_brdfs.h"
 
 #include <map>
 

@@ -6,9 +6,9 @@
 #include "precompute/layout/cluster_encoder.h"
 #include "precompute/layout/layout_scale.h"
 #include "precompute/layout/light_spectrum.h"
+#include "precompute/layout/row_packing.h"
 #include "precompute/layout/same_sums.h"
 #include "precompute/layout/slope.h"
-#include "precompute/reference/transport_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ void makeRows(const std::vector<MaterialSet*>& sets, const Asset& asset, Passes&
         for (size_t row = first; row < first + places[i].count * terms; row++) {
             const std::vector<vec3> coefficients =
                 coefficientsOf(transport, row, size_t(6 * asset.faceSize * asset.faceSize));
-            packed[i].push_back(packRow(coefficients, selectLargest(coefficients, asset.coefficients)));
+            packed[i].push_back(packLargest(coefficients, asset.coefficients));
         }
     });
     std::vector<SparseTransport> made(sets.size());

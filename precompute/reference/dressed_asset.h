@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/math/tangent_frame.h"
-#include "precompute/reference/ray_tracer.h"
 #include "precompute/reference/worn_brdf.h"
+#include "precompute/visibility/ray_tracer.h"
 
 namespace relume {
 

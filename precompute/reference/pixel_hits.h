@@ -3,7 +3,7 @@
 
 #include "engine/render/pixel_samples.h"
 #include "engine/scene/camera.h"
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/visibility/ray_tracer.h"
 
 namespace relume {
 

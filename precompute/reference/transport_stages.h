@@ -5,7 +5,8 @@
 #include "engine/math/tangent_frame.h"
 #include "engine/scene/factored_brdf.h"
 #include "engine/transport/sparse_transport.h"
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/layout/row_packing.h"
+#include "precompute/visibility/ray_tracer.h"
 
 #include <array>
 #include <vector>
@@ -29,12 +30,7 @@ void haarFaces(std::vector<vec3>& cube, int faceSize);
 // are never kept).
 std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count);
 
-// One packed row: quantised against its largest |component|, zeros dropped.
-struct PackedRow {
-    float scale = 0;
-    std::vector<uint16_t> indices;
-    std::vector<uint32_t> values;
-};
+// Returns the row of `selected`: quantised against its largest |component|, zeros dropped.
 PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected);
 
 } // namespace relume

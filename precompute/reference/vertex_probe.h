@@ -3,7 +3,7 @@
 
 #include "engine/light/light_vector.h"
 #include "engine/render/appearance.h"
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/visibility/ray_tracer.h"
 
 namespace relume {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/render/appearance.h"
-#include "precompute/reference/material_brdfs.h"
+#include "precompute/brdf/material_brdfs.h"
 
 namespace relume {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/transport/asset.h"
-#include "precompute/bake/bake_observer.h"
+#include "precompute/bake_observer.h"
 #include "precompute/refine/refinement_record.h"
 
 namespace relume {

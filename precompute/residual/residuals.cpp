@@ -2,7 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/log.h"
-#include "precompute/reference/material_brdfs.h"
+#include "precompute/brdf/material_brdfs.h"
 #include "precompute/residual/irradiance_fit.h"
 #include "precompute/residual/sphere_kernel.h"
 

@@ -1,8 +1,8 @@
 // The CPU baker's rows against the device's.
+#include "apps/bench/cpu_baker.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
-#include "precompute/cpu/cpu_baker.h"
 #include "precompute/reference/vertex_check.h"
 #include "tests/support/test_device.h"
 

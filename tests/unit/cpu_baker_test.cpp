@@ -1,7 +1,7 @@
 // The CPU baker against the naive twins, stage by stage.
+#include "apps/bench/cpu_baker.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
-#include "precompute/cpu/cpu_baker.h"
 #include "precompute/cpu/morton.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"

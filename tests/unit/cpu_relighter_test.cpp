@@ -1,4 +1,4 @@
-#include "precompute/cpu/cpu_relighter.h"
+#include "apps/bench/cpu_relighter.h"
 #include "precompute/reference/relight_twin.h"
 #include "tests/support/asset_sample.h"
 

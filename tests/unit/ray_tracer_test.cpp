@@ -1,5 +1,5 @@
 // Rays against triangles whose hits are known.
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/visibility/ray_tracer.h"
 
 #include "engine/import/builtin_mesh.h"
 #include "tests/support/diffuse_asset.h"

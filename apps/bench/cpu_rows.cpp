@@ -1,4 +1,4 @@
-#include "precompute/cpu/cpu_rows.h"
+#include "apps/bench/cpu_rows.h"
 
 #include <algorithm>
 #include <bit>

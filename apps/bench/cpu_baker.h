@@ -2,9 +2,9 @@
 // against (relume bench bake). The naive twins in precompute/reference say what it must compute.
 #pragma once
 
+#include "apps/bench/cpu_rows.h"
 #include "engine/transport/asset.h"
 #include "precompute/bake/bake_options.h"
-#include "precompute/cpu/cpu_rows.h"
 #include "precompute/cpu/cpu_visibility.h"
 #include "shaders/shared/bake.h"
 

@@ -1,4 +1,4 @@
-#include "precompute/reference/ray_tracer.h"
+#include "precompute/visibility/ray_tracer.h"
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "engine/base/error.h"
-#include "precompute/refine/refinement_record.h"
 
 #include <cstdint>
 #include <string>
 
 namespace relume {
+
+struct RefinementRecord;
 
 enum class BakeStage { Occluder, Factorisation, Refinement, Sample, Preview, Baking, Writing };
 

@@ -1,4 +1,4 @@
-#include "precompute/cpu/cpu_baker.h"
+#include "apps/bench/cpu_baker.h"
 
 #include "engine/base/check.h"
 

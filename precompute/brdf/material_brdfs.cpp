@@ -1,4 +1,4 @@
-#include "precompute/reference/material_brdfs.h"
+#include "precompute/brdf/material_brdfs.h"
 
 namespace relume {
 
