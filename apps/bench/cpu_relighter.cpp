@@ -51,39 +51,6 @@ class CpuRowsRelighter : public CpuRelighter {
     const SparseTransport& mTransport;
 };
 
-class CpuClustersRelighter : public CpuRelighter {
-  public:
-    explicit CpuClustersRelighter(const ClusteredTransport& transport) : mTransport(transport) {}
-
-    void relight(const LightVector& light, std::span<vec3> tuples) const override {
-        const DenseLight dense(light);
-        const uint32_t terms = mTransport.terms;
-        forAll(mTransport.groups(), [&](size_t group) {
-            std::array<std::array<int32_t, kClusterVertices>, 3> sums{};
-            for (uint64_t column = mTransport.columnStarts[group];
-                 column < mTransport.columnStarts[group + 1]; column++) {
-                const ivec3 value = dense[mTransport.indices[column]];
-                if (value == ivec3(0)) continue;
-                const uint32_t* words = &mTransport.values[column * kClusterVertices];
-                for (size_t v = 0; v < kClusterVertices; v++) {
-                    const ivec3 coefficient = unpackCoefficient(words[v]);
-                    for (int channel = 0; channel < 3; channel++)
-                        sums[size_t(channel)][v] += coefficient[channel] * value[channel];
-                }
-            }
-            const size_t first = group / terms * kClusterVertices;
-            for (size_t v = 0; v < kClusterVertices && first + v < mTransport.vertices; v++) {
-                const size_t row = (first + v) * terms + group % terms;
-                tuples[row] = vec3(ivec3(sums[0][v], sums[1][v], sums[2][v])) *
-                              (light.scale * mTransport.scales[row]) * kCoefficientUnit;
-            }
-        });
-    }
-
-  private:
-    const ClusteredTransport& mTransport;
-};
-
 // Works on the vertices of a cluster side by side, which the order of the sums allows.
 class CpuBasesRelighter : public CpuRelighter {
   public:
@@ -161,9 +128,6 @@ class CpuBasesRelighter : public CpuRelighter {
 
 std::unique_ptr<CpuRelighter> make(const SparseTransport& transport) {
     return std::make_unique<CpuRowsRelighter>(transport);
-}
-std::unique_ptr<CpuRelighter> make(const ClusteredTransport& transport) {
-    return std::make_unique<CpuClustersRelighter>(transport);
 }
 std::unique_ptr<CpuRelighter> make(const BasisTransport& transport) {
     return std::make_unique<CpuBasesRelighter>(transport);

@@ -127,7 +127,7 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--rows", type=_numbers(int, 1, 24576), default="24,48,96,192", metavar="N,N,…",
                          help="most coefficients of a row, in rows (%(default)s)")
     command.add_argument("--budgets", type=_numbers(float, 1, 1e6), default="50,100,200,400,800,1600",
-                         metavar="B,B,…", help="bytes a vertex of clusters and bases (%(default)s)")
+                         metavar="B,B,…", help="bytes a vertex of bases (%(default)s)")
     command.add_argument("--width", type=_number(16, 4096), default=320, help="of images (%(default)s)")
     command.add_argument("--height", type=_number(16, 4096), default=240, help="of images (%(default)s)")
 

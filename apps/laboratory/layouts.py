@@ -12,7 +12,7 @@ from .program import Program
 from .report import csv_of, markdown_of
 from .store import LabError, Path, file_hash, kept, locked, write_text
 
-_LAYOUTS = ("rows", "clusters", "bases")
+_LAYOUTS = ("rows", "bases")
 _TICKS = (50, 200, 800, 3200, 12800)  # bytes
 
 
@@ -20,7 +20,7 @@ _TICKS = (50, 200, 800, 3200, 12800)  # bytes
 class Options:
     lights: dict[str, Path]  # by name
     rows: Sequence[int] = (24, 48, 96, 192)  # N
-    budgets: Sequence[float] = (50, 100, 200, 400, 800, 1600)  # bytes a vertex, of clusters and bases
+    budgets: Sequence[float] = (50, 100, 200, 400, 800, 1600)  # bytes a vertex, of bases
     size: tuple[int, int] = (320, 240)  # of images
     exact_rows: int = 2000  # that the error of transport is measured over
 

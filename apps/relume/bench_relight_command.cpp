@@ -38,8 +38,7 @@ double medianRatio(std::vector<double> values, const std::vector<double>& diviso
 
 RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
     RelightBenchInput input{&source, {}};
-    for (const TransportLayout layout :
-         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
         LayoutOptions options;
         options.layout = layout;
         options.bytesPerVertex = arguments.budget;
@@ -152,12 +151,11 @@ void addBenchRelightCommand(CLI::App& bench) {
     command->add_option("-N,--coefficients", arguments->coefficients, "Most coefficients of a row, in rows")
         ->check(CLI::Range(1, 24576))
         ->capture_default_str();
-    CLI::Option* error = command
-                             ->add_option("--error", arguments->error,
-                                          "Error of transport in clusters and bases, weighted as light is")
-                             ->check(between(1e-6f, 1))
-                             ->capture_default_str();
-    command->add_option("--budget", arguments->budget, "Bytes of transport a vertex in clusters and bases")
+    CLI::Option* error =
+        command->add_option("--error", arguments->error, "Error of transport in bases, weighted as light is")
+            ->check(between(1e-6f, 1))
+            ->capture_default_str();
+    command->add_option("--budget", arguments->budget, "Bytes of transport a vertex in bases")
         ->type_name("BYTES")
         ->check(between(1, 1e6))
         ->excludes(error);

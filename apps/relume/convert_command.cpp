@@ -31,7 +31,7 @@ struct Arguments {
 LayoutOptions optionsOf(const Arguments& arguments) {
     const LayoutOptions options = arguments.layout.resolve();
     if (options.layout != TransportLayout::Rows && arguments.coefficients)
-        throw UsageError("--coefficients: shortens rows; clusters and bases have --budget and --error");
+        throw UsageError("--coefficients: shortens rows; bases have --budget and --error");
     return options;
 }
 

@@ -16,7 +16,7 @@ void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
     command
         .add_option("--layout", mLayout,
                     "How transport is kept. bases: 256 vertices share basis vectors, smallest and fastest; "
-                    "clusters: 32 vertices share which coefficients they keep; rows: each vertex its own")
+                    "rows: each vertex its own coefficients")
         ->check(CLI::IsMember(names))
         ->type_name("LAYOUT")
         ->default_str(hasDefaults ? layoutName(defaults.layout) : "the bake's own");
@@ -46,7 +46,7 @@ LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
         options.layout = TransportLayout::Bases; // rows know of neither
     if (options.layout == TransportLayout::Rows) {
         if (mBudget || mError)
-            throw UsageError("--layout rows: --budget and --error are for clusters and bases; rows are "
+            throw UsageError("--layout rows: --budget and --error are for bases; rows are "
                              "shortened by --coefficients");
         return {.layout = TransportLayout::Rows};
     }

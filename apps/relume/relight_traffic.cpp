@@ -17,12 +17,6 @@ double bytesRead(const SparseTransport& transport, const std::vector<bool>&) {
     return double(6 * transport.entries() + 4 * transport.rows());
 }
 
-double bytesRead(const ClusteredTransport& transport, const std::vector<bool>& met) {
-    double bytes = double(2 * transport.columns() + 4 * transport.rows());
-    for (const uint16_t index : transport.indices) bytes += met[index] ? 4 * kClusterVertices : 0;
-    return bytes;
-}
-
 double bytesRead(const BasisTransport& transport, const std::vector<bool>& met) {
     double bytes = 0;
     for (const BasisCluster& cluster : transport.clusters) {

@@ -70,9 +70,6 @@ std::string describeLayout(const Transport& transport) {
     switch (layoutOf(transport)) {
     case TransportLayout::Rows:
         return "rows, 11, 11 and 10 bits for red, green and blue";
-    case TransportLayout::Clusters:
-        return fmt::format("clusters, {} vertices share their coefficients; 11, 11 and 10 bits",
-                           kClusterVertices);
     case TransportLayout::Bases:
         return fmt::format("bases, {} vertices share basis vectors; 8 bits for these and for weights",
                            kBasisVertices);

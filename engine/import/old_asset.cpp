@@ -107,9 +107,8 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
         throw Error(fmt::format("{}: \"mapping\": \"{}\" is unknown", in.where(), mapping));
     set.brdf.mapping = *diskMappingFromName(mapping);
     const std::string layout = in.has("layout") ? in.text("layout") : layoutName(TransportLayout::Rows);
-    if (!layoutFromName(layout))
-        throw Error(fmt::format("{}: \"layout\": \"{}\" is unknown", in.where(), layout));
-    set.transport = emptyTransport(*layoutFromName(layout), uint32_t(vertices), uint32_t(set.brdf.terms));
+    set.transport =
+        emptyTransport(readLayoutName(layout, in.where()), uint32_t(vertices), uint32_t(set.brdf.terms));
     if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
         const Json& kinds = in.array("kinds");
         for (size_t i = 0; i < kinds.size() && i <= 3 * kLargestTerms; i++) {

@@ -1,7 +1,6 @@
 #include "engine/render/relighter.h"
 
 #include "engine/base/check.h"
-#include "engine/render/clusters_relighter.h"
 #include "engine/render/rows_relighter.h"
 #include "engine/vk/upload.h"
 
@@ -28,12 +27,6 @@ std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, con
     if (const auto* rows = std::get_if<SparseTransport>(&transport)) {
         if (!mRows) mRows = std::make_unique<vk::ComputeProgram>(RowsRelighter::makeProgram(mDevice));
         return std::make_unique<RowsRelighter>(mDevice, *mRows, *rows, coefficients, largestShard, name);
-    }
-    if (const auto* clusters = std::get_if<ClusteredTransport>(&transport)) {
-        if (!mClusters)
-            mClusters = std::make_unique<vk::ComputeProgram>(ClustersRelighter::makeProgram(mDevice));
-        return std::make_unique<ClustersRelighter>(mDevice, *mClusters, *clusters, coefficients, largestShard,
-                                                   name);
     }
     if (!mBases) mBases = std::make_unique<BasesRelighter::Programs>(mDevice);
     return std::make_unique<BasesRelighter>(mDevice, *mBases, std::get<BasisTransport>(transport),

@@ -51,7 +51,7 @@ class Relighter {
     int mFaceSize;
     RelightMode mMode = RelightMode::Auto;
     // Of the layouts that are there; where they are they stay, as the sets refer to them.
-    std::unique_ptr<vk::ComputeProgram> mRows, mClusters;
+    std::unique_ptr<vk::ComputeProgram> mRows;
     std::unique_ptr<BasesRelighter::Programs> mBases;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
     std::unique_ptr<LitSpheres> mSpheres;

@@ -21,10 +21,8 @@ Bounds objectBounds(const Asset& asset) {
 
 uint32_t blockVertices(const Asset& asset) {
     for (const AssetPart& part : asset.parts)
-        for (const MaterialSet& set : part.sets) {
+        for (const MaterialSet& set : part.sets)
             if (layoutOf(set.transport) == TransportLayout::Bases) return kBasisVertices;
-            if (layoutOf(set.transport) == TransportLayout::Clusters) return kClusterVertices;
-        }
     int terms = 1;
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets) terms = std::max(terms, set.brdf.terms);

@@ -16,8 +16,8 @@ constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP"
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kResidualKernels = chunkTag("RKER"), kIrradianceWeights = chunkTag("RIRR");
-constexpr ChunkTag kTransport = chunkTag("TRAN"), kClusters = chunkTag("TRCL"), kBases = chunkTag("TRBS");
-constexpr ChunkTag kLayoutTags[] = {kTransport, kClusters, kBases}; // in the order of TransportLayout
+constexpr ChunkTag kTransport = chunkTag("TRAN"), kBases = chunkTag("TRBS");
+constexpr ChunkTag kLayoutTags[] = {kTransport, kBases}; // in the order of TransportLayout
 static_assert(std::size(kLayoutTags) == std::variant_size_v<Transport>);
 constexpr ChunkTag kVisibility = chunkTag("visb");
 // In a shard of a bake only.

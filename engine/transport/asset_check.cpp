@@ -208,9 +208,7 @@ void checkAsset(const Asset& asset, const std::string& name) {
         for (const MaterialSet& set : part.sets) {
             expectCount(verticesOf(set.transport), part.mesh.vertexCount(), where, "vertices with transport");
             expectCount(termsOf(set.transport), size_t(set.brdf.terms), where, "transport terms");
-            if (const auto* clusters = std::get_if<ClusteredTransport>(&set.transport))
-                checkTransport(*clusters, coefficients, where);
-            else if (const auto* bases = std::get_if<BasisTransport>(&set.transport))
+            if (const auto* bases = std::get_if<BasisTransport>(&set.transport))
                 checkTransport(*bases, coefficients, where);
             else
                 checkTransport(rowsOf(set.transport), coefficients, uint64_t(asset.coefficients), where);

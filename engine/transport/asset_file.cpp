@@ -8,7 +8,6 @@
 #include "engine/transport/asset_meta.h"
 #include "engine/transport/basis_chunk.h"
 #include "engine/transport/byte_stream.h"
-#include "engine/transport/cluster_chunk.h"
 #include "engine/transport/transport_chunk.h"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ constexpr ChunkTag kPartTags[] = {kPositions, kNormals,  kTriangles, kUvs,
                                   kColors,    kTangents, kBaseColor, kMaterialMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
 constexpr ChunkTag kSetTags[] = {kLightMaps,         kViewMaps,  kEigenvalues, kResidualKernels,
-                                 kIrradianceWeights, kTransport, kClusters,    kBases};
+                                 kIrradianceWeights, kTransport, kBases};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
 
@@ -33,10 +32,6 @@ bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::fi
 constexpr size_t kElementsPerChunk = size_t(1) << 19;
 static_assert(kElementsPerChunk * sizeof(vec4) <= kLargestChunk);
 static_assert(kRunHeaderBytes + kRunRows * kRunRowBytes + kRunEntries * kRunEntryBytes <= kLargestChunk);
-static_assert(kClusterRunHeaderBytes +
-                  kLargestTerms * (kClusterGroupBytes + kClusterVertices * kClusterRowBytes) +
-                  kMostClusterColumns * kClusterColumnBytes <=
-              kLargestChunk);
 static_assert(largestBasisChunk(kLargestTerms) <= kLargestChunk);
 
 template <typename Element>
@@ -57,11 +52,6 @@ void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& tran
         const uint32_t first = run * block, end = std::min(transport.vertices - first, block) + first;
         file.add(kTransport, owner, run, encodeRun(transport, {first, end}));
     }
-}
-
-void addTransport(ChunkWriter& file, uint32_t owner, const ClusteredTransport& transport, uint32_t) {
-    for (uint32_t cluster = 0; cluster < transport.clusters(); cluster++)
-        file.add(kClusters, owner, cluster, encodeCluster(transport, cluster));
 }
 
 std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t owner) {
@@ -116,19 +106,6 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint
     transport.values.reserve(entries);
     for (const ChunkEntry& run : runs)
         decodeRun(file.load(run), coefficients, entries, whereOf(file, run), transport);
-}
-
-void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,
-                   ClusteredTransport& transport) {
-    const uint64_t bytes = transport.groups() * kClusterGroupBytes + transport.rows() * kClusterRowBytes +
-                           columns * kClusterColumnBytes;
-    const auto runs = findSized(file, kClusters, owner, kClusterRunHeaderBytes, bytes);
-    transport.columnStarts.push_back(0);
-    transport.scales.reserve(transport.rows());
-    transport.indices.reserve(columns);
-    transport.values.reserve(columns * kClusterVertices);
-    for (const ChunkEntry& run : runs)
-        decodeCluster(file.load(run), coefficients, columns, whereOf(file, run), transport);
 }
 
 void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t) {

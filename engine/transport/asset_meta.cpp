@@ -68,6 +68,7 @@ class FieldReader {
         const auto bytes = mBytes.take(mBytes.get<uint32_t>());
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
+    TransportLayout layout() { return readLayoutName(text(), mWhere); }
     size_t left() const { return mBytes.left(); }
 
     [[noreturn]] void fail(const char* field, const std::string& expected) const {
@@ -200,9 +201,7 @@ MaterialSet readSet(FieldReader& in, uint64_t vertices, std::vector<uint64_t>& s
     const auto mapping = diskMappingFromName(in.text());
     if (!mapping) in.fail("mapping", "one that this program knows");
     set.brdf.mapping = *mapping;
-    const auto layout = layoutFromName(in.text());
-    if (!layout) in.fail("layout", "one that this program knows");
-    set.transport = emptyTransport(*layout, uint32_t(vertices), uint32_t(set.brdf.terms));
+    set.transport = emptyTransport(in.layout(), uint32_t(vertices), uint32_t(set.brdf.terms));
     setEntries.push_back(in.longWhole("entries", 0, kAnyEntries));
     if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
         const uint64_t kinds = in.whole("kinds", 0, 3 * kLargestTerms);

@@ -1,5 +1,8 @@
 #include "engine/transport/transport.h"
 
+#include "engine/base/error.h"
+
+#include <fmt/format.h>
 #include <span>
 
 namespace relume {
@@ -23,25 +26,10 @@ uint64_t bytesOf(const BasisTransport& transport) {
     return sum;
 }
 
-uint64_t bytesOf(const ClusteredTransport& transport) {
-    return bytes(transport.scales) + bytes(transport.indices) + bytes(transport.values);
-}
-
 void addCoefficients(const SparseTransport& transport, size_t row, std::span<vec3> coefficients) {
     const vec3 unit = transport.scales[row] * kCoefficientUnit;
     for (uint64_t entry = transport.rowStarts[row]; entry < transport.rowStarts[row + 1]; entry++)
         coefficients[transport.indices[entry]] = vec3(unpackCoefficient(transport.values[entry])) * unit;
-}
-
-void addCoefficients(const ClusteredTransport& transport, size_t row, std::span<vec3> coefficients) {
-    const size_t vertex = row / transport.terms;
-    const size_t group = vertex / kClusterVertices * transport.terms + row % transport.terms;
-    const vec3 unit = transport.scales[row] * kCoefficientUnit;
-    for (uint64_t column = transport.columnStarts[group]; column < transport.columnStarts[group + 1];
-         column++)
-        coefficients[transport.indices[column]] =
-            vec3(unpackCoefficient(transport.values[column * kClusterVertices + vertex % kClusterVertices])) *
-            unit;
 }
 
 void addCoefficients(const BasisTransport& transport, size_t row, std::span<vec3> coefficients) {
@@ -69,13 +57,6 @@ void addCoefficients(const BasisTransport& transport, size_t row, std::span<vec3
 Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms) {
     if (layout == TransportLayout::Bases)
         return BasisTransport{.vertices = vertices, .terms = terms, .kinds = {}, .clusters = {}};
-    if (layout == TransportLayout::Clusters)
-        return ClusteredTransport{.vertices = vertices,
-                                  .terms = terms,
-                                  .columnStarts = {},
-                                  .scales = {},
-                                  .indices = {},
-                                  .values = {}};
     return SparseTransport{
         .vertices = vertices, .terms = terms, .rowStarts = {}, .scales = {}, .indices = {}, .values = {}};
 }
@@ -84,8 +65,6 @@ const char* layoutName(TransportLayout layout) {
     switch (layout) {
     case TransportLayout::Rows:
         return "rows";
-    case TransportLayout::Clusters:
-        return "clusters";
     case TransportLayout::Bases:
         return "bases";
     }
@@ -96,6 +75,19 @@ std::optional<TransportLayout> layoutFromName(std::string_view name) {
     for (size_t i = 0; i < std::variant_size_v<Transport>; i++)
         if (name == layoutName(TransportLayout(i))) return TransportLayout(i);
     return std::nullopt;
+}
+
+TransportLayout readLayoutName(std::string_view name, const std::string& where) {
+    if (const auto layout = layoutFromName(name)) return *layout;
+    if (name == "clusters")
+        throw Error(fmt::format(
+            "{}: transport is in clusters, a layout that is no longer read; bake again, or convert "
+            "the file with the program that made it: relume convert FILE --layout bases -o NEW",
+            where));
+    throw Error(fmt::format(
+        "{}: transport is in the layout \"{}\", and this program knows rows and bases; the file is "
+        "damaged or of a later program",
+        where, name));
 }
 
 uint32_t verticesOf(const Transport& transport) {
@@ -113,7 +105,6 @@ std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t 
 }
 
 uint64_t entriesOf(const Transport& transport) {
-    if (const auto* clusters = std::get_if<ClusteredTransport>(&transport)) return clusters->columns();
     if (const auto* bases = std::get_if<BasisTransport>(&transport)) {
         uint64_t columns = 0;
         for (const BasisCluster& cluster : bases->clusters) columns += cluster.columns();

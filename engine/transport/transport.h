@@ -2,24 +2,28 @@
 #pragma once
 
 #include "engine/transport/basis_transport.h"
-#include "engine/transport/clustered_transport.h"
 #include "engine/transport/sparse_transport.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
 namespace relume {
 
-using Transport = std::variant<SparseTransport, ClusteredTransport, BasisTransport>;
+using Transport = std::variant<SparseTransport, BasisTransport>;
 
 // In the order of Transport's alternatives.
-enum class TransportLayout { Rows, Clusters, Bases };
+enum class TransportLayout { Rows, Bases };
 
 inline TransportLayout layoutOf(const Transport& transport) { return TransportLayout(transport.index()); }
 Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms);
-const char* layoutName(TransportLayout layout); // "rows", "clusters", "bases"
+const char* layoutName(TransportLayout layout); // "rows", "bases"
 std::optional<TransportLayout> layoutFromName(std::string_view name);
+
+// As a file names it; `where` stands for the file in errors. Throws Error for layouts that are not read, of
+// which clusters were one once.
+TransportLayout readLayoutName(std::string_view name, const std::string& where);
 
 // Of a set that is known to be in rows.
 inline SparseTransport& rowsOf(Transport& transport) { return std::get<SparseTransport>(transport); }
@@ -33,7 +37,7 @@ uint32_t termsOf(const Transport& transport);
 // The coefficients, `count` of them, that a row stands for: of term row % terms of vertex row / terms.
 std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count);
 
-// Of rows: their entries; of clusters and bases: their columns.
+// Of rows: their entries; of bases: their columns.
 uint64_t entriesOf(const Transport& transport);
 
 // What relighting may read of it, in memory: coefficients, indices, weights and scales.

@@ -1,7 +1,6 @@
 #include "engine/transport/transport_check.h"
 
 #include "engine/base/error.h"
-#include "engine/transport/cluster_chunk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,39 +51,6 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
                                         coefficients, index));
             next = index + 1;
         }
-    }
-    expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
-           "values within ±1023 in red and green and ±511 in blue");
-}
-
-void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, const std::string& where) {
-    expectCount(transport.columnStarts.size(), transport.groups() + 1, where, "column starts");
-    expectCount(transport.scales.size(), transport.rows(), where, "row scales");
-    expectCount(transport.values.size(), transport.columns() * kClusterVertices, where, "values");
-    expect(transport.columnStarts.front() == 0 && transport.columnStarts.back() == transport.columns(), where,
-           "groups that begin at column 0 and end at the last");
-    expect(std::ranges::all_of(transport.scales, isMagnitude), where,
-           "row scales that are finite and not negative");
-    for (size_t group = 0; group < transport.groups(); group++) {
-        const uint64_t start = transport.columnStarts[group], end = transport.columnStarts[group + 1];
-        if (end < start || end > transport.columns())
-            throw Error(
-                fmt::format("{}: group {}: columns {} to {} are out of order", where, group, start, end));
-        uint32_t next = 0;
-        for (uint64_t column = start; column < end; column++) {
-            const uint32_t index = transport.indices[column];
-            if (index < next || index >= coefficients)
-                throw Error(fmt::format("{}: group {}: expected rising indices below {}, found {}", where,
-                                        group, coefficients, index));
-            next = index + 1;
-        }
-    }
-    for (size_t cluster = 0; cluster < transport.clusters(); cluster++) {
-        const uint64_t columns = transport.columnStarts[(cluster + 1) * transport.terms] -
-                                 transport.columnStarts[cluster * transport.terms];
-        if (columns > kMostClusterColumns)
-            throw Error(fmt::format("{}: cluster {}: expected at most {} columns, found {}", where, cluster,
-                                    kMostClusterColumns, columns));
     }
     expect(std::ranges::all_of(transport.values, isWithinMaxima), where,
            "values within ±1023 in red and green and ±511 in blue");

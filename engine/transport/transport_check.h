@@ -12,9 +12,6 @@ namespace relume {
 void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
                     const std::string& where);
 
-// Groups that rise, of indices below `coefficients`, and no more columns than a file holds. Throws Error.
-void checkTransport(const ClusteredTransport& transport, uint32_t coefficients, const std::string& where);
-
 // What the weights of all clusters are amounts of. Throws Error.
 void checkKinds(const BasisTransport& transport, const std::string& where);
 

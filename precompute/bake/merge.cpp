@@ -2,7 +2,6 @@
 
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/basis_chunk.h"
-#include "engine/transport/cluster_chunk.h"
 #include "engine/transport/transport_check.h"
 #include "engine/transport/transport_chunk.h"
 #include "engine/transport/visibility_chunk.h"
@@ -119,15 +118,6 @@ void checkChunk(const Asset& asset, const MaterialSet& set, const BakeBlock& pla
         decodeBasisCluster(raw, entry.run, place.count(),
                            std::get<BasisTransport>(set.transport).kinds.size(), coefficients, where);
         return;
-    case TransportLayout::Clusters: {
-        ClusteredTransport columns;
-        columns.vertices = place.count();
-        columns.terms = terms;
-        columns.columnStarts = {0};
-        decodeCluster(raw, coefficients, kMostClusterColumns, where, columns, entry.run);
-        checkTransport(columns, coefficients, where);
-        return;
-    }
     case TransportLayout::Rows:
         break;
     }

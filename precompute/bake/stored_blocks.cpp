@@ -5,12 +5,10 @@
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_file.h"
 #include "engine/transport/basis_chunk.h"
-#include "engine/transport/cluster_chunk.h"
 #include "engine/transport/transport_check.h"
 #include "engine/transport/transport_chunk.h"
 #include "engine/transport/visibility_chunk.h"
 #include "precompute/layout/basis_encoder.h"
-#include "precompute/layout/cluster_encoder.h"
 #include "precompute/layout/light_spectrum.h"
 
 #include <algorithm>
@@ -42,10 +40,6 @@ RawSizes rawSizes(const BakePlan& plan, uint32_t block, size_t chunk) {
     const MaterialSet& set = part.sets[chunk];
     const auto terms = uint64_t(set.brdf.terms), rows = vertices * terms;
     switch (layoutOf(set.transport)) {
-    case TransportLayout::Clusters: {
-        const uint64_t least = kClusterRunHeaderBytes + terms * kClusterGroupBytes + rows * kClusterRowBytes;
-        return {least, least + kMostClusterColumns * kClusterColumnBytes, kClusterColumnBytes};
-    }
     case TransportLayout::Bases:
         return {kBasisHeaderBytes, largestBasisChunk(terms), 1};
     case TransportLayout::Rows:
@@ -68,22 +62,13 @@ EncodedTransport encodeTransport(const SparseTransport& rows, const MaterialSet&
     if (layoutOf(set.transport) == TransportLayout::Rows)
         return {encodeRun(rows, {0, rows.vertices}, place.first), 0};
     const std::vector<float> spectrum = lightSpectrum(asset.faceSize);
-    EncodedTransport encoded;
-    if (layoutOf(set.transport) == TransportLayout::Clusters) {
-        const KeptColumns kept = keepColumns(rows, 0, spectrum, unit, float(price));
-        checkTransport(kept.transport, coefficients, where);
-        encoded = {encodeCluster(kept.transport, 0, run), kept.error};
-    } else {
-        const std::vector<BasisKind>& kinds = std::get<BasisTransport>(set.transport).kinds;
-        const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, kinds, spectrum, unit);
-        const BasisAnalysis analysis = analyse(matrix);
-        const EncodedCluster cluster =
-            encodeBases(matrix, analysis, cutFor(analysis, price), kinds, spectrum);
-        checkCluster(cluster.cluster, rows.vertices, kinds.size(), coefficients, where);
-        encoded = {encodeBasisCluster(cluster.cluster, run, rows.vertices), cluster.error};
-    }
+    const std::vector<BasisKind>& kinds = std::get<BasisTransport>(set.transport).kinds;
+    const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, kinds, spectrum, unit);
+    const BasisAnalysis analysis = analyse(matrix);
+    const EncodedCluster encoded = encodeBases(matrix, analysis, cutFor(analysis, price), kinds, spectrum);
+    checkCluster(encoded.cluster, rows.vertices, kinds.size(), coefficients, where);
     if (!std::isfinite(encoded.error)) throw Error(kTooLarge);
-    return encoded;
+    return {encodeBasisCluster(encoded.cluster, run, rows.vertices), encoded.error};
 }
 
 // Entries of transport that a plausible chunk of a block stands for.
@@ -168,7 +153,6 @@ uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& ent
     const size_t set = entry.owner - plan.firstSet[plan.blocks[block].part];
     const auto terms = uint64_t(partOf(plan, block).sets[set].brdf.terms);
     if (entry.tag == kBases) return entry.rawSize - kBasisHeaderBytes;
-    if (entry.tag == kClusters) return entry.rawSize - kClusterRunHeaderBytes - terms * kClusterGroupBytes;
     constexpr uint64_t kLengthBytes = kRunRowBytes - sizeof(float); // they are elsewhere in memory
     return entry.rawSize - kRunHeaderBytes - plan.blocks[block].count() * terms * kLengthBytes;
 }

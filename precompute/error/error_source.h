@@ -11,7 +11,7 @@ enum class ErrorSource {
     Drawing,         // what the device's image is off its recomputation: light without shadows looked up in
                      // lit spheres instead of summed (residual.h), and rounding
     LightSelection,  // coefficients of the light that are dropped, and the 16 bits of those that are kept
-    Storage,         // 11/11/10 bits of transport; of clusters and bases, all that they lose against rows
+    Storage,         // 11/11/10 bits of transport; of bases, all that they lose against rows
     Truncation,      // keeping N wavelet coefficients of a row
     Interpolation,   // tuples of vertices instead of every point's own
     Terms,           // K products instead of all that the tabulated BRDF has

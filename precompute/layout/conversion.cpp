@@ -3,7 +3,6 @@
 #include "engine/base/error.h"
 #include "precompute/layout/basis_encoder.h"
 #include "precompute/layout/basis_kinds.h"
-#include "precompute/layout/cluster_encoder.h"
 #include "precompute/layout/layout_scale.h"
 #include "precompute/layout/light_spectrum.h"
 #include "precompute/layout/row_packing.h"
@@ -19,7 +18,7 @@ namespace relume {
 namespace {
 
 constexpr uint64_t kBatchVertices = 8192; // between two reports of progress
-constexpr uint64_t kLayoutPasses = 2;     // over the rows that clusters or bases are made of
+constexpr uint64_t kLayoutPasses = 2;     // over the rows that bases are made of
 
 using Report = std::function<void(uint64_t done, uint64_t total)>;
 
@@ -132,47 +131,6 @@ struct Source {
     double squared(double relative) const { return relative * relative * double(vertices); }
 };
 
-double convertToClusters(const Source& source, const LayoutOptions& options, double budget, Passes& passes) {
-    const std::vector<Place> places = placesOf(source.sets, kClusterVertices);
-    const auto rowsAt = [&](const Place& place) -> const SparseTransport& {
-        return rowsOf(source.sets[place.set]->transport);
-    };
-    std::vector<std::vector<float>> each(places.size());
-    passes.run(places, [&](size_t i) {
-        const Place& place = places[i];
-        each[i] = columnEnergies(rowsAt(place), place.first / kClusterVertices, source.spectrum,
-                                 source.units[place.set]);
-    });
-    std::vector<ColumnEnergy> energies;
-    for (std::vector<float>& own : each) {
-        for (const float energy : own) energies.push_back({energy, 1});
-        own = {};
-    }
-    double rowBytes = 0;
-    for (const MaterialSet* set : source.sets)
-        rowBytes += double(rowsOf(set->transport).rows() * sizeof(float));
-    const float threshold = options.bytesPerVertex
-                                ? thresholdForBytes(std::move(energies), budget - rowBytes)
-                                : thresholdForError(std::move(energies), source.squared(options.error));
-    std::vector<KeptColumns> kept(places.size());
-    passes.run(places, [&](size_t i) {
-        const Place& place = places[i];
-        kept[i] = keepColumns(rowsAt(place), place.first / kClusterVertices, source.spectrum,
-                              source.units[place.set], threshold);
-    });
-    std::vector<ClusteredTransport> made(source.sets.size());
-    double error = 0;
-    for (size_t i = 0; i < places.size(); i++) {
-        made[places[i].set].terms = kept[i].transport.terms;
-        append(made[places[i].set], kept[i].transport);
-        error += kept[i].error;
-        kept[i] = {};
-    }
-    for (size_t number = 0; number < made.size(); number++)
-        source.sets[number]->transport = std::move(made[number]);
-    return source.relative(error);
-}
-
 double convertToBases(const Source& source, const LayoutOptions& options, double budget, Passes& passes) {
     std::vector<BasisTransport> made;
     for (const MaterialSet* set : source.sets) {
@@ -231,9 +189,7 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& options, const Repor
     if (!isLast) {
         const Source source(sets, asset.faceSize);
         const double budget = options.bytesPerVertex.value_or(0) * double(verticesOf(asset));
-        conversion.error = options.layout == TransportLayout::Clusters
-                               ? convertToClusters(source, options, budget, passes)
-                               : convertToBases(source, options, budget, passes);
+        conversion.error = convertToBases(source, options, budget, passes);
         if (!std::isfinite(*conversion.error)) throw Error(kTooLarge);
         // What was lost before is lost: about independent of what is lost now, so that squares add.
         const double before = asset.layout ? asset.layout->error : 0;

@@ -15,7 +15,7 @@ constexpr double kMostLayoutBytes = 1e6; // per vertex, that may be asked for
 
 struct LayoutOptions {
     TransportLayout layout = TransportLayout::Bases;
-    // Of clusters and bases, one of both. Bytes of transport in memory per vertex of the asset, or the error
+    // Of bases, one of both. Bytes of transport in memory per vertex of the asset, or the error
     // of transport, weighted as light weighs it: root mean square, relative to each set's variation
     // (transportUnit() in cluster_matrix.h).
     std::optional<double> bytesPerVertex;

@@ -1,7 +1,6 @@
 #include "precompute/layout/layout_scale.h"
 
 #include "precompute/layout/basis_kinds.h"
-#include "precompute/layout/cluster_encoder.h"
 #include "precompute/layout/light_spectrum.h"
 #include "precompute/layout/same_sums.h"
 #include "precompute/layout/slope.h"
@@ -27,14 +26,14 @@ uint64_t sampledOf(const SetSample& sample) {
     return vertices;
 }
 
-std::vector<Place> placesOf(std::span<const SetSample> samples, uint32_t clusterVertices) {
+std::vector<Place> placesOf(std::span<const SetSample> samples) {
     std::vector<Place> places;
     for (uint32_t number = 0; number < samples.size(); number++) {
         const double weight = double(samples[number].vertices) / double(sampledOf(samples[number]));
         for (const SparseTransport* rows : samples[number].blocks)
-            for (uint32_t first = 0; first < rows->vertices; first += clusterVertices)
+            for (uint32_t first = 0; first < rows->vertices; first += kBasisVertices)
                 places.push_back(
-                    {number, rows, first, std::min(clusterVertices, rows->vertices - first), weight});
+                    {number, rows, first, std::min(kBasisVertices, rows->vertices - first), weight});
     }
     return places;
 }
@@ -46,7 +45,7 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
     sumAlikeEverywhere();
     const std::vector<float> spectrum = lightSpectrum(faceSize);
     LayoutScale scale;
-    double error = 0, rowBytes = 0;   // wanted, squared; of clusters, whatever is kept
+    double error = 0;                 // wanted, squared
     double allRows = 0, toldRows = 0; // of sets that the samples tell of
     for (const SetSample& sample : samples) {
         scale.units.push_back(sample.unit);
@@ -55,27 +54,10 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
         if (sampledOf(sample) == 0) continue;
         toldRows += rows;
         error += options.error * options.error * double(sample.vertices);
-        rowBytes += rows * sizeof(float);
     }
     const double share = allRows > 0 ? toldRows / allRows : 1;
     const double budget = share * options.bytesPerVertex.value_or(0) * double(vertices);
-    if (options.layout == TransportLayout::Clusters) {
-        const std::vector<Place> places = placesOf(samples, kClusterVertices);
-        std::vector<std::vector<ColumnEnergy>> each(places.size());
-        tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
-            const Place& place = places[i];
-            for (const float energy : columnEnergies(*place.rows, place.first / kClusterVertices, spectrum,
-                                                     scale.units[place.sample]))
-                each[i].push_back({energy, float(place.weight)});
-        });
-        std::vector<ColumnEnergy> energies;
-        for (const auto& own : each) energies.insert(energies.end(), own.begin(), own.end());
-        scale.price =
-            double(options.bytesPerVertex ? thresholdForBytes(std::move(energies), budget - rowBytes)
-                                          : thresholdForError(std::move(energies), error));
-        return scale;
-    }
-    const std::vector<Place> places = placesOf(samples, kBasisVertices);
+    const std::vector<Place> places = placesOf(samples);
     std::vector<BasisAnalysis> analyses(places.size());
     tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
         const Place& place = places[i];

@@ -9,16 +9,14 @@
 
 namespace relume {
 
-// Of what decides the bytes of clusters and bases besides a bake's inputs and options: which sample tells the
+// Of what decides the bytes of bases besides a bake's inputs and options: which sample tells the
 // scale, and how it and a scale's bytes are found. Raised with every change of these, so that blocks of
 // different programs never meet in one bake.
 constexpr uint32_t kLayoutEncoderVersion = 2;
 
 struct LayoutScale {
     std::vector<float> units; // per set, over all parts: transportUnit()
-    // What makes a cluster keep more or less: of bases the price of a byte (slope.h), of clusters the least
-    // energy of a column that is kept (cluster_encoder.h).
-    double price = 0;
+    double price = 0;         // of a byte (slope.h): what makes a cluster keep more or less
 
     bool operator==(const LayoutScale&) const = default;
 };
@@ -31,7 +29,7 @@ struct SetSample {
     float unit;                                 // transportUnit() of the set
 };
 
-// For what `options` ask for of clusters or bases, as these samples tell it; sets without any are taken to be
+// For what `options` ask for of bases, as these samples tell it; sets without any are taken to be
 // as the others are. `vertices`: of the asset, which a budget is for. The same on every machine.
 LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
                       const LayoutOptions& options);

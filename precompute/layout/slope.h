@@ -1,21 +1,10 @@
-// One price of a byte for all clusters: the whole has then the least error for its bytes. Clusters and
-// columns may stand for several (their weight).
+// One price of a byte for all clusters: the whole has then the least error for its bytes. Clusters may
+// stand for several (their weight).
 #pragma once
 
 #include "precompute/layout/basis_analysis.h"
 
 namespace relume {
-
-// What a column of clusters holds, squared, and how many such there are.
-struct ColumnEnergy {
-    float energy, weight;
-};
-
-// The least energy of columns that are to be kept, of which the strongest together have at most `bytes`.
-float thresholdForBytes(std::vector<ColumnEnergy> columns, double bytes);
-
-// The highest at which the columns that are dropped hold at most `error` together, squared; 0 to keep all.
-float thresholdForError(std::vector<ColumnEnergy> columns, double error);
 
 struct CutTotals {
     double bytes = 0;

@@ -15,21 +15,12 @@ std::vector<ivec3> expand(const LightVector& light) {
     return dense;
 }
 
-template <typename Kept>
-std::vector<vec3> scaledSums(const Kept& transport, const LightVector& light) {
+std::vector<vec3> tuplesOf(const SparseTransport& transport, const LightVector& light) {
     const std::vector<ivec3> sums = relightSums(transport, light);
     std::vector<vec3> tuples(sums.size());
     for (size_t row = 0; row < tuples.size(); row++)
         tuples[row] = vec3(sums[row]) * (light.scale * transport.scales[row]) * kCoefficientUnit;
     return tuples;
-}
-
-std::vector<vec3> tuplesOf(const SparseTransport& transport, const LightVector& light) {
-    return scaledSums(transport, light);
-}
-
-std::vector<vec3> tuplesOf(const ClusteredTransport& transport, const LightVector& light) {
-    return scaledSums(transport, light);
 }
 
 std::vector<vec3> tuplesOf(const BasisTransport& transport, const LightVector& light) {
@@ -69,20 +60,6 @@ std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVect
             RELUME_CHECK_LT(transport.indices[entry], dense.size());
             sums[row] += unpackCoefficient(transport.values[entry]) * dense[transport.indices[entry]];
         }
-    return sums;
-}
-
-std::vector<ivec3> relightSums(const ClusteredTransport& transport, const LightVector& light) {
-    const std::vector<ivec3> dense = expand(light);
-    std::vector<ivec3> sums(transport.rows(), ivec3(0));
-    for (size_t row = 0; row < sums.size(); row++) {
-        const size_t vertex = row / transport.terms;
-        const size_t group = vertex / kClusterVertices * transport.terms + row % transport.terms;
-        for (uint64_t c = transport.columnStarts[group]; c < transport.columnStarts[group + 1]; c++)
-            sums[row] +=
-                unpackCoefficient(transport.values[c * kClusterVertices + vertex % kClusterVertices]) *
-                dense[transport.indices[c]];
-    }
     return sums;
 }
 

@@ -62,14 +62,6 @@ struct RelightRowsPush {
 };
 RELUME_SHARED_SIZE(RelightRowsPush, 8)
 
-struct RelightClustersPush {
-    uint firstGroup; // of the shard in its part
-    uint terms;
-    uint vertices; // of the part
-    uint mode;     // kRelightFull and so on
-};
-RELUME_SHARED_SIZE(RelightClustersPush, 16)
-
 // What a group of relight_project works on: 16 words, of four components each, of a cluster's columns.
 struct BasisGroup {
     uint firstColumn, columns;           // of the cluster

@@ -245,36 +245,31 @@ TEST_CASE("durable bake: batches, threads and a device out of memory do not show
     CHECK(says(little.err, "--memory"));
 }
 
-TEST_CASE("durable bake: clusters and bases go on to the same bytes, sample or not") {
-    for (const std::string layout : {"clusters", "bases --error 0.2"}) {
-        CAPTURE(layout);
-        // Parts of one and of 1681 vertices: of the second, not all are of the sample.
-        const std::string bake =
-            "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 2 -N 40 --visibility-size 64 "
-            "--face-size 32 --map-size 8 -q -o out.relume --layout " +
-            layout;
-        const BakeFolder undisturbed;
-        REQUIRE_EQ(runRelume(undisturbed, bake, kNoThreads).exitCode, 0);
-        const std::string whole = contents(undisturbed.path() / "out.relume");
-        // In the header, its sync, the scale, the sample's blocks and those that follow.
-        for (int call = 1; call < 13; call += call < 5 ? 1 : 3) {
-            CAPTURE(call);
-            const BakeFolder folder;
-            REQUIRE_EQ(runRelume(folder, bake, faults("kill", call)).exitCode, 137);
-            const Outcome resumed = runRelume(folder, bake + " --json", kNoThreads);
-            REQUIRE_MESSAGE(resumed.exitCode == 0, resumed.err);
-            // Once the scale is kept, no sample is baked again.
-            CHECK_EQ(says(resumed.out, "\"stage\":\"sample\""), call <= 3);
-            CHECK(contents(folder.path() / "out.relume") == whole);
-            CHECK_FALSE(std::filesystem::exists(folder.path() / "out.relume.checkpoint"));
-        }
+TEST_CASE("durable bake: bases go on to the same bytes, sample or not") {
+    // Parts of one and of 1681 vertices: of the second, not all are of the sample.
+    const std::string bake =
+        "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 2 -N 40 --visibility-size 64 "
+        "--face-size 32 --map-size 8 -q -o out.relume --error 0.2";
+    const BakeFolder undisturbed;
+    REQUIRE_EQ(runRelume(undisturbed, bake, kNoThreads).exitCode, 0);
+    const std::string whole = contents(undisturbed.path() / "out.relume");
+    // In the header, its sync, the scale, the sample's blocks and those that follow.
+    for (int call = 1; call < 13; call += call < 5 ? 1 : 3) {
+        CAPTURE(call);
         const BakeFolder folder;
-        for (const std::string limits : {" --memory 3M", " --threads 1", " --threads 2"}) {
-            const Outcome limited =
-                runRelume(folder, bake + limits, limits == " --memory 3M" ? kNoThreads : "");
-            REQUIRE_MESSAGE(limited.exitCode == 0, limited.err);
-            CHECK(contents(folder.path() / "out.relume") == whole);
-            std::filesystem::remove(folder.path() / "out.relume");
-        }
+        REQUIRE_EQ(runRelume(folder, bake, faults("kill", call)).exitCode, 137);
+        const Outcome resumed = runRelume(folder, bake + " --json", kNoThreads);
+        REQUIRE_MESSAGE(resumed.exitCode == 0, resumed.err);
+        // Once the scale is kept, no sample is baked again.
+        CHECK_EQ(says(resumed.out, "\"stage\":\"sample\""), call <= 3);
+        CHECK(contents(folder.path() / "out.relume") == whole);
+        CHECK_FALSE(std::filesystem::exists(folder.path() / "out.relume.checkpoint"));
+    }
+    const BakeFolder folder;
+    for (const std::string limits : {" --memory 3M", " --threads 1", " --threads 2"}) {
+        const Outcome limited = runRelume(folder, bake + limits, limits == " --memory 3M" ? kNoThreads : "");
+        REQUIRE_MESSAGE(limited.exitCode == 0, limited.err);
+        CHECK(contents(folder.path() / "out.relume") == whole);
+        std::filesystem::remove(folder.path() / "out.relume");
     }
 }

@@ -93,11 +93,11 @@ TEST_CASE("rebake: the bytes are those of a bake of the new materials, terms and
              // Blocks of 16 vertices and of 64.
              {"\"clay\"", "\"gold\"", "-K 11 -N 6144 --layout rows --keep-visibility",
               "-K 11 -N 6144 --keep-visibility"},
-             // Blocks of 256 vertices and of 32, and back.
+             // Blocks of 256 vertices.
              {"\"copper\"", "\"gold\"", "-K 2 -N 50 --error 0.1 --keep-visibility",
               "-m a=copper -N 50 --layout bases --error 0.1 --keep-visibility"},
-             {"\"clay\"", "\"gold\"", "-K 2 -N 50 --layout clusters --budget 500 --keep-visibility",
-              "-N 50 --layout clusters --budget 500 --keep-visibility"}}) {
+             {"\"clay\"", "\"gold\"", "-K 2 -N 50 --layout bases --budget 500 --keep-visibility",
+              "-N 50 --layout bases --budget 500 --keep-visibility"}}) {
         CAPTURE(c.rebake);
         folder.describe(c.a, c.b);
         const Outcome rebake = folder.rebake("kept.relume " + c.rebake, "new.relume");
@@ -109,7 +109,7 @@ TEST_CASE("rebake: the bytes are those of a bake of the new materials, terms and
     folder.describe("\"clay\"", "\"gold\"");
     const Outcome same = folder.rebake("new.relume -K 2", "same.relume");
     REQUIRE_MESSAGE(same.exitCode == 0, same.err);
-    CHECK(folder.bytes("same.relume") == baked(folder, "-K 2 -N 50 --layout clusters --budget 500"));
+    CHECK(folder.bytes("same.relume") == baked(folder, "-K 2 -N 50 --layout bases --budget 500"));
     const Outcome back = folder.rebake("new.relume -K 2 -N 8 --layout rows --keep-visibility", "new.relume");
     REQUIRE_MESSAGE(back.exitCode == 0, back.err);
     CHECK(folder.bytes("new.relume") == folder.bytes("kept.relume"));

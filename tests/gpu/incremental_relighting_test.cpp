@@ -20,8 +20,6 @@ Asset makeAsset(int faceSize) {
         part.sets.emplace_back().transport = std::move(transport);
     };
     add(test::sampleTransport(40, 2, faceSize, 60, random));
-    add(test::sampleClusters(70, 4, faceSize, 200, random));
-    add(test::sampleClusters(40, 2, faceSize, 0, random));
     add(test::sampleBases(600, 4, faceSize, 500, random));
     add(test::sampleBases(300, 1, faceSize, 90, random));
     add(test::sampleBases(40, 2, faceSize, 0, random));

@@ -138,26 +138,6 @@ TEST_CASE("relighter: tuples of sums that reach the limits of 32 bits are exact"
     CHECK(relight(part.sets[0].transport, vector)[0] == tuple);
 }
 
-TEST_CASE("relighter: clusters give the reference's bits") {
-    const TestDevice device;
-    std::mt19937 random(11);
-    Asset asset;
-    const auto add = [&](uint32_t vertices, uint32_t terms, int columns) {
-        AssetPart& part = asset.parts.emplace_back();
-        part.sets.emplace_back().transport =
-            test::sampleClusters(vertices, terms, asset.faceSize, columns, random);
-    };
-    for (uint32_t terms = 1; terms <= 32; terms += 5) add(70, terms, 90);
-    add(32, 2, 3000);
-    add(1, 1, 24000);
-    add(500, 4, 300);
-    add(40, 2, 0);
-    checkBits(device, asset, {});
-    checkBits(device, asset, {.largestShard = 1});
-    const auto& columns = std::get<ClusteredTransport>(asset.parts[9].sets[0].transport);
-    checkBits(device, asset, {.largestShard = columns.columns() * kClusterVertices * sizeof(uint32_t) / 3});
-}
-
 TEST_CASE("relighter: bases give the reference's bits") {
     const TestDevice device;
     std::mt19937 random(12);

@@ -49,8 +49,7 @@ TEST_CASE("image: a device of the least features bakes, relights and draws the s
     const Asset baked = bakeKnot(usual, VisibilityMethod::Raster);
     // The device draws though it is asked to trace.
     CHECK(encodeAsset(bakeKnot(least, VisibilityMethod::Traced)) == encodeAsset(baked));
-    for (const TransportLayout layout :
-         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
         CAPTURE(layoutName(layout));
         Asset asset = baked;
         if (layout != TransportLayout::Rows)

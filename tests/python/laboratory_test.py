@@ -368,7 +368,7 @@ class CommandTest(Folder):
         self.assertIn("solid: 6 vertices, K = 2", tables)
         with open(self.out / "layouts.csv", newline="") as file:
             ways = list(csv.DictReader(file))
-        self.assertEqual([way["layout"] for way in ways], ["source", "rows", "rows", "clusters", "bases"])
+        self.assertEqual([way["layout"] for way in ways], ["source", "rows", "rows", "bases"])
         self.assertEqual((float(ways[0]["transport_error"]), float(ways[0]["relit_error"])), (0, 0))
         self.assertGreater(float(ways[1]["transport_error"]), float(ways[2]["transport_error"]))
         self.assertGreater(float(ways[2]["transport_error"]), 0)

@@ -36,30 +36,6 @@ inline SparseTransport sampleTransport(uint32_t vertices, uint32_t terms, int fa
     return transport;
 }
 
-// `perGroup` columns at most, at random places; some groups are empty.
-inline ClusteredTransport sampleClusters(uint32_t vertices, uint32_t terms, int faceSize, int perGroup,
-                                         std::mt19937& random) {
-    ClusteredTransport transport;
-    transport.vertices = vertices;
-    transport.terms = terms;
-    transport.columnStarts.push_back(0);
-    std::geometric_distribution<int> gap(double(perGroup) / double(6 * faceSize * faceSize));
-    for (size_t group = 0; group < transport.groups(); group++) {
-        const int columns = group % 5 == 3 ? 0 : perGroup;
-        int index = gap(random);
-        for (int i = 0; i < columns && index < 6 * faceSize * faceSize; i++, index += 1 + gap(random)) {
-            transport.indices.push_back(uint16_t(index));
-            for (uint32_t vertex = 0; vertex < kClusterVertices; vertex++)
-                transport.values.push_back(packCoefficient(
-                    {int(random() % 2047) - 1023, int(random() % 2047) - 1023, int(random() % 1023) - 511}));
-        }
-        transport.columnStarts.push_back(transport.indices.size());
-    }
-    for (size_t row = 0; row < transport.rows(); row++)
-        transport.scales.push_back(float(random() % 1000) * 0.001f);
-    return transport;
-}
-
 // One to three kinds a term; clusters of `columns` columns and 2 · `terms` components at most.
 inline BasisTransport sampleBases(uint32_t vertices, uint32_t terms, int faceSize, uint32_t columns,
                                   std::mt19937& random) {
@@ -217,15 +193,13 @@ inline void reseal(std::vector<std::byte>& bytes) {
     poke(bytes, 24, hash64(head), 8);
 }
 
-// The same with a residual, a third part in clusters, and a fourth in bases.
+// The same with a residual, and a third part in bases.
 inline Asset mixedAsset(uint32_t seed = 1) {
     Asset asset = sampleAsset(seed);
     std::mt19937 random(seed + 1);
-    asset.parts.push_back(samplePart(70, 2, asset.faceSize, asset.coefficients, random));
     asset.parts[1].sets[0].residual = sampleResidual(asset.parts[1].sets[0].brdf);
-    asset.parts[2].sets[0].transport = sampleClusters(70, 2, asset.faceSize, 40, random);
     asset.parts.push_back(samplePart(300, 2, asset.faceSize, asset.coefficients, random));
-    asset.parts[3].sets[0].transport = sampleBases(300, 2, asset.faceSize, 60, random);
+    asset.parts[2].sets[0].transport = sampleBases(300, 2, asset.faceSize, 60, random);
     return asset;
 }
 

@@ -37,12 +37,12 @@ TEST_CASE("baked options: they come back") {
     options.visibilityMethod = VisibilityMethod::Raster;
     options.transportSamples = 4;
     options.occluderTriangles = 12345;
-    BakeOptions clusters = options, rows;
-    clusters.layout = {.layout = TransportLayout::Clusters, .bytesPerVertex = 123.5};
+    BakeOptions budget = options, rows;
+    budget.layout.bytesPerVertex = 123.5;
     options.layout.error = 0.03;
     rows.layout = {.layout = TransportLayout::Rows};
     rows.refinement = {0.01, 0.25, 0.0098, 0, 0, true};
-    for (const BakeOptions& each : {options, clusters, rows, BakeOptions()}) {
+    for (const BakeOptions& each : {options, budget, rows, BakeOptions()}) {
         const BakeOptions back = optionsOf(assetOf(each));
         CHECK_EQ(describeOptions(back), describeOptions(each));
         CHECK(back.factorization == each.factorization);

@@ -21,8 +21,7 @@ StoredBlock blockOf(const SampleBlocks& blocks, uint32_t block) {
 
 TEST_CASE("checkpoint: what it holds is found again, in every layout") {
     const Asset asset = shardedAsset();
-    for (const TransportLayout layout :
-         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
         CAPTURE(layoutName(layout));
         const TemporaryFolder folder;
         const BakePlan plan = planIn(asset, layout);
@@ -46,8 +45,7 @@ TEST_CASE("checkpoint: what it holds is found again, in every layout") {
 
 TEST_CASE("checkpoint: blocks without the scale that they need are dropped, and a scale that none needs") {
     const Asset asset = shardedAsset();
-    for (const TransportLayout layout :
-         {TransportLayout::Rows, TransportLayout::Clusters, TransportLayout::Bases}) {
+    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
         CAPTURE(layoutName(layout));
         const TemporaryFolder folder;
         const BakePlan plan = planIn(asset, layout);

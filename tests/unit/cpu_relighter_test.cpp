@@ -16,7 +16,6 @@ TEST_CASE("cpu relighter: every layout gives the reference's bits") {
     REQUIRE_LT(50, light.indices.size());
     REQUIRE_LT(light.indices.size(), 350); // some columns are not met
     const Transport transports[] = {test::sampleTransport(70, 3, 8, 30, random),
-                                    test::sampleClusters(70, 3, 8, 50, random),
                                     test::sampleBases(300, 3, 8, 70, random)};
     for (const Transport& transport : transports) {
         CAPTURE(layoutName(layoutOf(transport)));

@@ -318,50 +318,13 @@ TEST_CASE("layout: rows of any finite scale") {
     }
 }
 
-TEST_CASE("layout: clusters keep what a budget or an error allows, exactly") {
-    const Asset rows = assetOf(smoothRows(200, 2, 12));
-    for (const std::optional<double> budget : {std::optional<double>(), std::optional<double>(160.0)}) {
-        Asset asset = rows;
-        const Conversion conversion = convertLayout(asset, {TransportLayout::Clusters, budget, 0.1});
-        checkAsset(asset, "clusters");
-        const double error = errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport);
-        CHECK(*conversion.error == doctest::Approx(error).epsilon(1e-3));
-        if (budget) {
-            CHECK(bytesPerVertex(asset) <= *budget);
-            CHECK(bytesPerVertex(asset) > 0.97 * *budget);
-        } else {
-            CHECK(error <= 0.1);
-            CHECK(error > 0.09);
-        }
-    }
-}
-
-TEST_CASE("layout: of columns of equal energy, what is asked for decides whether all are kept or none") {
-    const std::vector<ColumnEnergy> equal(4, {1, 1});
-    CHECK(thresholdForError(equal, 2) == 1); // two could go, but only all four can
-    CHECK(thresholdForError(equal, 3.9) == 1);
-    CHECK(thresholdForError(equal, 4) > 1);
-    CHECK(thresholdForError(equal, 0.5) <= 1);
-    CHECK(thresholdForBytes(equal, 2 * 130) > 1);
-    CHECK(thresholdForBytes(equal, 4 * 130) <= 1);
-    const std::vector<ColumnEnergy> mixed = {{1, 1}, {3, 1}, {1, 2}, {2, 1}};
-    CHECK(thresholdForError(mixed, 2.5) == 1);
-    CHECK(thresholdForError(mixed, 3) == 2);
-    CHECK(thresholdForError(mixed, 5) == 3);
-    CHECK(thresholdForError(mixed, 8) > 3);
-    CHECK(thresholdForError({}, 1) == 0);
-}
-
 TEST_CASE("layout: samples that stand for twice as many find about the price of all") {
     const SparseTransport rows = smoothRows(4096, 2, 14);
     const Asset asset = assetOf(rows);
     const MaterialSet& set = asset.parts[0].sets[0];
     const float unit = transportUnit(rows, lightSpectrum(kFace));
     SparseTransport half = smoothRows(2048, 2, 14); // of the same patterns
-    for (const LayoutOptions& options :
-         {LayoutOptions{.error = 0.05}, LayoutOptions{.bytesPerVertex = 40},
-          LayoutOptions{.layout = TransportLayout::Clusters, .error = 0.1},
-          LayoutOptions{.layout = TransportLayout::Clusters, .bytesPerVertex = 200}}) {
+    for (const LayoutOptions& options : {bases({}), bases(40)}) {
         const auto priceOf = [&](const SparseTransport& sample) {
             const SetSample one{&set, {&sample}, 4096, unit};
             const LayoutScale scale = findScale({&one, 1}, kFace, 4096, options);
@@ -380,10 +343,7 @@ TEST_CASE("layout: sets without a sample do not change what the others' say") {
     const MaterialSet& set = asset.parts[0].sets[0];
     const float unit = transportUnit(rows, lightSpectrum(kFace));
     const SetSample told{&set, {&rows}, 1024, unit}, untold{&set, {}, 3072, 7};
-    for (const LayoutOptions& options :
-         {LayoutOptions{.error = 0.05}, LayoutOptions{.bytesPerVertex = 40},
-          LayoutOptions{.layout = TransportLayout::Clusters, .error = 0.1},
-          LayoutOptions{.layout = TransportLayout::Clusters, .bytesPerVertex = 200}}) {
+    for (const LayoutOptions& options : {bases({}), bases(40)}) {
         const std::array both = {untold, told};
         const LayoutScale scale = findScale(both, kFace, 4096, options);
         CHECK(scale.units == std::vector{7.0f, unit});
@@ -394,44 +354,42 @@ TEST_CASE("layout: sets without a sample do not change what the others' say") {
 
 TEST_CASE("layout: there and back") {
     const Asset rows = assetOf(smoothRows(300, 2, 13));
-    for (const TransportLayout layout : {TransportLayout::Clusters, TransportLayout::Bases}) {
-        Asset asset = rows;
-        uint64_t last = 0;
-        const auto progress = [&](uint64_t done, uint64_t total) {
-            CHECK(total == 300);
-            last = done;
-        };
-        const Conversion there = convertLayout(asset, {layout, {}, 1e-3}, progress);
-        CHECK(last == 300);
-        REQUIRE(asset.layout);
-        CHECK(asset.layout->error == *there.error);
-        CHECK(asset.layout->wantedError == 1e-3);
-        CHECK(!asset.layout->wantedBytes);
-        last = 0;
-        const Conversion back = convertLayout(asset, {TransportLayout::Rows, {}, 0}, progress);
-        CHECK(last == 300);
-        CHECK(!back.error);
-        REQUIRE(asset.layout); // what was lost is lost
-        CHECK(asset.layout->error == *there.error);
-        checkAsset(asset, "back");
-        REQUIRE(layoutOf(asset.parts[0].sets[0].transport) == TransportLayout::Rows);
-        // Bytes leave an error of their own.
-        CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) <
-              (layout == TransportLayout::Bases ? 0.012 : 2e-3));
-    }
-    // One layout into another: making rows is a third of the work, and can be stopped too.
-    Asset clusters = rows;
-    convertLayout(clusters, {TransportLayout::Clusters, {}, 1e-3});
-    const std::vector<std::byte> before = encodeAsset(clusters);
+    Asset asset = rows;
+    uint64_t last = 0;
+    const auto progress = [&](uint64_t done, uint64_t total) {
+        CHECK(total == 300);
+        last = done;
+    };
+    const Conversion there = convertLayout(asset, bases({}, 1e-3), progress);
+    CHECK(last == 300);
+    REQUIRE(asset.layout);
+    CHECK(asset.layout->error == *there.error);
+    CHECK(asset.layout->wantedError == 1e-3);
+    CHECK(!asset.layout->wantedBytes);
+    last = 0;
+    const Conversion back = convertLayout(asset, {TransportLayout::Rows, {}, 0}, progress);
+    CHECK(last == 300);
+    CHECK(!back.error);
+    REQUIRE(asset.layout); // what was lost is lost
+    CHECK(asset.layout->error == *there.error);
+    checkAsset(asset, "back");
+    REQUIRE(layoutOf(asset.parts[0].sets[0].transport) == TransportLayout::Rows);
+    // Bytes leave an error of their own.
+    CHECK(errorOf(asset.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) < 0.012);
+
+    // Bases into other bases: making rows is a third of the work, and can be stopped too.
+    Asset twice = rows;
+    convertLayout(twice, bases({}, 1e-3));
+    const std::vector<std::byte> before = encodeAsset(twice);
     struct Stop {};
     const auto stop = [](uint64_t done, uint64_t) {
         CHECK(done == 100);
         throw Stop();
     };
-    CHECK_THROWS_AS(convertLayout(clusters, bases({}), stop), Stop);
-    CHECK(encodeAsset(clusters) == before);
+    CHECK_THROWS_AS(convertLayout(twice, bases({}), stop), Stop);
+    CHECK(encodeAsset(twice) == before);
     std::vector<uint64_t> reports;
-    convertLayout(clusters, bases({}), [&](uint64_t done, uint64_t total) {
+    convertLayout(twice, bases({}), [&](uint64_t done, uint64_t total) {
         CHECK(total == 300);
         reports.push_back(done);
     });
@@ -440,7 +398,7 @@ TEST_CASE("layout: there and back") {
     // A chain's errors add.
     Asset chained = rows;
     const double first = *convertLayout(chained, bases({}, 0.06)).error;
-    const Conversion second = convertLayout(chained, {TransportLayout::Clusters, {}, 0.03});
+    const Conversion second = convertLayout(chained, bases({}, 0.03));
     CHECK(chained.layout->error == doctest::Approx(std::hypot(first, *second.error)));
     CHECK(*second.error < 0.04);
     CHECK(errorOf(chained.parts[0].sets[0].transport, rows.parts[0].sets[0].transport) ==

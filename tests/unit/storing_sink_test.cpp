@@ -13,7 +13,7 @@ using namespace relume::test;
 TEST_CASE(
     "storing sink: keeps blocks as they are stored, in their order, on any threads and in little memory") {
     const Asset asset = shardedAsset();
-    const BakePlan plan = planIn(asset, TransportLayout::Clusters);
+    const BakePlan plan = planIn(asset, TransportLayout::Bases);
     for (const size_t threads : {1, 4})
         for (const uint64_t bytes : {uint64_t(0), uint64_t(1) << 20}) {
             CAPTURE(threads);

@@ -8,31 +8,13 @@
 using namespace relume;
 using namespace relume::test;
 
-TEST_CASE("transport check: clusters that make no sense are refused") {
-    const auto refuses = [](const auto& spoil) {
-        Asset asset = mixedAsset();
-        spoil(std::get<ClusteredTransport>(asset.parts[2].sets[0].transport));
-        CHECK_THROWS_AS(checkAsset(asset, "test"), Error);
-    };
-    checkAsset(mixedAsset(), "test");
-    refuses([](ClusteredTransport& t) { t.vertices++; });
-    refuses([](ClusteredTransport& t) { t.terms--; });
-    refuses([](ClusteredTransport& t) { t.columnStarts.pop_back(); });
-    refuses([](ClusteredTransport& t) { t.columnStarts[1] = 1000000; });
-    refuses([](ClusteredTransport& t) { std::swap(t.columnStarts[1], t.columnStarts[2]); });
-    refuses([](ClusteredTransport& t) { t.scales[3] = -1; });
-    refuses([](ClusteredTransport& t) { t.indices[1] = t.indices[0]; });
-    refuses([](ClusteredTransport& t) { t.indices.back() = 384; });
-    refuses([](ClusteredTransport& t) { t.values.pop_back(); });
-    refuses([](ClusteredTransport& t) { t.values[0] = 0x400; });
-}
-
 TEST_CASE("transport check: bases that make no sense are refused") {
     const auto refuses = [](const auto& spoil) {
         Asset asset = mixedAsset();
-        spoil(std::get<BasisTransport>(asset.parts[3].sets[0].transport));
+        spoil(std::get<BasisTransport>(asset.parts[2].sets[0].transport));
         CHECK_THROWS_AS(checkAsset(asset, "test"), Error);
     };
+    checkAsset(mixedAsset(), "test");
     refuses([](BasisTransport& t) { t.vertices++; });
     refuses([](BasisTransport& t) { t.terms--; });
     refuses([](BasisTransport& t) { t.kinds[2].term = 0; });
