@@ -1,6 +1,7 @@
 #include "apps/relume/bake_report.h"
 
 #include "engine/base/interrupt.h"
+#include "precompute/refine/refinement_record.h"
 
 #include <cstdio>
 #include <fmt/format.h>
