@@ -235,7 +235,7 @@ TEST_CASE("cli: a material that cannot be used is named before the work") {
          std::vector<std::pair<std::string, std::string>>{{"missing.binary", "missing.binary"},
                                                           {"cut.binary", "cut.binary"},
                                                           {"missing.json", "missing.json"}}) {
-        const Outcome outcome = runRelume(folder, std::string(kSmallBake) + "-o x.relume -m " + material);
+        const Outcome outcome = runRelume(folder, kSmallBake + ("-o x.relume -m " + material));
         CHECK_EQ(outcome.exitCode, 1);
         CHECK(says(outcome.err, part));
     }
