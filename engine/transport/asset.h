@@ -89,8 +89,8 @@ Bounds boundsOf(const Asset& asset);
 // Of everything but a ground, which would push the object out of the picture's middle.
 Bounds objectBounds(const Asset& asset);
 
-// Vertices of a block of this asset: what is baked, kept in a checkpoint and written as a run. A cluster
-// of bases; of rows as transport_chunk.h says.
+// Returns the number of vertices of a block, which is baked, kept in a checkpoint and written as a run: with
+// bases those of a cluster, with rows as many as transport_chunk.h says.
 uint32_t blockVertices(const Asset& asset);
 
 // Vertices of a run of kept visibility: a block, or a part of it.

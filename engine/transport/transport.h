@@ -21,8 +21,8 @@ Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t ter
 const char* layoutName(TransportLayout layout); // "rows", "bases"
 std::optional<TransportLayout> layoutFromName(std::string_view name);
 
-// As a file names it; `where` stands for the file in errors. Throws Error for layouts that are not read, of
-// which clusters were one once.
+// Returns the layout that a file names. `where` stands for the file in errors. Throws Error for names of no
+// layout, and for "clusters", which version 0.1 had.
 TransportLayout readLayoutName(std::string_view name, const std::string& where);
 
 // Of a set that is known to be in rows.
@@ -37,7 +37,7 @@ uint32_t termsOf(const Transport& transport);
 // The coefficients, `count` of them, that a row stands for: of term row % terms of vertex row / terms.
 std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count);
 
-// Of rows: their entries; of bases: their columns.
+// Returns the number of entries of rows, or of columns of bases.
 uint64_t entriesOf(const Transport& transport);
 
 // What relighting may read of it, in memory: coefficients, indices, weights and scales.

@@ -15,10 +15,10 @@ constexpr double kMostLayoutBytes = 1e6; // per vertex, that may be asked for
 
 struct LayoutOptions {
     TransportLayout layout = TransportLayout::Bases;
-    // Of bases, one of both. Bytes of transport in memory per vertex of the asset, or the error
-    // of transport, weighted as light weighs it: root mean square, relative to each set's variation
-    // (transportUnit() in cluster_matrix.h).
+    // The budget of bases: bytes of transport in memory per vertex of the asset. None: `error` decides.
     std::optional<double> bytesPerVertex;
+    // The error of transport that bases may have, weighted as light weighs it: root mean square, relative to
+    // each set's variation (transportUnit() in cluster_matrix.h).
     double error = kDefaultLayoutError;
 
     bool operator==(const LayoutOptions&) const = default;

@@ -9,9 +9,9 @@
 
 namespace relume {
 
-// Of what decides the bytes of bases besides a bake's inputs and options: which sample tells the
-// scale, and how it and a scale's bytes are found. Raised with every change of these, so that blocks of
-// different programs never meet in one bake.
+// The version of what decides the bytes of bases besides a bake's inputs and options: which sample is taken,
+// how the scale follows from it, and how clusters are encoded with that. It is raised with every change of
+// these, so that blocks of different programs never meet in one bake.
 constexpr uint32_t kLayoutEncoderVersion = 2;
 
 struct LayoutScale {
@@ -29,8 +29,9 @@ struct SetSample {
     float unit;                                 // transportUnit() of the set
 };
 
-// For what `options` ask for of bases, as these samples tell it; sets without any are taken to be
-// as the others are. `vertices`: of the asset, which a budget is for. The same on every machine.
+// Finds the scale at which bases come closest to what `options` ask for, as the samples tell it; sets without
+// any are taken to be as the others are. A budget is for the asset's `vertices`. The scale is the same on
+// every machine.
 LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
                       const LayoutOptions& options);
 

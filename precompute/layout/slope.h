@@ -1,5 +1,5 @@
-// One price of a byte for all clusters: the whole has then the least error for its bytes. Clusters may
-// stand for several (their weight).
+// Cuts all clusters at one slope of error against bytes, their price, which gives the whole the least error
+// for its bytes (Shoham and Gersho 1988). A cluster's weight is how many it stands for.
 #pragma once
 
 #include "precompute/layout/basis_analysis.h"

@@ -1,4 +1,4 @@
-// Where a ray meets a triangle's plane. C++ twin: Embree, in precompute/visibility/ray_tracer.h.
+// Finds where a ray meets a triangle's plane. Its C++ twin is Embree, in precompute/visibility/ray_tracer.h.
 #ifndef RELUME_SHADERS_LIB_BARYCENTRIC_GLSL
 #define RELUME_SHADERS_LIB_BARYCENTRIC_GLSL
 
