@@ -410,12 +410,10 @@ TEST_CASE("asset file: transport in clusters, and in layouts to come, is refused
     };
     CHECK(refusal([&] { decodeAsset(fileIn("clusters"), "a.relume"); }) ==
           "a.relume: chunk META: transport is in clusters, a layout that is no longer read; bake again, or "
-          "convert "
-          "the file with the program that made it: relume convert FILE --layout bases -o NEW");
+          "convert the file with the program that made it: relume convert FILE --layout bases -o NEW");
     CHECK(refusal([&] { decodeAsset(fileIn("cells"), "a.relume"); }) ==
           "a.relume: chunk META: transport is in the layout \"cells\", and this program knows rows and "
-          "bases; the "
-          "file is damaged or of a later program");
+          "bases; the file is damaged or of a later program");
     // Chunks of it in a set that says to be in rows.
     CHECK(refusal([&] { decodeAsset(fileIn("rows"), "a.relume"); }).starts_with("a.relume: chunk TRCL of"));
 

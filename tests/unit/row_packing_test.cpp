@@ -2,6 +2,7 @@
 
 #include "precompute/reference/transport_stages.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 #include <random>
 
@@ -20,7 +21,7 @@ void checkAgainstTwin(const std::vector<vec3>& coefficients, int count) {
 
 } // namespace
 
-TEST_CASE("rows packed on the CPU are the twin's") {
+TEST_CASE("row packing: the rows are the twin's") {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
     std::vector<vec3> coefficients(6 * 64 * 64, vec3(0));
@@ -30,13 +31,13 @@ TEST_CASE("rows packed on the CPU are the twin's") {
     for (const int count : {0, 1, 96, 384, 6 * 64 * 64}) checkAgainstTwin(coefficients, count);
 }
 
-TEST_CASE("of equal coefficients a packed row keeps the first") {
+TEST_CASE("row packing: of equal coefficients the first are kept") {
     const std::vector<vec3> equal(100, vec3(1, 0, 0));
     CHECK(packLargest(equal, 3).indices == std::vector<uint16_t>{0, 1, 2});
     checkAgainstTwin(equal, 3);
 }
 
-TEST_CASE("a packed row has neither zeros nor what becomes zero") {
+TEST_CASE("row packing: neither zeros nor what becomes zero are kept") {
     std::vector<vec3> coefficients(65536, vec3(0));
     coefficients[9] = vec3(0, 1e-6f, 0), coefficients[65535] = vec3(0, 0, -2);
     const PackedRow row = packLargest(coefficients, 5);
