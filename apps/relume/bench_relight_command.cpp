@@ -38,13 +38,14 @@ double medianRatio(std::vector<double> values, const std::vector<double>& diviso
 
 RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
     RelightBenchInput input{&source, {}};
-    for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
+    for (size_t i = 0; i < kLayoutFacts.size(); i++) {
+        const auto layout = TransportLayout(i);
         LayoutOptions options;
         options.layout = layout;
         options.bytesPerVertex = arguments.budget;
         options.error = arguments.error;
         std::optional<int> coefficients;
-        if (layout == TransportLayout::Rows) coefficients = arguments.coefficients;
+        if (!isCompressed(layout)) coefficients = arguments.coefficients;
         Asset asset = source;
         Progress progress(fmt::format("converting to {}", layoutName(layout)), verticesOf(source), "vertices",
                           arguments.json);

@@ -5,8 +5,8 @@
 #include "engine/base/file.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
+#include "engine/chunk/chunk_file.h"
 #include "engine/import/old_asset.h"
-#include "engine/transport/chunk_file.h"
 #include "engine/transport/kept_visibility.h"
 #include "precompute/bake_observer.h"
 #include "precompute/layout/conversion.h"
@@ -30,7 +30,7 @@ struct Arguments {
 
 LayoutOptions optionsOf(const Arguments& arguments) {
     const LayoutOptions options = arguments.layout.resolve();
-    if (options.layout != TransportLayout::Rows && arguments.coefficients)
+    if (isCompressed(options.layout) && arguments.coefficients)
         throw UsageError("--coefficients: shortens rows; bases have --budget and --error");
     return options;
 }

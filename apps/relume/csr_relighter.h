@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/light/light_vector.h"
-#include "engine/transport/sparse_transport.h"
+#include "engine/transport/rows/sparse_transport.h"
 
 #include <Eigen/SparseCore>
 #include <array>

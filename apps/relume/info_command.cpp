@@ -45,7 +45,7 @@ static nlohmann::json describePreset(const Asset& asset) {
 static uint64_t storedTransport(const ChunkFile& file) {
     uint64_t bytes = 0;
     for (const ChunkEntry& entry : file.entries())
-        if (std::ranges::find(kLayoutTags, entry.tag) != std::end(kLayoutTags)) bytes += entry.storedSize;
+        if (isLayoutTag(entry.tag)) bytes += entry.storedSize;
     return bytes;
 }
 

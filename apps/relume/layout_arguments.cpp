@@ -10,8 +10,7 @@ namespace relume {
 
 void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
     std::vector<std::string> names;
-    for (size_t i = 0; i < std::variant_size_v<Transport>; i++)
-        names.push_back(layoutName(TransportLayout(i)));
+    for (const LayoutFacts& facts : kLayoutFacts) names.push_back(facts.name);
     const LayoutOptions defaults;
     command
         .add_option("--layout", mLayout,
@@ -42,13 +41,13 @@ LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
     LayoutOptions options = otherwise;
     if (mLayout)
         options.layout = *layoutFromName(*mLayout);
-    else if ((mBudget || mError) && options.layout == TransportLayout::Rows)
+    else if ((mBudget || mError) && !isCompressed(options.layout))
         options.layout = TransportLayout::Bases; // rows know of neither
-    if (options.layout == TransportLayout::Rows) {
+    if (!isCompressed(options.layout)) {
         if (mBudget || mError)
             throw UsageError("--layout rows: --budget and --error are for bases; rows are "
                              "shortened by --coefficients");
-        return {.layout = TransportLayout::Rows};
+        return {.layout = options.layout};
     }
     if (mBudget) options.bytesPerVertex = mBudget;
     if (mError) {

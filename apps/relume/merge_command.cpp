@@ -58,7 +58,7 @@ uint64_t basesBytes(const std::vector<ShardFile>& shards) {
     uint64_t bytes = 0;
     for (const ShardFile& shard : shards)
         for (const ChunkEntry& entry : shard.chunks().entries())
-            if (entry.tag == kBases) bytes += entry.storedSize;
+            if (entry.tag == BasisTransport::kTag) bytes += entry.storedSize;
     return bytes;
 }
 

@@ -20,7 +20,7 @@ struct RelightBenchInput {
 struct LayoutSeries {
     std::vector<double> deviceMs; // to record, submit and wait for relighting alone
     std::vector<double> cpuMs;
-    std::vector<double> bytesTouched; // relight_traffic.h
+    std::vector<double> bytesTouched; // of transport that is read at least, and of tuples
     std::vector<double> errors;       // of tuples, relative L2 to the source's under the light as given
     // With a small lamp beside the light, after it moved by a degree.
     std::vector<double> lampMs;                   // in full

@@ -1,8 +1,8 @@
 #include "engine/import/asset_info.h"
 
+#include "engine/chunk/chunk_file.h"
 #include "engine/import/json_object.h"
 #include "engine/transport/asset_meta.h"
-#include "engine/transport/chunk_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -66,15 +66,13 @@ std::string describeSamples(int samples) {
     }
 }
 
-std::string describeLayout(const Transport& transport) {
-    switch (layoutOf(transport)) {
-    case TransportLayout::Rows:
-        return "rows, 11, 11 and 10 bits for red, green and blue";
-    case TransportLayout::Bases:
-        return fmt::format("bases, {} vertices share basis vectors; 8 bits for these and for weights",
-                           kBasisVertices);
-    }
-    return "";
+std::string describeLayout(const SparseTransport&) {
+    return "rows, 11, 11 and 10 bits for red, green and blue";
+}
+
+std::string describeLayout(const BasisTransport&) {
+    return fmt::format("bases, {} vertices share basis vectors; 8 bits for these and for weights",
+                       kBasisVertices);
 }
 
 // Returns the value of an option that the bake recorded, or null.
@@ -137,7 +135,9 @@ Json describeApproximations(const Asset& asset) {
                         asset.coefficients, all));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
-            list.push_back(fmt::format("layout of {}: {}", part.name, describeLayout(set.transport)));
+            list.push_back(fmt::format(
+                "layout of {}: {}", part.name,
+                std::visit([](const auto& layout) { return describeLayout(layout); }, set.transport)));
     if (asset.layout)
         list.push_back(fmt::format(
             "error of the layout against the rows as baked: {:.2f} % of what tells vertices apart, {}",

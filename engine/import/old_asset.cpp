@@ -1,11 +1,11 @@
 #include "engine/import/old_asset.h"
 
 #include "engine/base/error.h"
+#include "engine/chunk/byte_stream.h"
 #include "engine/import/json_object.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
-#include "engine/transport/byte_stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +97,17 @@ LayoutRecord readLayout(const Reader& in) {
     return layout;
 }
 
+void readKinds(const Reader&, SparseTransport&) {}
+
+void readKinds(const Reader& in, BasisTransport& bases) {
+    const Json& kinds = in.array("kinds");
+    for (size_t i = 0; i < kinds.size() && i <= 3 * kLargestTerms; i++) {
+        const Reader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
+        bases.kinds.push_back({uint32_t(kind.integer("term", 0, kLargestTerms - 1)),
+                               {kind.real("red"), kind.real("green"), kind.real("blue")}});
+    }
+}
+
 void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     MaterialSet set;
     set.brdf.terms = in.integer("terms", 1, kLargestTerms);
@@ -109,14 +120,7 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     const std::string layout = in.has("layout") ? in.text("layout") : layoutName(TransportLayout::Rows);
     set.transport =
         emptyTransport(readLayoutName(layout, in.where()), uint32_t(vertices), uint32_t(set.brdf.terms));
-    if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
-        const Json& kinds = in.array("kinds");
-        for (size_t i = 0; i < kinds.size() && i <= 3 * kLargestTerms; i++) {
-            const Reader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
-            bases->kinds.push_back({uint32_t(kind.integer("term", 0, kLargestTerms - 1)),
-                                    {kind.real("red"), kind.real("green"), kind.real("blue")}});
-        }
-    }
+    std::visit([&](auto& own) { readKinds(in, own); }, set.transport);
     const Json& materials = in.array("materials");
     for (size_t i = 0; i < materials.size(); i++) {
         const Reader material(materials[i], fmt::format("{}: material {}", in.where(), i));

@@ -1,7 +1,6 @@
 #include "engine/render/relighter.h"
 
 #include "engine/base/check.h"
-#include "engine/render/rows_relighter.h"
 #include "engine/vk/upload.h"
 
 #include <algorithm>
@@ -21,16 +20,21 @@ Relighter::Relighter(const vk::Device& device, const Asset& asset, const Relight
     mSpheres = std::make_unique<LitSpheres>(device, asset, options.residual);
 }
 
+// What relights a layout; not defined.
+RowsRelighter relighterOf(const SparseTransport&);
+BasesRelighter relighterOf(const BasisTransport&);
+
 std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, const std::string& name,
                                                  uint64_t largestShard) {
     const uint32_t coefficients = 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize);
-    if (const auto* rows = std::get_if<SparseTransport>(&transport)) {
-        if (!mRows) mRows = std::make_unique<vk::ComputeProgram>(RowsRelighter::makeProgram(mDevice));
-        return std::make_unique<RowsRelighter>(mDevice, *mRows, *rows, coefficients, largestShard, name);
-    }
-    if (!mBases) mBases = std::make_unique<BasesRelighter::Programs>(mDevice);
-    return std::make_unique<BasesRelighter>(mDevice, *mBases, std::get<BasisTransport>(transport),
-                                            coefficients, largestShard, name);
+    return std::visit(
+        [&](const auto& kept) -> std::unique_ptr<SetRelighter> {
+            using Set = decltype(relighterOf(kept));
+            auto& programs = std::get<std::unique_ptr<typename Set::Programs>>(mPrograms);
+            if (!programs) programs = std::make_unique<typename Set::Programs>(mDevice);
+            return std::make_unique<Set>(mDevice, *programs, kept, coefficients, largestShard, name);
+        },
+        transport);
 }
 
 void Relighter::record(vk::Commands& commands, const LightPass& light, const Appearance& appearance) {
@@ -38,9 +42,10 @@ void Relighter::record(vk::Commands& commands, const LightPass& light, const App
     RELUME_CHECK_EQ(light.faceSize(), mFaceSize);
     // An earlier frame of the same submission may still be reading the tuples.
     commands.barrier(Stage::Draw, Stage::Compute);
+    const DeviceLight onDevice{light.table(), light.stats(), light.recording(), light.recordingBefore()};
     commands.pass("relight", [&] {
         for (size_t part = 0; part < mParts.size(); part++)
-            mParts[part].at(appearance.empty() ? 0 : appearance[part].set)->record(commands, light, mMode);
+            mParts[part].at(appearance.empty() ? 0 : appearance[part].set)->record(commands, onDevice, mMode);
         commands.barrier(Stage::Compute, Stage::Draw);
     });
     mSpheres->recordLight(commands, light);

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "engine/render/appearance.h"
-#include "engine/render/bases_relighter.h"
+#include "engine/render/light_pass.h"
 #include "engine/render/lit_spheres.h"
 #include "engine/transport/asset.h"
+#include "engine/transport/bases/bases_relighter.h"
+#include "engine/transport/rows/rows_relighter.h"
 
 #include <limits>
 #include <memory>
+#include <tuple>
 
 namespace relume {
 
@@ -51,8 +54,7 @@ class Relighter {
     int mFaceSize;
     RelightMode mMode = RelightMode::Auto;
     // Of the layouts that are there; where they are they stay, as the sets refer to them.
-    std::unique_ptr<vk::ComputeProgram> mRows;
-    std::unique_ptr<BasesRelighter::Programs> mBases;
+    std::tuple<std::unique_ptr<RowsRelighter::Programs>, std::unique_ptr<BasesRelighter::Programs>> mPrograms;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
     std::unique_ptr<LitSpheres> mSpheres;
 };

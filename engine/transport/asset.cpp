@@ -1,6 +1,6 @@
 #include "engine/transport/asset.h"
 
-#include "engine/transport/transport_chunk.h"
+#include "engine/transport/layout_chunks.h"
 
 #include <algorithm>
 
@@ -20,13 +20,18 @@ Bounds objectBounds(const Asset& asset) {
 }
 
 uint32_t blockVertices(const Asset& asset) {
-    for (const AssetPart& part : asset.parts)
-        for (const MaterialSet& set : part.sets)
-            if (layoutOf(set.transport) == TransportLayout::Bases) return kBasisVertices;
     int terms = 1;
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets) terms = std::max(terms, set.brdf.terms);
-    return blockVertices(asset.coefficients, terms);
+    uint32_t vertices = 1;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            vertices = std::max(vertices, std::visit(
+                                              [&](const auto& layout) {
+                                                  return blockVertices(layout, asset.coefficients, terms);
+                                              },
+                                              set.transport));
+    return vertices;
 }
 
 uint32_t visibilityRunVertices(const Asset& asset) {

@@ -64,7 +64,7 @@ struct Provenance {
 
 // How transport that is not in rows was cut down to its layout: what was asked for, one of both, and what
 // came of it. Errors are as light weighs them, root mean square, relative to how far a set's vertices are
-// from their mean (precompute/layout/cluster_matrix.h).
+// from their mean (precompute/transport/unit_sum.h).
 struct LayoutRecord {
     std::optional<double> wantedBytes; // per vertex, in memory
     std::optional<double> wantedError;
@@ -90,7 +90,7 @@ Bounds boundsOf(const Asset& asset);
 Bounds objectBounds(const Asset& asset);
 
 // Returns the number of vertices of a block, which is baked, kept in a checkpoint and written as a run: with
-// bases those of a cluster, with rows as many as transport_chunk.h says.
+// bases those of a cluster, with rows as many as rows_chunk.h says.
 uint32_t blockVertices(const Asset& asset);
 
 // Vertices of a run of kept visibility: a block, or a part of it.

@@ -1,8 +1,8 @@
 // The arrays of an asset and their chunks' tags, in file order.
 #pragma once
 
+#include "engine/chunk/chunk_file.h"
 #include "engine/transport/asset.h"
-#include "engine/transport/chunk_file.h"
 
 #include <set>
 
@@ -16,9 +16,6 @@ constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP"
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kResidualKernels = chunkTag("RKER"), kIrradianceWeights = chunkTag("RIRR");
-constexpr ChunkTag kTransport = chunkTag("TRAN"), kBases = chunkTag("TRBS");
-constexpr ChunkTag kLayoutTags[] = {kTransport, kBases}; // in the order of TransportLayout
-static_assert(std::size(kLayoutTags) == std::variant_size_v<Transport>);
 constexpr ChunkTag kVisibility = chunkTag("visb");
 // In a shard of a bake only.
 constexpr ChunkTag kShard = chunkTag("SHRD"), kBlockLosses = chunkTag("LOSS");

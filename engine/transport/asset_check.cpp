@@ -1,34 +1,21 @@
 #include "engine/transport/asset_check.h"
 
-#include "engine/base/error.h"
-#include "engine/transport/transport_check.h"
+#include "engine/chunk/expect.h"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 namespace relume {
 
 namespace {
 
-void expect(bool holds, const std::string& where, const char* what) {
-    if (!holds) throw Error(fmt::format("{}: expected {}", where, what));
-}
-
 void expectRange(int64_t value, int64_t low, int64_t high, const std::string& where, const char* what) {
     if (value < low || value > high)
         throw Error(fmt::format("{}: expected {} of {} to {}, found {}", where, what, low, high, value));
 }
 
-void expectCount(size_t count, size_t expected, const std::string& where, const char* what) {
-    if (count != expected)
-        throw Error(fmt::format("{}: expected {} {}, found {}", where, expected, what, count));
-}
-
 bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool isMagnitude(float value) { return std::isfinite(value) && value >= 0; }
 bool allFinite(const std::vector<vec3>& values) { return std::ranges::all_of(values, isFinite); }
 
 bool isSquare(int value) {
@@ -208,10 +195,11 @@ void checkAsset(const Asset& asset, const std::string& name) {
         for (const MaterialSet& set : part.sets) {
             expectCount(verticesOf(set.transport), part.mesh.vertexCount(), where, "vertices with transport");
             expectCount(termsOf(set.transport), size_t(set.brdf.terms), where, "transport terms");
-            if (const auto* bases = std::get_if<BasisTransport>(&set.transport))
-                checkTransport(*bases, coefficients, where);
-            else
-                checkTransport(rowsOf(set.transport), coefficients, uint64_t(asset.coefficients), where);
+            std::visit(
+                [&](const auto& transport) {
+                    checkTransport(transport, coefficients, uint64_t(asset.coefficients), where);
+                },
+                set.transport);
         }
     }
 }

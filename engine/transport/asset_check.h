@@ -1,13 +1,13 @@
 // What must hold in every asset, whether it is about to be written or has just been read.
 #pragma once
 
+#include "engine/chunk/block_chunk.h"
 #include "engine/transport/asset.h"
 
 namespace relume {
 
 constexpr int kSmallestFace = 8, kLargestFace = 64; // indices of 6 · 64² coefficients fit 16 bits
 constexpr int kLargestVisibility = 1024;
-constexpr int kLargestTerms = 32;
 constexpr int kLargestLayers = 64; // of view maps in a set
 constexpr int kSmallestMap = 4, kLargestMap = 256;
 

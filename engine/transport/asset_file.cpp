@@ -2,13 +2,12 @@
 #include "engine/transport/asset_file.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/chunk/byte_stream.h"
 #include "engine/transport/asset.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
-#include "engine/transport/basis_chunk.h"
-#include "engine/transport/byte_stream.h"
-#include "engine/transport/transport_chunk.h"
+#include "engine/transport/layout_chunks.h"
 
 #include <algorithm>
 #include <cstring>
@@ -23,16 +22,15 @@ constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals,  kTriangles, kUvs,
                                   kColors,    kTangents, kBaseColor, kMaterialMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
-constexpr ChunkTag kSetTags[] = {kLightMaps,         kViewMaps,  kEigenvalues, kResidualKernels,
-                                 kIrradianceWeights, kTransport, kBases};
+constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kResidualKernels, kIrradianceWeights};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
+bool isOfSet(ChunkTag tag) { return isIn(tag, kSetTags) || isLayoutTag(tag); }
+const char* ownerOf(ChunkTag tag) { return isOfSet(tag) ? "set" : "part"; }
 
 // Every array but the transport is made of elements of one to four 32-bit words.
 constexpr size_t kElementsPerChunk = size_t(1) << 19;
 static_assert(kElementsPerChunk * sizeof(vec4) <= kLargestChunk);
-static_assert(kRunHeaderBytes + kRunRows * kRunRowBytes + kRunEntries * kRunEntryBytes <= kLargestChunk);
-static_assert(largestBasisChunk(kLargestTerms) <= kLargestChunk);
 
 template <typename Element>
 void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector<Element>& elements) {
@@ -47,91 +45,23 @@ void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector
     }
 }
 
-void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport, uint32_t block) {
-    for (uint32_t run = 0; run * uint64_t(block) < transport.vertices; run++) {
-        const uint32_t first = run * block, end = std::min(transport.vertices - first, block) + first;
-        file.add(kTransport, owner, run, encodeRun(transport, {first, end}));
-    }
-}
-
-std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t owner) {
-    const char* kind = isIn(tag, kSetTags) ? "set" : "part";
-    const std::string of = owner == kWholeFile ? "" : fmt::format(" of {} {}", kind, owner);
-    return fmt::format("{}: chunk {}{}", file.name(), tagText(tag), of);
-}
-
-std::string whereOf(const ChunkFile& file, const ChunkEntry& entry) {
-    return fmt::format("{}, run {}", whereOf(file, entry.tag, entry.owner), entry.run);
-}
-
-// Chunks of an array and, before anything is allocated for it, their sizes.
-std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t chunkBytes,
-                                  uint64_t contentBytes) {
-    const std::vector<ChunkEntry> runs = file.find(tag, owner);
-    uint64_t found = 0;
-    for (const ChunkEntry& run : runs) found += run.rawSize;
-    const uint64_t expected = contentBytes + chunkBytes * runs.size();
-    if (found != expected)
-        throw Error(
-            fmt::format("{}: expected {} bytes, found {}", whereOf(file, tag, owner), expected, found));
-    return runs;
-}
-
 template <typename Element>
 std::vector<Element> readArray(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t count) {
-    const auto runs = findSized(file, tag, owner, 0, count * sizeof(Element));
+    const auto runs =
+        findSized(file, tag, owner, 0, count * sizeof(Element), whereOf(file, tag, owner, ownerOf(tag)));
     std::vector<Element> elements(count);
     size_t read = 0;
     for (const ChunkEntry& run : runs) {
         if (run.rawSize % sizeof(Element) != 0)
-            throw Error(fmt::format("{}: {} bytes are not a multiple of {}", whereOf(file, run), run.rawSize,
-                                    sizeof(Element)));
-        const std::string where = whereOf(file, run);
+            throw Error(fmt::format("{}: {} bytes are not a multiple of {}", whereOf(file, run, ownerOf(tag)),
+                                    run.rawSize, sizeof(Element)));
+        const std::string where = whereOf(file, run, ownerOf(tag));
         const std::vector<std::byte> raw = file.load(run);
         const auto words = ByteReader(raw, where).getPlanes<uint32_t>(raw.size() / sizeof(uint32_t));
         std::memcpy(&elements[read], words.data(), raw.size());
         read += raw.size() / sizeof(Element);
     }
     return elements;
-}
-
-void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint32_t coefficients,
-                   SparseTransport& transport) {
-    const uint64_t bytes = transport.rows() * kRunRowBytes + entries * kRunEntryBytes;
-    const auto runs = findSized(file, kTransport, owner, kRunHeaderBytes, bytes);
-    transport.rowStarts.reserve(transport.rows() + 1);
-    transport.rowStarts.push_back(0);
-    transport.scales.reserve(transport.rows());
-    transport.indices.reserve(entries);
-    transport.values.reserve(entries);
-    for (const ChunkEntry& run : runs)
-        decodeRun(file.load(run), coefficients, entries, whereOf(file, run), transport);
-}
-
-void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t) {
-    for (size_t cluster = 0; cluster < transport.clusters.size(); cluster++)
-        file.add(kBases, owner, uint32_t(cluster),
-                 encodeBasisCluster(transport.clusters[cluster], uint32_t(cluster),
-                                    transport.verticesOf(cluster)));
-}
-
-void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,
-                   BasisTransport& transport) {
-    for (const ChunkEntry& run : file.find(kBases, owner)) {
-        const size_t next = transport.clusters.size();
-        if (next >= transport.clusterCount())
-            throw Error(fmt::format("{}: expected {} clusters, found more", whereOf(file, run),
-                                    transport.clusterCount()));
-        transport.clusters.push_back(decodeBasisCluster(file.load(run), uint32_t(next),
-                                                        transport.verticesOf(next), transport.kinds.size(),
-                                                        coefficients, whereOf(file, run)));
-    }
-    uint64_t found = 0;
-    for (const BasisCluster& cluster : transport.clusters) found += cluster.columns();
-    if (transport.clusters.size() != transport.clusterCount() || found != columns)
-        throw Error(fmt::format("{}: expected {} clusters with {} columns, found {} with {}",
-                                whereOf(file, kBases, owner), transport.clusterCount(), columns,
-                                transport.clusters.size(), found));
 }
 
 void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& sizes, AssetPart& part) {
@@ -185,10 +115,10 @@ void readResidual(const ChunkFile& file, uint32_t number, Residuals& residuals, 
 
 // A set has transport in its own layout alone.
 void expectNoOtherLayout(const ChunkFile& file, uint32_t set, TransportLayout own) {
-    for (const ChunkTag tag : kLayoutTags)
-        if (tag != kLayoutTags[size_t(own)] && !file.find(tag, set).empty())
+    for (const LayoutFacts& other : kLayoutFacts)
+        if (other.tag != layoutTag(own) && !file.find(other.tag, set).empty())
             throw Error(fmt::format("{}: expected none in a set of the layout {}; the file is damaged",
-                                    whereOf(file, tag, set), layoutName(own)));
+                                    whereOf(file, other.tag, set, "set"), layoutName(own)));
 }
 
 AssetMeta readMeta(const ChunkFile& file) {
@@ -212,7 +142,7 @@ void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t s
             file.name()));
     for (const ChunkEntry& entry : file.entries()) {
         if (!isRequired(entry.tag)) continue;
-        const bool ofSet = isIn(entry.tag, kSetTags);
+        const bool ofSet = isOfSet(entry.tag);
         const bool known = entry.owner == kWholeFile
                                ? isIn(entry.tag, kWholeTags) || (isShard && isIn(entry.tag, kShardTags))
                                : ofSet || isIn(entry.tag, kPartTags);
@@ -220,10 +150,10 @@ void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t s
             throw Error(fmt::format(
                 "{}: is not a chunk that this program knows, and needed to read the file; update the program "
                 "or bake again",
-                whereOf(file, entry)));
+                whereOf(file, entry, ownerOf(entry.tag))));
         if (entry.owner != kWholeFile && entry.owner >= (ofSet ? sets : parts))
-            throw Error(fmt::format("{}: the file has {} {}", whereOf(file, entry), ofSet ? sets : parts,
-                                    ofSet ? "sets" : "parts"));
+            throw Error(fmt::format("{}: the file has {} {}", whereOf(file, entry, ownerOf(entry.tag)),
+                                    ofSet ? sets : parts, ofSet ? "sets" : "parts"));
     }
 }
 
@@ -250,8 +180,7 @@ static ChunkWriter chunksOf(const Asset& asset) {
     ChunkWriter file;
     const uint32_t block = blockVertices(asset);
     addChunks(file, asset, entries, [&](uint32_t set) {
-        std::visit([&](const auto& transport) { addTransport(file, set, transport, block); },
-                   *transports[set]);
+        std::visit([&](const auto& kept) { addTransport(file, set, kept, block); }, *transports[set]);
     });
     return file;
 }

@@ -2,9 +2,9 @@
 // rest.
 #pragma once
 
+#include "engine/chunk/chunk_file.h"
 #include "engine/transport/asset.h"
 #include "engine/transport/asset_meta.h"
-#include "engine/transport/chunk_file.h"
 
 #include <functional>
 

@@ -1,8 +1,8 @@
 #include "engine/transport/asset_meta.h"
 
 #include "engine/base/error.h"
+#include "engine/chunk/byte_stream.h"
 #include "engine/transport/asset_check.h"
-#include "engine/transport/byte_stream.h"
 
 #include <bit>
 #include <cmath>
@@ -103,6 +103,27 @@ void writeResidual(FieldWriter& out, const MaterialSet& set, uint32_t number, Re
     for (const auto& kernel : set.residual->layers) write(out, *kernel);
 }
 
+// What a set says of its transport, besides chunks.
+void writeLayout(FieldWriter&, const SparseTransport&) {}
+void readLayout(FieldReader&, SparseTransport&) {}
+
+void writeLayout(FieldWriter& out, const BasisTransport& bases) {
+    out.whole(bases.kinds.size());
+    for (const auto& [term, color] : bases.kinds) {
+        out.whole(term);
+        for (int channel = 0; channel < 3; channel++) out.real(color[channel]);
+    }
+}
+
+void readLayout(FieldReader& in, BasisTransport& bases) {
+    const uint64_t kinds = in.whole("kinds", 0, 3 * kLargestTerms);
+    for (uint64_t i = 0; i < kinds; i++) {
+        const auto term = uint32_t(in.integer("term", 0, kLargestTerms - 1));
+        const float red = in.real("red"), green = in.real("green"), blue = in.real("blue");
+        bases.kinds.push_back({term, {red, green, blue}});
+    }
+}
+
 void writeSet(FieldWriter& out, const MaterialSet& set, uint64_t entries) {
     out.whole(set.materials.size());
     for (const AssetMaterial& material : set.materials) {
@@ -117,13 +138,7 @@ void writeSet(FieldWriter& out, const MaterialSet& set, uint64_t entries) {
     out.text(diskMappingName(set.brdf.mapping));
     out.text(layoutName(layoutOf(set.transport)));
     out.longWhole(entries);
-    if (const auto* bases = std::get_if<BasisTransport>(&set.transport)) {
-        out.whole(bases->kinds.size());
-        for (const auto& [term, color] : bases->kinds) {
-            out.whole(term);
-            for (int channel = 0; channel < 3; channel++) out.real(color[channel]);
-        }
-    }
+    std::visit([&](const auto& layout) { writeLayout(out, layout); }, set.transport);
 }
 
 void writeTexture(FieldWriter& out, const std::optional<Texture>& texture) {
@@ -203,14 +218,7 @@ MaterialSet readSet(FieldReader& in, uint64_t vertices, std::vector<uint64_t>& s
     set.brdf.mapping = *mapping;
     set.transport = emptyTransport(in.layout(), uint32_t(vertices), uint32_t(set.brdf.terms));
     setEntries.push_back(in.longWhole("entries", 0, kAnyEntries));
-    if (auto* bases = std::get_if<BasisTransport>(&set.transport)) {
-        const uint64_t kinds = in.whole("kinds", 0, 3 * kLargestTerms);
-        for (uint64_t i = 0; i < kinds; i++) {
-            const auto term = uint32_t(in.integer("term", 0, kLargestTerms - 1));
-            const float red = in.real("red"), green = in.real("green"), blue = in.real("blue");
-            bases->kinds.push_back({term, {red, green, blue}});
-        }
-    }
+    std::visit([&](auto& own) { readLayout(in, own); }, set.transport);
     return set;
 }
 

@@ -1,29 +1,53 @@
 // A set's transport, in whichever layout it is kept.
 #pragma once
 
-#include "engine/transport/basis_transport.h"
-#include "engine/transport/sparse_transport.h"
+#include "engine/transport/bases/basis_transport.h"
+#include "engine/transport/rows/sparse_transport.h"
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace relume {
 
+// A layout is an alternative here, a folder here and in precompute/layout, and its number below. What is done
+// to transport is a function that each layout has one of, found by std::visit: a layout that lacks one does
+// not compile.
 using Transport = std::variant<SparseTransport, BasisTransport>;
 
 // In the order of Transport's alternatives.
 enum class TransportLayout { Rows, Bases };
 
+// What is known of a layout without transport.
+struct LayoutFacts {
+    const char* name;        // as files and options have it
+    std::array<char, 4> tag; // of its chunks
+    bool isCompressed;       // made of rows, within bytes or an error that can be asked for
+};
+inline constexpr auto kLayoutFacts = []<typename... Kept>(std::type_identity<std::variant<Kept...>>) {
+    return std::array{LayoutFacts{Kept::kName, Kept::kTag, Kept::kIsCompressed}...};
+}(std::type_identity<Transport>());
+static_assert(size_t(TransportLayout::Bases) + 1 == kLayoutFacts.size());
+static_assert(
+    std::is_same_v<std::variant_alternative_t<size_t(TransportLayout::Rows), Transport>, SparseTransport>);
+static_assert(
+    std::is_same_v<std::variant_alternative_t<size_t(TransportLayout::Bases), Transport>, BasisTransport>);
+
 inline TransportLayout layoutOf(const Transport& transport) { return TransportLayout(transport.index()); }
-Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms);
-const char* layoutName(TransportLayout layout); // "rows", "bases"
+constexpr const char* layoutName(TransportLayout layout) { return kLayoutFacts[size_t(layout)].name; }
+constexpr std::array<char, 4> layoutTag(TransportLayout layout) { return kLayoutFacts[size_t(layout)].tag; }
+constexpr bool isCompressed(TransportLayout layout) { return kLayoutFacts[size_t(layout)].isCompressed; }
+bool isLayoutTag(std::array<char, 4> tag);
 std::optional<TransportLayout> layoutFromName(std::string_view name);
 
 // Returns the layout that a file names. `where` stands for the file in errors. Throws Error for names of no
 // layout, and for "clusters", which version 0.1 had.
 TransportLayout readLayoutName(std::string_view name, const std::string& where);
+
+Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms);
 
 // Of a set that is known to be in rows.
 inline SparseTransport& rowsOf(Transport& transport) { return std::get<SparseTransport>(transport); }

@@ -51,7 +51,7 @@ class MemoryBlocks : public StoredBlocks {
     std::map<uint32_t, std::vector<ChunkEntry>> mEntries;
 };
 
-bool needsScale(const BakePlan& plan) { return plan.options.layout.layout != TransportLayout::Rows; }
+bool needsScale(const BakePlan& plan) { return isCompressed(plan.options.layout.layout); }
 
 // Visibility in a file that may hold any, or not even be one.
 std::unique_ptr<KeptVisibility> findKept(const std::filesystem::path& path) {

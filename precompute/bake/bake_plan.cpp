@@ -13,9 +13,8 @@
 #include "precompute/bake/visibility_key.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_factory.h"
-#include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/conversion.h"
-#include "precompute/layout/same_sums.h"
+#include "precompute/layout/layouts.h"
 #include "precompute/refine/refinement.h"
 #include "precompute/residual/residuals.h"
 #include "precompute/visibility/occluder.h"
@@ -69,13 +68,12 @@ nlohmann::json describeInputs(const Scene& scene) {
 void prepareTransport(BakePlan& plan) {
     const LayoutOptions& options = plan.options.layout;
     plan.asset.layout.reset();
-    if (options.layout != TransportLayout::Rows) plan.asset.layout = recordOf(options, 0);
+    if (isCompressed(options.layout)) plan.asset.layout = recordOf(options, 0);
     for (AssetPart& part : plan.asset.parts)
         for (MaterialSet& set : part.sets) {
             set.transport =
                 emptyTransport(options.layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
-            if (auto* bases = std::get_if<BasisTransport>(&set.transport))
-                bases->kinds = basisKinds(set.brdf);
+            std::visit([&](auto& layout) { prepareLayout(layout, set.brdf); }, set.transport);
         }
 }
 

@@ -101,9 +101,7 @@ std::optional<VisibilityMethod> methodFromName(const std::string& name) {
     return std::nullopt;
 }
 
-bool isByError(const LayoutOptions& layout) {
-    return layout.layout != TransportLayout::Rows && !layout.bytesPerVertex;
-}
+bool isByError(const LayoutOptions& layout) { return isCompressed(layout.layout) && !layout.bytesPerVertex; }
 
 } // namespace
 

@@ -1,8 +1,8 @@
 // What baking some vertices of a part gives.
 #pragma once
 
+#include "engine/chunk/chunk_file.h"
 #include "engine/transport/asset.h"
-#include "engine/transport/chunk_file.h"
 #include "precompute/bake/transport_pass.h"
 
 #include <vector>

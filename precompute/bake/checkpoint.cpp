@@ -4,7 +4,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/log.h"
-#include "engine/transport/byte_stream.h"
+#include "engine/chunk/byte_stream.h"
 
 #include <algorithm>
 #include <bit>
@@ -70,8 +70,8 @@ void putChunk(ByteWriter& out, const ChunkEntry& entry) {
 
 size_t setsOf(const BakePlan& plan) { return plan.firstSet.back() + plan.asset.parts.back().sets.size(); }
 
-bool isInRows(const BakePlan& plan) {
-    return layoutOf(plan.asset.parts.front().sets.front().transport) == TransportLayout::Rows;
+bool needsScale(const BakePlan& plan) {
+    return isCompressed(layoutOf(plan.asset.parts.front().sets.front().transport));
 }
 
 uint64_t scaleBytes(const BakePlan& plan) { return sizeof(double) + setsOf(plan) * sizeof(float); }
@@ -185,7 +185,7 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     ByteReader in(header, "");
     const auto block = in.get<uint32_t>(), chunkCount = in.get<uint32_t>();
     const auto bodyBytes = in.get<uint64_t>(), checksum = in.get<uint64_t>();
-    if (block == kScale ? isInRows(plan) : !isInRows(plan) && !mScale) return false;
+    if (block == kScale ? !needsScale(plan) : needsScale(plan) && !mScale) return false;
     uint64_t least = scaleBytes(plan), most = least;
     size_t chunks = 0;
     if (block != kScale) {

@@ -2,8 +2,9 @@
 
 #include "precompute/bake/stored_blocks.h"
 #include "precompute/bake/vertex_rows.h"
-#include "precompute/layout/light_spectrum.h"
-#include "precompute/layout/unit_sum.h"
+#include "precompute/transport/layout_work.h"
+#include "precompute/transport/light_spectrum.h"
+#include "precompute/transport/unit_sum.h"
 
 #include <algorithm>
 

@@ -1,9 +1,7 @@
 #include "precompute/bake/merge.h"
 
 #include "engine/transport/asset_arrays.h"
-#include "engine/transport/basis_chunk.h"
-#include "engine/transport/transport_check.h"
-#include "engine/transport/transport_chunk.h"
+#include "engine/transport/layout_chunks.h"
 #include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/shard_difference.h"
 
@@ -98,38 +96,13 @@ void ShardBlocks::addShard(const ShardFile& file) {
             mChunks[block].push_back(*entry);
         }
     }
-    const auto found = size_t(std::ranges::count_if(file.chunks().entries(), [](const ChunkEntry& entry) {
-        return std::ranges::find(kLayoutTags, entry.tag) != std::end(kLayoutTags);
-    }));
+    const auto found = size_t(std::ranges::count_if(
+        file.chunks().entries(), [](const ChunkEntry& entry) { return isLayoutTag(entry.tag); }));
     if (found != used)
         throw Error(fmt::format(
             "{}: holds {} chunks of transport, and shard {}/{} has {}: others' blocks are in it; bake "
             "the shard again",
             file.name(), found, file.shard().index, file.shard().count, used));
-}
-
-// A block's transport of a set. Throws Error.
-void checkChunk(const Asset& asset, const MaterialSet& set, const BakeBlock& place, const ChunkEntry& entry,
-                const std::vector<std::byte>& raw, const std::string& where) {
-    const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
-    const auto terms = uint32_t(set.brdf.terms);
-    switch (layoutOf(set.transport)) {
-    case TransportLayout::Bases:
-        decodeBasisCluster(raw, entry.run, place.count(),
-                           std::get<BasisTransport>(set.transport).kinds.size(), coefficients, where);
-        return;
-    case TransportLayout::Rows:
-        break;
-    }
-    SparseTransport rows;
-    rows.vertices = place.count();
-    rows.terms = terms;
-    rows.rowStarts = {0};
-    // No more than its size allows.
-    decodeRun(raw, coefficients, raw.size() / kRunEntryBytes, where, rows, place.first);
-    if (rows.rowStarts.size() != rows.rows() + 1)
-        throw Error(fmt::format("{}: expected {} vertices, found fewer", where, rows.vertices));
-    checkTransport(rows, coefficients, uint64_t(asset.coefficients), where);
 }
 
 // Nothing is passed on that a reader of the whole would refuse.
@@ -146,9 +119,15 @@ std::vector<std::byte> ShardBlocks::load(uint32_t block, const ChunkEntry& entry
         return stored;
     }
     const MaterialSet& set = mPlan.asset.parts[place.part].sets[entry.owner - mPlan.firstSet[place.part]];
-    checkChunk(mPlan.asset, set, place, entry, unpackChunk(entry, stored, file.name()),
-               fmt::format("{}: chunk {} of set {}, run {}", file.name(), tagText(entry.tag), entry.owner,
-                           entry.run));
+    const Asset& asset = mPlan.asset;
+    const RowLimits limits{uint32_t(6 * asset.faceSize * asset.faceSize), uint64_t(asset.coefficients)};
+    const std::vector<std::byte> raw = unpackChunk(entry, stored, file.name());
+    std::visit(
+        [&](const auto& layout) {
+            checkChunk(layout, {place.first, place.count(), entry.run}, raw, limits,
+                       whereOf(file.chunks(), entry, "set"));
+        },
+        set.transport);
     return stored;
 }
 

@@ -1,6 +1,6 @@
 #include "precompute/bake/row_interpolation.h"
 
-#include "precompute/layout/row_packing.h"
+#include "precompute/transport/row_packing.h"
 
 #include <bit>
 #include <utility>

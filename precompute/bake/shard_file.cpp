@@ -1,11 +1,11 @@
 #include "precompute/bake/shard_file.h"
 
 #include "engine/base/check.h"
+#include "engine/chunk/byte_stream.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_file.h"
-#include "engine/transport/byte_stream.h"
-#include "engine/transport/transport_check.h"
+#include "engine/transport/layout_chunks.h"
 
 #include <algorithm>
 #include <bit>
@@ -110,8 +110,11 @@ BakePlan ShardFile::plan() const {
     checkSkeleton(meta.asset, name());
     for (const AssetPart& part : meta.asset.parts) // which no chunk of transport has
         for (const MaterialSet& set : part.sets)
-            if (const auto* bases = std::get_if<BasisTransport>(&set.transport))
-                checkKinds(*bases, fmt::format("{}: transport of part \"{}\"", name(), part.name));
+            std::visit(
+                [&](const auto& layout) {
+                    checkLayout(layout, fmt::format("{}: transport of part \"{}\"", name(), part.name));
+                },
+                set.transport);
     BakePlan plan = planOf(std::move(meta.asset), meta.visibilityKey);
     if (plan.identity != mIdentity)
         throw Error(fmt::format(

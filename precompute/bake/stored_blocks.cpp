@@ -4,12 +4,9 @@
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_file.h"
-#include "engine/transport/basis_chunk.h"
-#include "engine/transport/transport_check.h"
-#include "engine/transport/transport_chunk.h"
+#include "engine/transport/layout_chunks.h"
 #include "engine/transport/visibility_chunk.h"
-#include "precompute/layout/basis_encoder.h"
-#include "precompute/layout/light_spectrum.h"
+#include "precompute/layout/layouts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +20,7 @@ const AssetPart& partOf(const BakePlan& plan, uint32_t block) {
     return plan.asset.parts[plan.blocks[block].part];
 }
 
-// Of a chunk before compression.
-struct RawSizes {
-    uint64_t least, most, step;
-};
-
-RawSizes rawSizes(const BakePlan& plan, uint32_t block, size_t chunk) {
+ChunkSizes rawSizes(const BakePlan& plan, uint32_t block, size_t chunk) {
     const uint64_t vertices = plan.blocks[block].count();
     const AssetPart& part = partOf(plan, block);
     if (chunk >= part.sets.size()) {
@@ -37,48 +29,25 @@ RawSizes rawSizes(const BakePlan& plan, uint32_t block, size_t chunk) {
         const uint64_t own = std::min<uint64_t>(plan.visibilityRun, vertices - first);
         return {smallestVisibilityChunk(own, size), largestVisibilityChunk(own, size), 1};
     }
-    const MaterialSet& set = part.sets[chunk];
-    const auto terms = uint64_t(set.brdf.terms), rows = vertices * terms;
-    switch (layoutOf(set.transport)) {
-    case TransportLayout::Bases:
-        return {kBasisHeaderBytes, largestBasisChunk(terms), 1};
-    case TransportLayout::Rows:
-        break;
-    }
-    const uint64_t least = kRunHeaderBytes + rows * kRunRowBytes;
-    return {least, least + rows * uint64_t(plan.asset.coefficients) * kRunEntryBytes, kRunEntryBytes};
+    return std::visit(
+        [&](const auto& layout) { return chunkSizes(layout, uint32_t(vertices), plan.asset.coefficients); },
+        part.sets[chunk].transport);
 }
 
-// One block's transport of a set, and its error, as ClusterMatrix has it.
-struct EncodedTransport {
-    std::vector<std::byte> bytes;
-    double error = 0;
-};
-
-EncodedTransport encodeTransport(const SparseTransport& rows, const MaterialSet& set, const BakeBlock& place,
-                                 uint32_t run, float unit, double price, const Asset& asset,
-                                 const std::string& where) {
-    const auto coefficients = uint32_t(6 * asset.faceSize * asset.faceSize);
-    if (layoutOf(set.transport) == TransportLayout::Rows)
-        return {encodeRun(rows, {0, rows.vertices}, place.first), 0};
-    const std::vector<float> spectrum = lightSpectrum(asset.faceSize);
-    const std::vector<BasisKind>& kinds = std::get<BasisTransport>(set.transport).kinds;
-    const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, kinds, spectrum, unit);
-    const BasisAnalysis analysis = analyse(matrix);
-    const EncodedCluster encoded = encodeBases(matrix, analysis, cutFor(analysis, price), kinds, spectrum);
-    checkCluster(encoded.cluster, rows.vertices, kinds.size(), coefficients, where);
-    if (!std::isfinite(encoded.error)) throw Error(kTooLarge);
-    return {encodeBasisCluster(encoded.cluster, run, rows.vertices), encoded.error};
+// The transport, which holds nothing, of the set whose chunk it is.
+const Transport& layoutOf(const BakePlan& plan, uint32_t block, const ChunkEntry& entry) {
+    return partOf(plan, block).sets[entry.owner - plan.firstSet[plan.blocks[block].part]].transport;
 }
 
 // Entries of transport that a plausible chunk of a block stands for.
 uint64_t entriesOf(const BakePlan& plan, const StoredBlocks& blocks, uint32_t block,
                    const ChunkEntry& entry) {
-    const size_t set = entry.owner - plan.firstSet[plan.blocks[block].part];
-    if (entry.tag == kBases) // it alone can tell
-        return basisColumns(unpackChunk(entry, blocks.load(block, entry), "the bake"), "the bake");
-    const RawSizes sizes = rawSizes(plan, block, set);
-    return (entry.rawSize - sizes.least) / sizes.step;
+    const auto load = [&] { return unpackChunk(entry, blocks.load(block, entry), "the bake"); };
+    return std::visit(
+        [&](const auto& layout) {
+            return entriesOf(layout, plan.blocks[block].count(), entry.rawSize, load);
+        },
+        layoutOf(plan, block, entry));
 }
 
 } // namespace
@@ -91,15 +60,20 @@ StoredBlock storeBlock(const BakePlan& plan, uint32_t block, BakedBlock baked) {
     for (size_t set = 0; set < baked.sets.size(); set++) {
         const SparseTransport& transport = baked.sets[set].transport;
         RELUME_CHECK_EQ(transport.vertices, place.count());
-        RELUME_CHECK(plan.scale || layoutOf(part.sets[set].transport) == TransportLayout::Rows);
+        RELUME_CHECK(plan.scale || !isCompressed(layoutOf(part.sets[set].transport)));
         const std::string where =
             fmt::format("part \"{}\", vertices from {} on as the device baked them", part.name, place.first);
         checkTransport(transport, coefficients, uint64_t(plan.asset.coefficients), where);
         const ChunkEntry chunk = expectedChunk(plan, block, set);
-        const float unit = plan.scale ? plan.scale->units[chunk.owner] : 1;
-        const double price = plan.scale ? plan.scale->price : 0;
-        const EncodedTransport encoded =
-            encodeTransport(transport, part.sets[set], place, chunk.run, unit, price, plan.asset, where);
+        const BlockCoding coding{{place.first, place.count(), chunk.run},
+                                 plan.asset.faceSize,
+                                 plan.scale ? plan.scale->units[chunk.owner] : 1,
+                                 plan.scale ? plan.scale->price : 0,
+                                 where};
+        const EncodedBlock encoded =
+            std::visit([&](const auto& layout) { return encodeBlock(layout, transport, coding); },
+                       part.sets[set].transport);
+        if (!std::isfinite(encoded.error)) throw Error(kTooLarge);
         stored.losses.layout += encoded.error;
         stored.chunks.push_back(storeChunk(chunk.tag, chunk.owner, chunk.run, encoded.bytes));
     }
@@ -132,7 +106,7 @@ ChunkEntry expectedChunk(const BakePlan& plan, uint32_t block, size_t chunk) {
     const std::vector<MaterialSet>& sets = partOf(plan, block).sets;
     if (chunk >= sets.size())
         return {kVisibility, place.part, place.first / plan.visibilityRun + uint32_t(chunk - sets.size())};
-    return {kLayoutTags[size_t(layoutOf(sets[chunk].transport))], plan.firstSet[place.part] + uint32_t(chunk),
+    return {layoutTag(layoutOf(sets[chunk].transport)), plan.firstSet[place.part] + uint32_t(chunk),
             place.first / plan.blockVertices};
 }
 
@@ -142,7 +116,7 @@ uint64_t mostRawBytes(const BakePlan& plan, uint32_t block, size_t chunk) {
 
 bool isPlausible(const BakePlan& plan, uint32_t block, size_t chunk, const ChunkEntry& entry) {
     const ChunkEntry expected = expectedChunk(plan, block, chunk);
-    const RawSizes sizes = rawSizes(plan, block, chunk);
+    const ChunkSizes sizes = rawSizes(plan, block, chunk);
     return entry.tag == expected.tag && entry.owner == expected.owner && entry.run == expected.run &&
            entry.rawSize >= sizes.least && entry.rawSize <= sizes.most &&
            (entry.rawSize - sizes.least) % sizes.step == 0 && entry.storedSize > 0 &&
@@ -150,11 +124,9 @@ bool isPlausible(const BakePlan& plan, uint32_t block, size_t chunk, const Chunk
 }
 
 uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& entry) {
-    const size_t set = entry.owner - plan.firstSet[plan.blocks[block].part];
-    const auto terms = uint64_t(partOf(plan, block).sets[set].brdf.terms);
-    if (entry.tag == kBases) return entry.rawSize - kBasisHeaderBytes;
-    constexpr uint64_t kLengthBytes = kRunRowBytes - sizeof(float); // they are elsewhere in memory
-    return entry.rawSize - kRunHeaderBytes - plan.blocks[block].count() * terms * kLengthBytes;
+    return std::visit(
+        [&](const auto& layout) { return memoryBytes(layout, plan.blocks[block].count(), entry.rawSize); },
+        layoutOf(plan, block, entry));
 }
 
 uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,

@@ -1,7 +1,7 @@
 // Finished blocks in the bytes of the asset's file, wherever they are kept.
 #pragma once
 
-#include "engine/transport/chunk_file.h"
+#include "engine/chunk/chunk_file.h"
 #include "precompute/bake/bake_plan.h"
 #include "precompute/bake/baked_rows.h"
 

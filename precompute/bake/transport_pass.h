@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
-#include "engine/transport/sparse_transport.h"
+#include "engine/transport/rows/sparse_transport.h"
 #include "engine/vk/commands.h"
 #include "precompute/bake/bake_options.h"
 #include "shaders/shared/bake.h"

@@ -1,7 +1,6 @@
 #include "precompute/error/layout_costs.h"
 
 #include "engine/base/check.h"
-#include "precompute/layout/basis_kinds.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/reference/relight_twin.h"
 #include "precompute/reference/vertex_views.h"

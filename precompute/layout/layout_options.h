@@ -18,7 +18,7 @@ struct LayoutOptions {
     // The budget of bases: bytes of transport in memory per vertex of the asset. None: `error` decides.
     std::optional<double> bytesPerVertex;
     // The error of transport that bases may have, weighted as light weighs it: root mean square, relative to
-    // each set's variation (transportUnit() in cluster_matrix.h).
+    // each set's variation (transportUnit() in unit_sum.h).
     double error = kDefaultLayoutError;
 
     bool operator==(const LayoutOptions&) const = default;

@@ -16,24 +16,22 @@ constexpr uint32_t kLayoutEncoderVersion = 2;
 
 struct LayoutScale {
     std::vector<float> units; // per set, over all parts: transportUnit()
-    double price = 0;         // of a byte (slope.h): what makes a cluster keep more or less
+    double price = 0;         // of a byte (basis_analysis.h): what makes a cluster keep more or less
 
     bool operator==(const LayoutScale&) const = default;
 };
 
-// Clusters of a set that stand for all of them.
-struct SetSample {
-    const MaterialSet* set;
-    std::vector<const SparseTransport*> blocks; // each of clusters, of which only the last may not be full
-    uint32_t vertices;                          // of the whole set
-    float unit;                                 // transportUnit() of the set
-};
+struct SetSample; // precompute/transport/layout_work.h
 
 // Finds the scale at which bases come closest to what `options` ask for, as the samples tell it; sets without
 // any are taken to be as the others are. A budget is for the asset's `vertices`. The scale is the same on
 // every machine.
 LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
                       const LayoutOptions& options);
+
+// Eigen cuts products by the sizes of the caches it finds, and sums would differ from one machine to another.
+// For all that follow, in the whole process; not while others multiply.
+void sumAlikeEverywhere();
 
 // As an asset keeps it.
 LayoutRecord recordOf(const LayoutOptions& options, double error);

@@ -4,8 +4,8 @@
 #include "engine/light/light_vector.h"
 #include "engine/math/tangent_frame.h"
 #include "engine/scene/factored_brdf.h"
-#include "engine/transport/sparse_transport.h"
-#include "precompute/layout/row_packing.h"
+#include "engine/transport/rows/sparse_transport.h"
+#include "precompute/transport/row_packing.h"
 #include "precompute/visibility/ray_tracer.h"
 
 #include <array>

@@ -141,7 +141,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
             sums.layout.add(stored[i], found[i]);
             sums.total.add(stored[i], exact[i]);
         }
-        if (layoutOf(set.transport) != TransportLayout::Rows) continue;
+        if (isCompressed(layoutOf(set.transport))) continue;
         std::vector<bool> kept(expected.size(), false);
         for (uint16_t index : selectLargest(found, asset.coefficients)) kept[index] = true;
         for (size_t i = 0; i < expected.size(); i++) {

@@ -19,7 +19,7 @@ constexpr uint64_t kMostAutoVertices = 20000, kMostAutoGiven = 200000;
 
 // Errors are those of interpolating transport between vertices, estimated: over the surface of all refined
 // parts, the root mean square of what interpolation does to reflected light as light of all scales weighs it
-// (precompute/layout/light_spectrum.h), relative to the root mean square of that light.
+// (precompute/transport/light_spectrum.h), relative to the root mean square of that light.
 struct RefinementRecord {
     double wanted = 0;     // kLeastRefinementError to kMostRefinementError
     double startError = 0; // of the meshes as they came

@@ -4,7 +4,7 @@
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
 #include "precompute/cpu/morton.h"
-#include "precompute/layout/light_spectrum.h"
+#include "precompute/transport/light_spectrum.h"
 
 #include <cmath>
 #include <random>

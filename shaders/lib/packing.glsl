@@ -1,4 +1,4 @@
-// 11/11/10-bit coefficients. C++ twin: engine/transport/sparse_transport.h.
+// 11/11/10-bit coefficients. C++ twin: engine/transport/rows/sparse_transport.h.
 #ifndef RELUME_LIB_PACKING_GLSL
 #define RELUME_LIB_PACKING_GLSL
 

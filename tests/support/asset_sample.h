@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/base/hash.h"
+#include "engine/chunk/byte_stream.h"
+#include "engine/chunk/chunk_file.h"
 #include "engine/transport/asset.h"
-#include "engine/transport/byte_stream.h"
-#include "engine/transport/chunk_file.h"
 
 #include <algorithm>
 #include <random>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "precompute/bake/merge.h"
-#include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/layouts.h"
 #include "tests/support/asset_sample.h"
 
 namespace relume::test {
@@ -29,8 +29,7 @@ inline BakePlan planIn(Asset asset, TransportLayout layout) {
             asset.layout = recordOf({.layout = layout}, 0);
             set.transport =
                 emptyTransport(layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
-            if (auto* bases = std::get_if<BasisTransport>(&set.transport))
-                bases->kinds = basisKinds(set.brdf);
+            std::visit([&](auto& own) { prepareLayout(own, set.brdf); }, set.transport);
         }
     BakePlan plan = planOf(std::move(asset));
     if (layout != TransportLayout::Rows) plan.scale = LayoutScale{std::vector<float>(sets, 1.0f), 1e-4};

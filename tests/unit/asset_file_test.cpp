@@ -3,7 +3,7 @@
 #include "engine/import/old_asset.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_meta.h"
-#include "engine/transport/transport_chunk.h"
+#include "engine/transport/rows/rows_chunk.h"
 #include "tests/support/asset_sample.h"
 #include "tests/support/old_sample.h"
 
@@ -212,7 +212,7 @@ TEST_CASE("asset file: transport is cut into blocks, and what zstd would shrink 
     checkSame(decodeAsset(bytes, "file"), asset);
 
     // Nothing but zeros: zstd would shrink them past what a reader believes.
-    const StoredChunk zeros = storeChunk(kTransport, 0, 0, std::vector<std::byte>(1 << 20));
+    const StoredChunk zeros = storeChunk(SparseTransport::kTag, 0, 0, std::vector<std::byte>(1 << 20));
     CHECK(zeros.entry.storedSize == zeros.entry.rawSize);
 }
 
@@ -382,7 +382,7 @@ TEST_CASE("asset file: files of version 2 are refused with the remedy, which kee
 TEST_CASE("asset file: transport in clusters, and in layouts to come, is refused with the remedy") {
     std::vector<RawChunk> chunks = chunksOf(encodeAsset(sampleAsset()));
     for (RawChunk& chunk : chunks)
-        if (chunk.tag == kTransport && chunk.part == 0) chunk.tag = chunkTag("TRCL");
+        if (chunk.tag == SparseTransport::kTag && chunk.part == 0) chunk.tag = chunkTag("TRCL");
     const std::vector<std::byte> meta = chunks[0].raw;
     const auto fileIn = [&](std::string_view layout) {
         const auto textOf = [](std::string_view text) {
@@ -412,8 +412,8 @@ TEST_CASE("asset file: transport in clusters, and in layouts to come, is refused
           "a.relume: chunk META: transport is in clusters, a layout that is no longer read; bake again, or "
           "convert the file with the program that made it: relume convert FILE --layout bases -o NEW");
     CHECK(refusal([&] { decodeAsset(fileIn("cells"), "a.relume"); }) ==
-          "a.relume: chunk META: transport is in the layout \"cells\", and this program knows rows and "
-          "bases; the file is damaged or of a later program");
+          "a.relume: chunk META: layout: expected rows or bases, found \"cells\"; the file is damaged or of "
+          "a later program");
     // Chunks of it in a set that says to be in rows.
     CHECK(refusal([&] { decodeAsset(fileIn("rows"), "a.relume"); }).starts_with("a.relume: chunk TRCL of"));
 

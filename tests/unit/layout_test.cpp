@@ -1,12 +1,11 @@
 #include "precompute/layout/conversion.h"
 
 #include "engine/transport/asset_check.h"
-#include "precompute/layout/basis_encoder.h"
-#include "precompute/layout/basis_kinds.h"
+#include "precompute/layout/bases/basis_encoder.h"
 #include "precompute/layout/layout_scale.h"
-#include "precompute/layout/light_spectrum.h"
-#include "precompute/layout/slope.h"
-#include "precompute/layout/unit_sum.h"
+#include "precompute/transport/layout_work.h"
+#include "precompute/transport/light_spectrum.h"
+#include "precompute/transport/unit_sum.h"
 #include "tests/support/asset_sample.h"
 
 #include <Eigen/SVD>

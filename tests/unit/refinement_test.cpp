@@ -3,11 +3,11 @@
 
 #include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
-#include "precompute/layout/light_spectrum.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/refine/edge_split.h"
 #include "precompute/refine/transport_probe.h"
 #include "precompute/thread_limit.h"
+#include "precompute/transport/light_spectrum.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "precompute/layout/row_packing.h"
+#include "precompute/transport/row_packing.h"
 
 #include "precompute/reference/transport_stages.h"
 

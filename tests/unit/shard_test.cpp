@@ -227,7 +227,7 @@ TEST_CASE("merge: damage under right checksums is refused or harmless") {
 TEST_CASE("merge: a shard must hold its own blocks and no others, and what each lost") {
     const Asset asset = shardedAsset();
     const std::vector<Bytes> files = shardsOf(asset, 2);
-    const auto isTransport = [](const RawChunk& chunk) { return chunk.tag == kTransport; };
+    const auto isTransport = [](const RawChunk& chunk) { return chunk.tag == SparseTransport::kTag; };
     std::vector<RawChunk> own = chunksOf(files[0]);
     const std::vector<RawChunk> others = chunksOf(files[1]);
 

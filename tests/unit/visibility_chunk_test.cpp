@@ -1,5 +1,5 @@
 // Kept visibility: what goes in comes out, small, and nothing else is believed.
-#include "engine/transport/chunk_file.h"
+#include "engine/chunk/chunk_file.h"
 #include "engine/transport/visibility_chunk.h"
 
 #include "engine/base/error.h"

@@ -1,0 +1,43 @@
+// Relighting of bases: the light on a cluster's basis vectors, then these times its rows' weights.
+#pragma once
+
+#include "engine/relight/set_relighter.h"
+#include "engine/transport/bases/basis_transport.h"
+
+namespace relume {
+
+// The transport is divided into shards of whole clusters. Basis values are four components a word, columns
+// padded to whole words. Weights are those of eight vertices for one component after the other, 8 bytes each,
+// octet after octet of a cluster's kind, padded to whole octets.
+class BasesRelighter : public SetRelighter {
+  public:
+    struct Programs {
+        vk::ComputeProgram project, combine;
+        explicit Programs(const vk::Device& device);
+    };
+
+    // As RowsRelighter.
+    BasesRelighter(const vk::Device& device, const Programs& programs, const BasisTransport& transport,
+                   uint32_t coefficients, uint64_t largestShard, const std::string& name);
+
+    size_t shards() const override { return mShards.size(); }
+
+  private:
+    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode) const override;
+
+    struct Shard {
+        uint32_t clusters = 0, groups = 0;
+        vk::Buffer groupList, indices, basis, sums, projections, stamps; // relight_project.comp
+        vk::Buffer clusterList, weightings, weights, scales;             // relight_combine.comp
+    };
+    class ShardData;
+    Shard upload(const vk::Device& device, const ShardData& data, uint32_t coefficients,
+                 const std::string& name) const;
+
+    const Programs& mPrograms;
+    uint32_t mTerms, mKinds, mGroupsPerTerm;
+    vk::Buffer mTermKinds, mColors;
+    std::vector<Shard> mShards;
+};
+
+} // namespace relume

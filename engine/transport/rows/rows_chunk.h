@@ -1,0 +1,58 @@
+// Runs of transport rows as bytes that compress well: the TRAN chunks of docs/asset_format.md.
+#pragma once
+
+#include "engine/chunk/block_chunk.h"
+#include "engine/transport/rows/sparse_transport.h"
+
+namespace relume {
+
+// Most entries and rows of a run that is written.
+constexpr size_t kRunEntries = size_t(1) << 20;
+constexpr uint32_t kMostBlockVertices = 64;
+constexpr size_t kRunRows = kMostBlockVertices * size_t(32);
+
+// Vertices of a block: what is baked, kept in a checkpoint and written as one run. The largest power of two
+// up to kMostBlockVertices of which `terms` rows each of `coefficients` entries stay within kRunEntries; a
+// part's last block may be shorter. It depends on nothing else, so that neither a device nor an interruption
+// shows in a file.
+uint32_t blockVertices(int coefficients, int terms);
+inline uint32_t blockVertices(const SparseTransport&, int coefficients, int terms) {
+    return blockVertices(coefficients, terms);
+}
+
+// Bytes of a run before compression.
+constexpr size_t kRunHeaderBytes = 12, kRunRowBytes = 6, kRunEntryBytes = 6;
+
+// Vertices [first, end).
+struct VertexRun {
+    uint32_t first, end;
+};
+
+// Wants valid rows (asset_check.h). Vertex 0 of `transport` is vertex `offset` of its set.
+std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run, uint32_t offset = 0);
+
+// Appends a run to `transport`, whose vertices and terms are set and whose vertex 0 is vertex `offset` of its
+// set; rowStarts holds one more than the rows read so far. Entries must have indices below `coefficients`,
+// and must not pass `entryLimit` in all. `where` names the chunk in errors. Throws Error.
+void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t entryLimit,
+               const std::string& where, SparseTransport& transport, uint32_t offset = 0);
+
+// Bijections between a packed 11/11/10 word and the word that is stored: byte 0 holds green's low bits, byte
+// 1 those of red - green, byte 2 those of blue - green / 2, byte 3 the high bits (3, 3, 2), each number
+// zigzagged so that small ones of either sign have few bits. A grey material's bytes 1 and 2 are nearly all
+// zero.
+uint32_t decorrelate(uint32_t packed);
+uint32_t correlate(uint32_t stored);
+
+// What layout_chunks.h wants of a layout.
+void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport, uint32_t block);
+void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint32_t coefficients,
+                   SparseTransport& transport);
+ChunkSizes chunkSizes(const SparseTransport& layout, uint32_t vertices, int coefficients);
+uint64_t memoryBytes(const SparseTransport& layout, uint32_t vertices, uint64_t rawSize);
+uint64_t entriesOf(const SparseTransport& layout, uint32_t vertices, uint64_t rawSize, const LoadChunk& load);
+void checkChunk(const SparseTransport& layout, const BlockPlace& place, std::span<const std::byte> raw,
+                const RowLimits& limits, const std::string& where);
+inline void checkLayout(const SparseTransport&, const std::string&) {} // nothing but rows
+
+} // namespace relume

@@ -1,0 +1,40 @@
+// Relighting of rows: every entry with its index.
+#pragma once
+
+#include "engine/relight/set_relighter.h"
+#include "engine/transport/rows/sparse_transport.h"
+
+namespace relume {
+
+// The transport is divided into shards of whole rows. Entries come in groups of eight, 48 bytes: four words
+// of two 16-bit indices each (lower half first), then eight words of packed 11/11/10 values. Rows are padded
+// to whole groups with zeros.
+class RowsRelighter : public SetRelighter {
+  public:
+    struct Programs {
+        vk::ComputeProgram relight;
+        explicit Programs(const vk::Device& device);
+    };
+
+    // `coefficients`: of the light; all indices are below. `largestShard`: bytes of a shard, a row at least.
+    RowsRelighter(const vk::Device& device, const Programs& programs, const SparseTransport& transport,
+                  uint32_t coefficients, uint64_t largestShard, const std::string& name);
+
+    size_t shards() const override { return mShards.size(); }
+
+  private:
+    // Always in full: what changed is not to be had without reading all of the indices.
+    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode) const override;
+
+    struct Shard {
+        uint32_t firstRow = 0, rows = 0;
+        vk::Buffer starts;  // rows + 1: first group of each row
+        vk::Buffer entries; // groups
+    };
+
+    const Programs& mPrograms;
+    std::vector<Shard> mShards;
+    vk::Buffer mScales; // of rows
+};
+
+} // namespace relume

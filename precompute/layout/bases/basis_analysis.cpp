@@ -1,0 +1,209 @@
+#include "precompute/layout/bases/basis_analysis.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+constexpr uint32_t kStep = 4; // components are read by fours
+
+// More vectors than any budget that relighting is fast at asks for. Of few kinds a vector is cheap, as
+// weights are few.
+Eigen::Index mostVectors(size_t kinds) {
+    constexpr size_t kMost = kMostBasisComponents - kFirstComponents + 1;
+    return Eigen::Index(kinds <= 2 ? kMost : std::min(64 + 8 * kinds, kMost));
+}
+
+// -1: of a component that only makes the first more exact.
+Eigen::Index vectorOf(uint32_t component) {
+    if (component == 0) return 0;
+    return component < kFirstComponents ? -1 : Eigen::Index(component - kFirstComponents + 1);
+}
+
+constexpr Eigen::Index kSpare = 16; // more vectors than wanted let those converge
+constexpr int kIterations = 4;
+constexpr float kLeastValue = 1e-7f; // of the largest
+
+Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& vectors) {
+    return Eigen::HouseholderQR<Eigen::MatrixXf>(vectors).householderQ() *
+           Eigen::MatrixXf::Identity(vectors.rows(), vectors.cols());
+}
+
+struct LeadingEigenvectors {
+    Eigen::VectorXf values;  // falling
+    Eigen::MatrixXf vectors; // one a column, orthonormal
+};
+
+// Of a positive semidefinite matrix, its lower triangle: the `count` (at most all) largest that are more than
+// rounding. By subspace iteration where that is less work, good to what transport needs: the sum of the
+// values is within about 1 % of the best in what it leaves.
+LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Index count) {
+    const Eigen::Index size = lower.rows();
+    Eigen::MatrixXf subspace;
+    Eigen::MatrixXf reduced = lower;
+    const bool isPartial = 3 * (count + kSpare) < size;
+    if (isPartial) {
+        const auto matrix = lower.selfadjointView<Eigen::Lower>();
+        std::mt19937 random; // the same start each time
+        subspace =
+            Eigen::MatrixXf::NullaryExpr(size, count + kSpare, [&] { return random() & 1 ? 1.0f : -1.0f; });
+        for (int i = 0; i < kIterations; i++) subspace = orthonormal(matrix * subspace);
+        reduced = subspace.transpose() * (matrix * subspace);
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(reduced);
+    LeadingEigenvectors leading;
+    leading.values = solver.eigenvalues().reverse();
+    Eigen::Index kept = 0;
+    while (kept < std::min(count, leading.values.size()) &&
+           leading.values[kept] > kLeastValue * leading.values[0])
+        kept++;
+    leading.values.conservativeResize(kept);
+    leading.vectors = solver.eigenvectors().rightCols(kept).rowwise().reverse();
+    if (isPartial) leading.vectors = subspace * leading.vectors;
+    return leading;
+}
+
+// Neighbouring prices.
+struct Prices {
+    double low, high;
+};
+
+// Those between which `isHigh` turns true, by halving of a range beyond which nothing changes.
+template <typename IsHigh>
+Prices pricesAround(const IsHigh& isHigh) {
+    double low = -80, high = 20;
+    for (int i = 0; i < 36; i++) {
+        const double middle = 0.5 * (low + high);
+        (isHigh(std::exp2(middle)) ? high : low) = middle;
+    }
+    return {std::exp2(low), std::exp2(high)};
+}
+
+} // namespace
+
+uint32_t BasisAnalysis::components() const {
+    return vectors.cols() == 0 ? 0 : uint32_t(vectors.cols()) + kFirstComponents - 1;
+}
+
+BasisAnalysis analyse(const ClusterMatrix& matrix) {
+    const Eigen::MatrixXf& values = matrix.values;
+    BasisAnalysis analysis;
+    analysis.vertices = matrix.vertices;
+    analysis.importance = matrix.importance;
+    analysis.columns = matrix.columns;
+    analysis.energy = matrix.energy;
+    if (values.size() > 0) {
+        const bool isWide = values.rows() < values.cols();
+        const Eigen::Index size = std::min(values.rows(), values.cols());
+        Eigen::MatrixXf gram = Eigen::MatrixXf::Zero(size, size);
+        if (isWide)
+            gram.selfadjointView<Eigen::Lower>().rankUpdate(values);
+        else
+            gram.selfadjointView<Eigen::Lower>().rankUpdate(values.transpose());
+        const LeadingEigenvectors leading =
+            leadingEigenvectors(gram, std::min(size, mostVectors(matrix.kinds())));
+        analysis.vectors = leading.vectors;
+        if (isWide)
+            analysis.vectors =
+                values.transpose() * leading.vectors * leading.values.cwiseSqrt().cwiseInverse().asDiagonal();
+    }
+    const Eigen::MatrixXf along = values * analysis.vectors;
+    analysis.vectorEnergy.resize(Eigen::Index(matrix.kinds()), along.cols());
+    for (Eigen::Index kind = 0; kind < analysis.vectorEnergy.rows(); kind++)
+        analysis.vectorEnergy.row(kind) =
+            along.middleRows(kind * matrix.vertices, matrix.vertices).colwise().squaredNorm().cast<double>();
+    return analysis;
+}
+
+BasisCut cutFor(const BasisAnalysis& analysis, double price) {
+    const Eigen::Index kinds = analysis.energy.size(), columns = Eigen::Index(analysis.columns.size());
+    const uint32_t components = analysis.components();
+    price /= analysis.importance;
+    const double weightBytes = double(analysis.vertices) + sizeof(float); // of a component of a kind
+    const double countBytes = sizeof(uint16_t) * double(kinds);
+    const auto columnBytes = [](uint32_t count) { return double(count + sizeof(uint16_t)); };
+
+    BasisCut best;
+    best.counts.assign(size_t(kinds), 0);
+    best.error = analysis.energy.sum();
+    best.bytes = countBytes;
+    double least = best.error; // + price · bytes, but for countBytes
+
+    std::vector<uint16_t> counts(size_t(kinds), 0);
+    Eigen::VectorXd tail = analysis.energy,
+                    cost = tail; // per kind: error by all so far, error + price of counts
+    Eigen::VectorXd gain = Eigen::VectorXd::Zero(columns); // what a column takes off the error
+    std::vector<double> bestGain;
+    for (uint32_t count = 0; count < components;) {
+        const uint32_t last = count, next = std::min(count + kStep, components);
+        bool hasJumped = false; // a kind takes up components that did not pay before
+        double error = 0, weights = 0;
+        for (uint32_t i = last; i < next; i++)
+            if (const Eigen::Index vector = vectorOf(i); vector >= 0)
+                tail -= analysis.vectorEnergy.col(vector);
+        count = next;
+        for (Eigen::Index kind = 0; kind < kinds; kind++) {
+            const double paid = tail[kind] + price * weightBytes * count;
+            if (paid < cost[kind]) {
+                hasJumped |= counts[size_t(kind)] != last;
+                cost[kind] = paid;
+                counts[size_t(kind)] = uint16_t(count);
+            }
+            weights += counts[size_t(kind)];
+        }
+        if (*std::ranges::max_element(counts) < count) continue;
+        if (hasJumped) gain.setZero();
+        for (uint32_t i = hasJumped ? 0 : last; i < count; i++) {
+            const Eigen::Index vector = vectorOf(i);
+            if (vector < 0) continue;
+            double energy = 0;
+            for (Eigen::Index kind = 0; kind < kinds; kind++)
+                if (counts[size_t(kind)] > i) energy += analysis.vectorEnergy(kind, vector);
+            gain += energy * analysis.vectors.col(vector).cast<double>().cwiseAbs2();
+        }
+        double taken = 0;
+        size_t kept = 0;
+        for (Eigen::Index column = 0; column < columns; column++)
+            if (gain[column] > price * columnBytes(count)) taken += gain[column], kept++;
+        error = std::max(0.0, analysis.energy.sum() - taken);
+        const double bytes = weights * weightBytes + double(kept) * columnBytes(count);
+        if (error + price * bytes < least) {
+            least = error + price * bytes;
+            best.components = count;
+            best.counts = counts;
+            best.bytes = bytes + countBytes;
+            best.error = error;
+            bestGain.assign(gain.begin(), gain.end());
+        }
+    }
+    for (size_t column = 0; column < bestGain.size(); column++)
+        if (bestGain[column] > price * columnBytes(best.components)) best.columns.push_back(uint32_t(column));
+    return best;
+}
+
+CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price) {
+    std::vector<CutTotals> each(clusters.size());
+    tbb::parallel_for(size_t(0), clusters.size(), [&](size_t i) {
+        const BasisCut cut = cutFor(clusters[i], price);
+        each[i] = {clusters[i].weight * cut.bytes, clusters[i].weight * cut.error};
+    });
+    CutTotals sum;
+    for (const CutTotals& one : each) sum.bytes += one.bytes, sum.error += one.error;
+    return sum;
+}
+
+double priceForBytes(std::span<const BasisAnalysis> clusters, double bytes) {
+    return pricesAround([&](double price) { return totalsAt(clusters, price).bytes <= bytes; }).high;
+}
+
+double priceForError(std::span<const BasisAnalysis> clusters, double error) {
+    return pricesAround([&](double price) { return totalsAt(clusters, price).error > error; }).low;
+}
+
+} // namespace relume

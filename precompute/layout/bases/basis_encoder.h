@@ -1,0 +1,27 @@
+// A cluster's transport as quantised basis vectors and weights, and a whole asset's.
+#pragma once
+
+#include "precompute/layout/bases/basis_analysis.h"
+#include "precompute/transport/layout_work.h"
+
+namespace relume {
+
+struct EncodedCluster {
+    BasisCluster cluster;
+    double error = 0; // squared, of the matrix: the cut's and quantisation's
+};
+
+// `kinds` and `spectrum` are those that the matrix was made with.
+EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& analysis, const BasisCut& cut,
+                           std::span<const BasisKind> kinds, std::span<const float> spectrum);
+
+// What layouts.h wants of a layout.
+void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf);
+EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& rows,
+                         const BlockCoding& coding);
+double findPrice(const BasisTransport& layout, std::span<const SetSample> samples, int faceSize,
+                 const LayoutTarget& target);
+double convertRows(const BasisTransport& layout, const RowSource& source, const LayoutTarget& target,
+                   ConversionPasses& passes);
+
+} // namespace relume
