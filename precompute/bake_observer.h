@@ -10,7 +10,7 @@ namespace relume {
 
 struct RefinementRecord;
 
-enum class BakeStage { Occluder, Factorisation, Refinement, Sample, Preview, Baking, Writing };
+enum class BakeStage { Occluder, Factorisation, Refinement, Bounces, Sample, Preview, Baking, Writing };
 
 // Where a bake stands.
 struct BakeStatus {
@@ -32,8 +32,8 @@ class BakeObserver {
     // Before the first block: vertices that a checkpoint holds already, of how many.
     virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
     // After every few tenths of a second of baking; the last time with done == vertices. In
-    // the stages Sample and Preview of the vertices that these take alone, in the stage Refinement of the
-    // points that a round looks at in a part.
+    // the stages Bounces, Sample and Preview of the vertices that these take alone, in the stage Refinement
+    // of the points that a round looks at in a part.
     virtual void progress(const BakeStatus&) {}
     // A preview was written to the output, with such a share of the vertices baked.
     virtual void preview(double /*bakedShare*/) {}

@@ -230,7 +230,7 @@ vec3 shade(uint triangle, vec3 direction) {
             terms.b += maps.b * unshadowed.b;
             terms.c += maps.c * unshadowed.c;
             vec4 a = vec4(1), b = vec4(1), c = vec4(1);
-            if (kEstimate == kResidualDifference) {
+            if ((kEstimate & kResidualDifference) != 0) {
                 const int first = int(push.firstWeight + 3 * quad);
                 a = texelOf(irradianceWeights, first);
                 b = texelOf(irradianceWeights, first + 1);
@@ -243,9 +243,11 @@ vec3 shade(uint triangle, vec3 direction) {
     const float weight = kLook == kSingleLook ? push.weight : 1;
     // A truncated sum of products can be negative.
     if (kEstimate == kTermsAlone) return max(weight * sumOf(sum), 0);
-    if (kEstimate == kResidualRatio)
-        return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit));
-    return differenceEstimate(weight * sumOf(sum), litShare(sumOf(lit), sumOf(unlit)), exact, weight * sumOf(terms));
+    const bool isBounced = (kEstimate & kBounced) != 0;
+    if ((kEstimate & kResidualRatio) != 0)
+        return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit), isBounced);
+    return differenceEstimate(weight * sumOf(sum), litShare(sumOf(lit), sumOf(unlit)), exact, weight * sumOf(terms),
+                              isBounced);
 }
 
 // Returns the ground's coverage where the pixel's ray meets a triangle's plane. C++ twin: groundCoverage() in

@@ -92,6 +92,7 @@ BakeOptions optionsFrom(const py::kwargs& kwargs) {
         options.factorization.method =
             known(factorizationFromName(name.cast<std::string>()), "factorization", name.cast<std::string>());
     takeLayout(given, options);
+    given.take("bounces", options.bounces);
     given.take("map_size", options.mapSize);
     given.take("face_size", options.faceSize);
     given.take("visibility_size", options.visibilitySize);

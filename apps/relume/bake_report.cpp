@@ -21,6 +21,8 @@ const char* stageName(BakeStage stage) {
         return "factorisation";
     case BakeStage::Refinement:
         return "refinement";
+    case BakeStage::Bounces:
+        return "bounces";
     case BakeStage::Sample:
         return "sample";
     case BakeStage::Preview:
@@ -44,7 +46,8 @@ void BakeReport::event(const char* name, nlohmann::ordered_json fields) const {
 }
 
 void BakeReport::stage(BakeStage stage, const std::string& part) {
-    mIsAside = stage == BakeStage::Refinement || stage == BakeStage::Sample || stage == BakeStage::Preview;
+    mIsAside = stage == BakeStage::Refinement || stage == BakeStage::Bounces || stage == BakeStage::Sample ||
+               stage == BakeStage::Preview;
     mStage = stageName(stage);
     event("stage", {{"stage", mStage}, {"part", part}});
     if (!part.empty()) mStage += " " + part;

@@ -20,7 +20,7 @@ struct Arguments {
     bool separate = false;
     FactorizationArguments factorization;
     LayoutArguments layout;
-    std::optional<int> coefficients, mapSize, faceSize, transportSamples;
+    std::optional<int> coefficients, mapSize, faceSize, transportSamples, bounces;
     BakeJob job;
 };
 
@@ -87,6 +87,7 @@ BakeOptions optionsFor(const Asset& asset, Arguments& arguments) {
     options.mapSize = arguments.mapSize.value_or(options.mapSize);
     options.faceSize = arguments.faceSize.value_or(options.faceSize);
     options.transportSamples = arguments.transportSamples.value_or(options.transportSamples);
+    options.bounces = arguments.bounces.value_or(options.bounces);
     options.keepVisibility = arguments.job.keepVisibility;
     options.validate();
     return options;
@@ -153,6 +154,7 @@ void addRebakeCommand(CLI::App& program) {
         ->add_option("--transport-samples", arguments->transportSamples,
                      "BRDF evaluations per lighting texel: 1, 4 or 16")
         ->type_name("COUNT");
+    addBounces(*command, arguments->bounces, "the bake's own");
     arguments->job.add(*command);
     command->footer(
         "Meshes, textures and every option that is not given are FILE's own. The new file is, byte for "

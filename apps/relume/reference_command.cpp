@@ -4,6 +4,7 @@
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
 #include "engine/light/background.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/reference/reference_image.h"
 
 #include <cmath>
@@ -19,7 +20,8 @@ struct Arguments {
     ImageArguments image;
     AppearanceArguments appearance;
     std::string brdf = "exact", lightForm = "cube", occluder = "full";
-    int rays = 4, environmentWidth = 1024, samples = kDefaultSamples;
+    int rays = 4, environmentWidth = 1024, samples = kDefaultSamples, paths = 256;
+    std::optional<int> bounces; // none: as many as the bake has
 };
 
 void run(const Arguments& arguments) {
@@ -39,6 +41,8 @@ void run(const Arguments& arguments) {
                                                   : ReferenceBrdf::Exact;
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
     options.appearance = arguments.appearance.appearance(asset);
+    options.bounces = arguments.bounces.value_or(asset.bounces);
+    options.paths = arguments.paths;
     options.groundFade = arguments.image.groundFade(asset);
     options.bakedOccluder = arguments.occluder == "baked";
     const Camera camera = arguments.camera.camera(asset);
@@ -96,6 +100,16 @@ void addReferenceCommand(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--rays", arguments->rays, "Shadow rays per lighting texel: 1, 4, 16 or 64")
         ->check(CLI::IsMember({1, 4, 16, 64}))
+        ->capture_default_str();
+    command
+        ->add_option("--bounces", arguments->bounces,
+                     "Reflections between surfaces before the last, traced with the exact BRDF: 0 to 8")
+        ->check(CLI::Range(0, kMostBounces))
+        ->type_name("B")
+        ->default_str("the bake's own");
+    command->add_option("--paths", arguments->paths, "Paths per pixel that find bounced light")
+        ->check(CLI::Range(1, 1 << 20))
+        ->type_name("COUNT")
         ->capture_default_str();
     command->add_option("--environment-width", arguments->environmentWidth, "Most columns of the full map")
         ->check(CLI::Range(16, 16384))

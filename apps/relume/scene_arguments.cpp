@@ -3,6 +3,7 @@
 #include "apps/relume/bake_report.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/brdf/material_json.h"
 #include "precompute/brdf/material_list.h"
 
@@ -121,6 +122,18 @@ void addPreset(CLI::App& command, BakePreset& preset, const std::string& help) {
     addChoice(command, "--preset", preset, presets, help)->type_name("PRESET")->default_str("default");
 }
 
+void addBounces(CLI::App& command, std::optional<int>& bounces, const std::string& standard) {
+    command
+        .add_option(
+            "--bounces", bounces,
+            fmt::format("Reflections between surfaces that light may take before the last: 0, direct light "
+                        "alone, to {}. Surfaces light others as they look in the first material of each "
+                        "part, or painted",
+                        kMostBounces))
+        ->type_name("B")
+        ->default_str(standard);
+}
+
 void BakeArguments::add(CLI::App& command, bool takesLayout) {
     const BakeOptions defaults = presetOptions(BakePreset::Default);
     mTakesLayout = takesLayout;
@@ -158,6 +171,7 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
         ->default_str(std::string(visibilityMethodName(*defaults.visibilityMethod)));
     addSize("--transport-samples", mTransportSamples, "COUNT", defaults.transportSamples,
             "BRDF evaluations per lighting texel: 1, 4 or 16");
+    addBounces(command, mBounces, fmt::format("{}", defaults.bounces));
     command
         .add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
         ->type_name("TRIANGLES")
@@ -206,6 +220,7 @@ void BakeArguments::resolve() {
     options.mapSize = mMapSize.value_or(options.mapSize);
     options.faceSize = mFaceSize.value_or(options.faceSize);
     options.visibilitySize = mVisibilitySize.value_or(options.visibilitySize);
+    options.bounces = mBounces.value_or(options.bounces);
     options.transportSamples =
         mTransportSamples.value_or(std::min(options.transportSamples, options.mostTransportSamples()));
     if (mVisibility) {
@@ -234,6 +249,7 @@ nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices) {
     vk::PassTimes stages = times.device;
     vk::addTime(stages, "factorisation", times.factorisation);
     vk::addTime(stages, "occluder", times.occluder);
+    if (times.bounces > 0) vk::addTime(stages, "bounces", times.bounces);
     if (times.previews > 0) vk::addTime(stages, "previews", times.previews);
     vk::addTime(stages, "host and submission", std::max(0.0, times.total - vk::secondsOf(stages)));
     nlohmann::ordered_json list;

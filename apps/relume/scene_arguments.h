@@ -61,11 +61,14 @@ struct BakeArguments {
     // None: the preset's.
     FactorizationArguments mFactorization;
     LayoutArguments mLayout;
-    std::optional<int> mCoefficients, mMapSize, mFaceSize, mVisibilitySize, mTransportSamples;
+    std::optional<int> mCoefficients, mMapSize, mFaceSize, mVisibilitySize, mTransportSamples, mBounces;
     std::optional<std::string> mOccluder, mVisibility, mRefine;
     BakePreset mPreset = BakePreset::Default;
     bool mTakesLayout = true;
 };
+
+// --bounces; `standard` is what the help says for none.
+void addBounces(CLI::App& command, std::optional<int>& bounces, const std::string& standard);
 
 // --preset
 void addPreset(CLI::App& command, BakePreset& preset, const std::string& help);

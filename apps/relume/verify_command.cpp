@@ -51,6 +51,7 @@ void run(const Arguments& arguments) {
                            {"raster_traced_difference", ways ? Json(ways->share()) : Json()},
                            {"raster_traced_inside", ways ? Json(ways->inside) : Json()},
                            {"transport_error", found.transportError},
+                           {"bounce_error", asset.bounces > 0 ? Json(found.bounceError) : Json()},
                            {"layout_error", found.layoutError},
                            {"wavelet_error", found.waveletError},
                            {"quantization_error", found.quantisationError},
@@ -67,6 +68,9 @@ void run(const Arguments& arguments) {
                        ways->share(), ways->inside);
         fmt::print("transport error      {:.2e}  before compression, device against CPU\n",
                    found.transportError);
+        if (asset.bounces > 0)
+            fmt::print("bounce error         {:.4f}    light by way of other surfaces, against its twin\n",
+                       found.bounceError);
         fmt::print("layout error         {:.4f}    all that is lost by how transport is kept\n",
                    found.layoutError);
         fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,

@@ -124,8 +124,13 @@ std::string describeTerms(const Asset& asset) {
 Json describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
     Json list = Json::array();
-    list.push_back(fmt::format("light: infinitely far away, direct alone, even over each of 6 x {}² texels",
-                               asset.faceSize));
+    list.push_back(
+        fmt::format("light: infinitely far away, {}, even over each of 6 x {}² texels",
+                    asset.bounces == 0 ? std::string("direct alone")
+                    : asset.bounces == 1
+                        ? std::string("direct and by one reflection between surfaces")
+                        : fmt::format("direct and by up to {} reflections between surfaces", asset.bounces),
+                    asset.faceSize));
     list.push_back(describeVisibility(asset));
     list.push_back(describeInterpolation(optionOf(asset, "refinement")));
     list.push_back("transport: " + describeSamples(asset.transportSamples));

@@ -67,7 +67,8 @@ uint32_t mostHarmonics(const ResidualSet* residual) {
 
 uint32_t estimateOf(const ResidualSet* residual) {
     if (!residual) return shared::kTermsAlone;
-    return residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference;
+    return (residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference) +
+           (residual->isBounced ? shared::kBounced : 0);
 }
 
 template <typename T>

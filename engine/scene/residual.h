@@ -35,6 +35,8 @@ struct ResidualSet {
     std::vector<std::shared_ptr<const SphereKernel>> layers;
     // Neither light nor view maps are negative anywhere: ratios of their sums are safe.
     bool hasNonnegativeTerms = false;
+    // The tuples have light of other surfaces, too, which what nothing shadows does not bound.
+    bool isBounced = false;
     // a_k per channel: Σ a_k g_k is as near to 1 as light maps come, in least squares over the hemisphere
     // weighted by the cosine. So Σ a_k γ_k is the irradiance of a point.
     std::vector<vec3> irradianceWeights;

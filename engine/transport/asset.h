@@ -76,6 +76,7 @@ struct Asset {
     int visibilitySize = 256;    // side of a face of the visibility cube
     int coefficients = 96;       // N: most entries of a row
     int transportSamples = 1;    // light-map evaluations per lighting texel
+    int bounces = 0;             // reflections between surfaces that the transport has, besides the last
     float visibilityOffset = 0;  // distance a vertex was lifted along its normal
     float quantisationError = 0; // relative L2 over all rows, as measured during the bake
     float truncationError = 0;   // relative L2 over all rows lost by keeping N, as measured during the bake

@@ -90,7 +90,8 @@ void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {
 using Residuals = std::map<std::shared_ptr<const ResidualSet>, std::shared_ptr<const ResidualSet>>;
 
 // Values of a residual that no set before has.
-void readResidual(const ChunkFile& file, uint32_t number, Residuals& residuals, MaterialSet& set) {
+void readResidual(const ChunkFile& file, uint32_t number, bool isBounced, Residuals& residuals,
+                  MaterialSet& set) {
     if (!set.residual) return;
     std::shared_ptr<const ResidualSet>& read = residuals[set.residual];
     if (!read) {
@@ -106,6 +107,7 @@ void readResidual(const ChunkFile& file, uint32_t number, Residuals& residuals, 
             residual->layers.push_back(kernel);
         }
         residual->hasNonnegativeTerms = isNonnegative(set.brdf);
+        residual->isBounced = isBounced;
         residual->irradianceWeights =
             readArray<vec3>(file, kIrradianceWeights, number, uint64_t(set.brdf.terms));
         read = residual;
@@ -205,7 +207,7 @@ void readArrays(const ChunkFile& file, AssetMeta& meta) {
         readPart(file, number, meta.sizes.parts[number], asset.parts[number]);
         for (MaterialSet& set : asset.parts[number].sets) {
             readFactors(file, setNumber, set);
-            readResidual(file, setNumber, residuals, set);
+            readResidual(file, setNumber, asset.bounces > 0, residuals, set);
             setNumber++;
         }
     }

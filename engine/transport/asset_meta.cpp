@@ -269,6 +269,7 @@ std::vector<std::byte> encodeMeta(const Asset& asset, const AssetSizes& sizes,
     out.flag(provenance.bakedShare.has_value());
     if (provenance.bakedShare) out.real(*provenance.bakedShare);
     out.text(visibilityKey);
+    if (asset.bounces > 0) out.whole(uint64_t(asset.bounces));
     std::vector<std::byte> bytes = out.take();
     if (bytes.size() > kLargestMeta)
         throw Error(fmt::format(
@@ -329,6 +330,7 @@ AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name) 
         (meta.visibilityKey.size() != kVisibilityKeyDigits ||
          meta.visibilityKey.find_first_not_of("0123456789abcdef") != std::string::npos))
         in.fail("visibilityKey", fmt::format("{} hexadecimal digits", kVisibilityKeyDigits));
+    if (in.left() > 0) asset.bounces = in.integer("bounces", 1, kMostBounces);
     if (in.left() > 0) in.fail("end", "no more bytes");
     return meta;
 }

@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/base/file.h"
 #include "engine/base/log.h"
+#include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/checkpoint.h"
 #include "precompute/bake/layout_sample.h"
 #include "precompute/bake/preview.h"
@@ -138,6 +139,8 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     };
     StoringSink sink(plan, StoringSink::bytesInHand(limits),
                      [&](uint32_t block, StoredBlock stored) { checkpoint.append(block, stored); });
+    if (plan.options.bounces > 0 && !missing.empty())
+        plan.bounced = bounceTransport(device, plan, limits, observer, summary.times);
     if (needsScale(plan) && !plan.scale && !missing.empty()) {
         std::vector<SampledBlock> sample = bakeSample(device, plan, limits, observer, summary.times, kept);
         checkpoint.append(*plan.scale);
@@ -190,6 +193,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     MemoryBlocks blocks;
     StoringSink sink(plan, StoringSink::bytesInHand({}),
                      [&](uint32_t block, StoredBlock stored) { blocks.keep(block, std::move(stored)); });
+    if (plan.options.bounces > 0) plan.bounced = bounceTransport(device, plan, {}, observer, times);
     if (needsScale(plan))
         for (SampledBlock& sampled : bakeSample(device, plan, {}, observer, times, nullptr)) {
             std::erase(missing, sampled.block);

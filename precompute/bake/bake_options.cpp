@@ -1,6 +1,7 @@
 #include "precompute/bake/bake_options.h"
 
 #include "engine/base/error.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ void BakeOptions::validate() const {
     expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});
     expectOneOf("--transport-samples", transportSamples, "1, 4 or 16", {1, 4, 16});
+    expectRange("--bounces", bounces, 0, kMostBounces);
     expectRange("--coefficients", coefficients, 1, 6 * faceSize * faceSize);
     if (refinement &&
         !(refinement->wanted >= kLeastRefinementError && refinement->wanted <= kMostRefinementError))

@@ -29,6 +29,8 @@ struct BakeOptions {
     // None: the faster one on the device, measured: see fasterVisibility().
     std::optional<VisibilityMethod> visibilityMethod = VisibilityMethod::Traced;
     int transportSamples = 1; // 1, 4 or 16 light-map evaluations per lighting texel
+    // Reflections between surfaces, besides the last towards the eye: 0, direct light alone, to kMostBounces.
+    int bounces = 0;
     // Triangles that cast shadows, 0: all; the rest are simplified away.
     size_t occluderTriangles = 0;
     // Whether a file keeps the visibility it was made from: KeptVisibility. An asset in memory does not.

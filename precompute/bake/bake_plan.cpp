@@ -6,6 +6,7 @@
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
 #include "precompute/bake/baked_options.h"
+#include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/content_hash.h"
 #include "precompute/bake/tangents.h"
 #include "precompute/bake/transport_pass.h"
@@ -73,7 +74,8 @@ void prepareTransport(BakePlan& plan) {
         for (MaterialSet& set : part.sets) {
             set.transport =
                 emptyTransport(options.layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
-            std::visit([&](auto& layout) { prepareLayout(layout, set.brdf); }, set.transport);
+            std::visit([&](auto& layout) { prepareLayout(layout, set.brdf, plan.asset.bounces > 0); },
+                       set.transport);
         }
 }
 
@@ -182,6 +184,7 @@ std::string identityOf(const BakePlan& plan) {
                                    visibilityKernels(VisibilityMethod::Traced), TransportPass::kernels()})
         for (const auto kernel : kernels) hash.add(kernel);
     hash.add(std::span(&kLayoutEncoderVersion, 1));
+    if (plan.asset.bounces > 0) hash.add(std::span(&kBouncesVersion, 1));
     forEachArray(
         plan.asset, [&](ChunkTag, uint32_t, const auto& elements) { hash.add(std::span(elements)); },
         [](uint32_t, const MaterialSet&) {});
@@ -194,6 +197,7 @@ void describeTo(const vk::Device& device, const BakeOptions& options, Asset& ass
     asset.visibilitySize = options.visibilitySize;
     asset.coefficients = options.coefficients;
     asset.transportSamples = options.transportSamples;
+    asset.bounces = options.bounces;
     asset.provenance.program = "relume " RELUME_VERSION;
     asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
 }

@@ -17,11 +17,16 @@ struct BakeBlock {
     uint32_t count() const { return end - first; }
 };
 
+class BouncedTransport;
+
 struct BakePlan {
     BakeOptions options;
     Asset asset; // all but the rows, whose numbers are set, and the measured errors
     // What encodes blocks that are not kept in rows: known once a sample of them is baked (layout_sample.h).
     std::optional<LayoutScale> scale;
+    // What is added to blocks as they are baked, where light bounces: known once it was found
+    // (precompute/bake/bounced_transport.h).
+    std::shared_ptr<const BouncedTransport> bounced;
     uint32_t blockVertices = 0, visibilityRun = 0; // vertices; the second divides the first
     std::vector<BakeBlock> blocks;                 // part after part, in vertex order
     std::vector<uint32_t> firstSet;                // per part: its first set's number, counted over all parts

@@ -66,6 +66,9 @@ class OptionReader {
                                 count("vertices"),      value.contains("auto") && value["auto"] == true};
     }
 
+    // Of bakes with bounced light alone.
+    int bounces() { return mOptions.contains("bounces") ? integer("bounces") : 0; }
+
     // `parse` gives an std::optional, empty for a name it does not know.
     template <typename Parse>
     auto name(const char* key, const Parse& parse) {
@@ -131,6 +134,7 @@ std::string describeOptions(const BakeOptions& options) {
                                      {"vertices", refinement->vertices}};
         if (refinement->isAuto) description["refinement"]["auto"] = true;
     }
+    if (options.bounces > 0) description["bounces"] = options.bounces;
     return description.dump();
 }
 
@@ -156,6 +160,7 @@ BakeOptions optionsOf(const Asset& asset) {
         return name == kVertexOrder ? std::optional(true) : std::nullopt;
     });
     options.refinement = in.refinement();
+    options.bounces = in.bounces();
     in.expectEnd();
     try {
         options.validate();
@@ -164,7 +169,7 @@ BakeOptions optionsOf(const Asset& asset) {
     }
     if (options.coefficients != asset.coefficients || options.faceSize != asset.faceSize ||
         options.visibilitySize != asset.visibilitySize ||
-        options.transportSamples != asset.transportSamples ||
+        options.transportSamples != asset.transportSamples || options.bounces != asset.bounces ||
         (options.refinement && options.refinement->vertices != verticesOf(asset)))
         OptionReader::fail("they are not those of what it holds");
     return options;

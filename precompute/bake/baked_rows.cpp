@@ -1,6 +1,7 @@
 #include "precompute/bake/baked_rows.h"
 
 #include "engine/base/check.h"
+#include "precompute/transport/row_sum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,18 +32,8 @@ BakedRows BakedRows::vertices(uint32_t first, uint32_t end) const {
 }
 
 void BakedRows::append(const BakedRows& more) {
-    RELUME_CHECK_EQ(transport.terms, more.transport.terms);
-    const auto join = [](auto& values, const auto& others) {
-        values.insert(values.end(), others.begin(), others.end());
-    };
-    const uint64_t before = transport.entries();
-    for (size_t row = 0; row < more.transport.rows(); row++)
-        transport.rowStarts.push_back(before + more.transport.rowStarts[row + 1]);
-    join(transport.scales, more.transport.scales);
-    join(transport.indices, more.transport.indices);
-    join(transport.values, more.transport.values);
-    transport.vertices += more.transport.vertices;
-    join(losses, more.losses);
+    appendRows(transport, more.transport);
+    losses.insert(losses.end(), more.losses.begin(), more.losses.end());
 }
 
 TransportLosses BakedBlock::losses() const {

@@ -2,6 +2,7 @@
 
 #include "engine/vk/result.h"
 #include "precompute/bake/bake_estimate.h"
+#include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/part_passes.h"
 
 #include <algorithm>
@@ -207,6 +208,9 @@ void BlockBaker::bakeGroup(std::span<const uint32_t> blocks) {
         const uint32_t end = first + mPlan.blocks[block].count();
         BakedBlock baked;
         for (const BakedRows& set : all.rows) baked.sets.push_back(set.vertices(first, end));
+        if (mPlan.bounced)
+            mPlan.bounced->addTo(baked.sets, mPart, mPlan.blocks[block].first, mPlan.asset.faceSize,
+                                 mPlan.asset.coefficients);
         if (mPlan.options.keepVisibility)
             baked.visibility.assign(visibility.begin() + ptrdiff_t(first * vertexWords),
                                     visibility.begin() + ptrdiff_t(end * vertexWords));

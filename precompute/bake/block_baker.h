@@ -16,6 +16,7 @@ struct BakeTimes {
     double total = 0; // wall-clock seconds, all told
     double factorisation = 0;
     double occluder = 0;  // merging and simplifying
+    double bounces = 0;   // gathering bounced light, on the host
     double previews = 0;  // making and writing them
     vk::PassTimes device; // device seconds by pass
     uint32_t batch = 0;   // most points of a submission

@@ -81,7 +81,8 @@ LayoutScale scaleOf(const BakePlan& plan, std::span<const SampledBlock> blocks,
     std::vector<SetSample> samples; // over all parts
     for (const AssetPart& part : plan.asset.parts)
         for (const MaterialSet& set : part.sets)
-            samples.push_back({&set, {}, uint32_t(part.mesh.vertexCount()), units[samples.size()]});
+            samples.push_back(
+                {&set, {}, uint32_t(part.mesh.vertexCount()), units[samples.size()], plan.asset.bounces > 0});
     for (const SampledBlock& sampled : blocks) {
         const uint32_t firstSet = plan.firstSet[plan.blocks[sampled.block].part];
         for (size_t set = 0; set < sampled.baked.sets.size(); set++)

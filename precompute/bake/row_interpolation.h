@@ -3,6 +3,7 @@
 
 #include "precompute/bake/baked_rows.h"
 #include "precompute/bake/coarse_neighbours.h"
+#include "precompute/transport/row_sum.h"
 
 namespace relume {
 
@@ -21,8 +22,7 @@ class RowInterpolator {
 
     const BakedRows& mCoarse;
     int mKept;
-    std::vector<vec3> mSums;        // per coefficient; zero between calls
-    std::vector<uint64_t> mTouched; // a bit per coefficient
+    RowSum mSum; // empty between calls
 };
 
 } // namespace relume

@@ -155,7 +155,7 @@ std::vector<ResidualSet> residualsOfPrefixes(const Asset& asset, const Appearanc
     std::vector<ResidualSet> prefixes;
     for (; factors.terms > 0; factors.terms--) {
         factors.lightMaps.resize(size_t(factors.terms) * factors.mapTexels());
-        prefixes.push_back({{}, false, irradianceWeights(factors)});
+        prefixes.push_back({.irradianceWeights = irradianceWeights(factors)});
     }
     return {prefixes.rbegin(), prefixes.rend()};
 }

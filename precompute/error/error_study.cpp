@@ -92,6 +92,11 @@ LowOrderStudy studyLowOrder(const ViewPoints& points, std::span<const StageRadia
 ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
                          std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
                          const std::function<void(double)>& progress) {
+    if (asset.bounces > 0)
+        throw UsageError(
+            fmt::format("expected a bake of direct light alone, found one of up to {} bounces: the "
+                        "sources of error are told of bakes with --bounces 0",
+                        asset.bounces));
     const ErrorView& view = options.view;
     ErrorStudies studies{viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height), {}};
     const ViewPoints& points = studies.points;

@@ -42,8 +42,9 @@ vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, 
         lit += weight * tuple[term];
         unlit += weight * unshadowed.tuple[term];
     }
-    return residual->hasNonnegativeTerms ? ratioEstimate(sums, lit, unlit)
-                                         : differenceEstimate(sums, litShare(lit, unlit));
+    return residual->hasNonnegativeTerms
+               ? ratioEstimate(sums, lit, unlit, residual->isBounced)
+               : differenceEstimate(sums, litShare(lit, unlit), residual->isBounced);
 }
 
 } // namespace relume

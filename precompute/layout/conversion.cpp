@@ -28,7 +28,7 @@ uint64_t bytesOf(const std::vector<MaterialSet*>& sets) {
 // Of rows, as the options ask: relative to their units, root mean square over all vertices.
 double compress(const Asset& asset, const std::vector<MaterialSet*>& sets, const LayoutOptions& options,
                 ConversionPasses& passes) {
-    RowSource source{sets, lightSpectrum(asset.faceSize), {}};
+    RowSource source{sets, lightSpectrum(asset.faceSize), {}, asset.bounces > 0};
     uint64_t vertices = 0;
     for (const MaterialSet* set : sets) {
         source.units.push_back(transportUnit(rowsOf(set->transport), source.spectrum));

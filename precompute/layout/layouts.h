@@ -1,6 +1,8 @@
 // How every layout is encoded. A layout has these functions, which std::visit finds by its type:
 //
-// - prepareLayout: sets what a set's BRDF says of its transport, before any of it is baked;
+// - prepareLayout: sets what a set's BRDF, and whether light bounces, say of its transport, before any of it
+// is
+//   baked;
 // - encodeBlock: rows of a block, as its chunk;
 // - findPrice: what a block is to be encoded with, as a sample of all rows tells it (layout_scale.h);
 // - convertRows: makes transport of all sets' rows; its error, squared and in units of the sets.

@@ -1,7 +1,7 @@
 #include "precompute/reference/dressed_asset.h"
 
 #include "engine/base/check.h"
-#include "precompute/reference/layer_weights.h"
+#include "engine/render/layer_weights.h"
 
 namespace relume {
 

@@ -1,9 +1,9 @@
 #include "precompute/reference/progressive_reference.h"
 
 #include "engine/base/check.h"
+#include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/reference/sampled_reflection.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +21,7 @@ bool isSame(const Camera& a, const Camera& b) {
 } // namespace
 
 ProgressiveReference::ProgressiveReference(const Asset& asset, ReferenceBrdf brdf)
-    : mAsset(asset), mKind(brdf), mTracer(partMeshes(asset)),
+    : mAsset(asset), mKind(brdf), mMeshes(partMeshes(asset)), mTracer(mMeshes),
       mShadowOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {}
 
 void ProgressiveReference::restart(const Camera& camera, const LightCube& light, const Appearance& appearance,
@@ -72,8 +72,11 @@ void ProgressiveReference::sampleRow(int y) {
         const std::optional<RayHit>& hit = surfacesOf(pixel)[sampleOf(pixel)];
         if (!hit) continue;
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
-        mSample[pixel] =
-            sampleReflection(mDressed->pointAt(*hit, mCamera.eye), *mLight, mTracer, mShadowOffset, random);
+        const SurfacePoint point = mDressed->pointAt(*hit, mCamera.eye);
+        mSample[pixel] = sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
+        if (mAsset.bounces > 0)
+            mSample[pixel] += sampleBounces({*mDressed, mTracer, mMeshes, *mLight, mShadowOffset}, point,
+                                            mAsset.bounces, random);
     }
 }
 

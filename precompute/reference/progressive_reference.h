@@ -31,7 +31,8 @@ struct ReferenceError {
 };
 
 // Converges to renderReference() under a light cube, full mesh as occluder, as raysPerTexelSide grows: light
-// constant over each texel, the same surfaces, frames and shadow offset. One caller at a time.
+// constant over each texel, the same surfaces, frames and shadow offset; with as many bounces as the asset
+// has light of. One caller at a time.
 class ProgressiveReference {
   public:
     // Builds the scene for rays. Refers to `asset`. Throws Error when Embree fails.
@@ -76,7 +77,8 @@ class ProgressiveReference {
 
     const Asset& mAsset;
     ReferenceBrdf mKind;
-    RayTracer mTracer; // one mesh per part: what is seen, and what casts shadows
+    std::vector<const Mesh*> mMeshes; // of the parts
+    RayTracer mTracer;                // one mesh per part: what is seen, and what casts shadows
     float mShadowOffset;
     MaterialBrdfs mBrdfs;
 

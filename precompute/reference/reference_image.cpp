@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/math/cubemap.h"
 #include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
 #include "precompute/reference/residual_twin.h"
 
@@ -23,6 +24,9 @@ struct LightSample {
     vec3 energy;
 };
 
+// Texels a side of the light cube that paths sample where the light is an environment.
+constexpr int kPathFaceSize = 128;
+
 // What all pixels share.
 struct Renderer {
     const Camera& camera;
@@ -34,9 +38,13 @@ struct Renderer {
     RayTracer surfaces;                    // one mesh per part
     RayTracer occluder;
     float shadowOffset;
+    std::optional<LightDistribution> bounced; // the light that paths find, where light bounces
+    std::vector<const Mesh*> meshes;
 
     vec4 pixelAt(int x, int y) const;
     vec3 radianceAt(const RayHit& hit) const;
+    // By paths whose numbers are those of the pixel.
+    vec3 bouncedRadiance(const RayHit& hit, uint32_t pixel) const;
     // The share of the surface that is there.
     float coverageAt(const RayHit& hit) const;
     vec3 reflectedRadiance(const SurfacePoint& point) const;
@@ -45,6 +53,17 @@ struct Renderer {
 
 vec3 Renderer::radianceAt(const RayHit& hit) const {
     return terms ? estimateRadiance(hit) : reflectedRadiance(asset.pointAt(hit, camera.eye));
+}
+
+vec3 Renderer::bouncedRadiance(const RayHit& hit, uint32_t pixel) const {
+    const SurfacePoint point = asset.pointAt(hit, camera.eye);
+    const PathScene scene{asset, surfaces, meshes, *bounced, shadowOffset};
+    glm::dvec3 sum(0);
+    for (int path = 0; path < options.paths; path++) {
+        HashedNumbers random(pixel, uint32_t(path));
+        sum += sampleBounces(scene, point, options.bounces, random);
+    }
+    return vec3(sum / double(options.paths));
 }
 
 float Renderer::coverageAt(const RayHit& hit) const {
@@ -63,7 +82,10 @@ vec4 Renderer::pixelAt(int x, int y) const {
         const float covered = float(std::ranges::count_if(hits, isSame)) / float(options.samples);
         const float share = covered * coverageAt(**hit);
         // A factored BRDF can go negative.
-        if (share > 0) sum += share * vec4(glm::max(radianceAt(**hit), vec3(0)), 1);
+        if (!(share > 0)) continue;
+        vec3 radiance = radianceAt(**hit);
+        if (bounced) radiance += bouncedRadiance(**hit, uint32_t(y * options.width + x));
+        sum += share * vec4(glm::max(radiance, vec3(0)), 1);
     }
     return sum;
 }
@@ -128,14 +150,18 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
     return image;
 }
 
-Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Camera& camera,
-                  const ReferenceOptions& options, const std::function<void(int)>& progress) {
+// `cube`: the light as paths find it.
+Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const Asset& asset,
+                  const Camera& camera, const ReferenceOptions& options,
+                  const std::function<void(int)>& progress) {
     constexpr int kLargestSide = 16384;
     if (options.width < 1 || options.width > kLargestSide || options.height < 1 ||
         options.height > kLargestSide)
         throw UsageError(fmt::format("a reference image of {} x {} pixels: each side must be 1 to {}",
                                      options.width, options.height, kLargestSide));
     expectSamples(options.samples);
+    if (options.bounces > 0 && options.brdf != ReferenceBrdf::Exact)
+        throw UsageError("bounced light is traced with the exact BRDF alone");
     const std::vector<const Mesh*> meshes = partMeshes(asset);
     const std::vector<const Mesh*> occluders =
         options.bakedOccluder ? std::vector<const Mesh*>{&asset.occluder} : meshes;
@@ -161,7 +187,9 @@ Image renderUnder(std::vector<LightSample> lights, const Asset& asset, const Cam
         std::move(hasNonnegativeTerms),
         RayTracer(meshes),
         RayTracer(occluders),
-        offset};
+        offset,
+        options.bounces > 0 ? std::optional<LightDistribution>(cube) : std::nullopt,
+        meshes};
     return render(renderer, progress);
 }
 
@@ -208,14 +236,17 @@ Image renderReference(const Asset& asset, const Camera& camera, const LightCube&
     if (options.raysPerTexelSide < 1 || options.raysPerTexelSide > kMostRays)
         throw UsageError(fmt::format("{} shadow rays per side of a lighting texel: must be 1 to {}",
                                      options.raysPerTexelSide, kMostRays));
-    return renderUnder(lightSamples(light, options.raysPerTexelSide), asset, camera, options, progress);
+    return renderUnder(lightSamples(light, options.raysPerTexelSide), light, asset, camera, options,
+                       progress);
 }
 
 Image renderReference(const Asset& asset, const Camera& camera, const Environment& environment,
                       float rotation, int maxWidth, const ReferenceOptions& options,
                       const std::function<void(int)>& progress) {
     const Environment prepared = prepareForSampling(environment, maxWidth);
-    return renderUnder(lightSamples(prepared, rotation), asset, camera, options, progress);
+    const LightCube cube =
+        options.bounces > 0 ? sampleEnvironment(prepared, kPathFaceSize, rotation) : LightCube();
+    return renderUnder(lightSamples(prepared, rotation), cube, asset, camera, options, progress);
 }
 
 } // namespace relume

@@ -19,6 +19,9 @@ struct ReferenceOptions {
     int raysPerTexelSide = 2;   // shadow rays through each lighting texel: this squared; 4 is the 256² grid
     Appearance appearance = {}; // what parts wear; empty: the default appearance
     std::optional<GroundFade> groundFade = std::nullopt;
+    // Reflections between surfaces, besides the last towards the eye, and paths a pixel that they are traced
+    // by; their noise goes with the square root of these.
+    int bounces = 0, paths = 256;
     bool bakedOccluder = false; // cast shadows with the asset's simplified occluder, not the full mesh
 };
 
@@ -32,7 +35,8 @@ constexpr float kFullMeshShadowOffset = 1e-4f;
 // tangent; the eye sees what a pixel's samples see, each triangle shaded once, at the mean of where they meet
 // it. Radiance is premultiplied by alpha, the share of samples that see the asset. Several threads; the same
 // input gives the same image. Facets are real: a ray above the interpolated horizon but below its triangle's
-// plane meets the mesh. `progress` is called with the number of finished rows, from one thread at a time.
+// plane meets the mesh. Bounced light is sampled (path_sampling.h), everything else is not. `progress` is
+// called with the number of finished rows, from one thread at a time.
 Image renderReference(const Asset& asset, const Camera& camera, const LightCube& light,
                       const ReferenceOptions& options, const std::function<void(int)>& progress = {});
 

@@ -18,13 +18,17 @@ float litShare(vec3 irradiance, vec3 unshadowed) {
     return all > 0 ? std::clamp(glm::dot(irradiance, luminance) / all, 0.0f, 1.0f) : 1;
 }
 
-vec3 differenceEstimate(const ResidualSums& sums, float share) {
+vec3 differenceEstimate(const ResidualSums& sums, float share, bool isBounced) {
+    const vec3 above = isBounced ? glm::max(sums.shadowed - sums.terms, vec3(0)) : vec3(0);
     return glm::clamp(sums.shadowed + share * (sums.exact - sums.terms), kLeastShare * share * sums.exact,
-                      sums.exact);
+                      sums.exact + above);
 }
 
-vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples) {
+vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples, bool isBounced) {
     const vec3 all = sums.terms + kLeastView * unshadowedTuples, lit = sums.shadowed + kLeastView * tuples;
+    if (isBounced)
+        return sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1)) +
+               glm::max(sums.shadowed - sums.terms, vec3(0));
     const float grey = std::max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
     const vec3 ratio =
         glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGrey * grey), vec3(kMostOfGrey * grey));

@@ -1,8 +1,9 @@
 #include "precompute/reference/sampled_reflection.h"
 
+#include "precompute/reference/lobe_sampling.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace relume {
 
@@ -10,24 +11,7 @@ namespace {
 
 // Counts that come to the same noise in the same time are many; these give the first picture early.
 constexpr int kFromLight = 8, kFromCosine = 4, kRays = 8;
-// BRDFs are not asked for their shape: one lobe each for broad, glossy and nearly mirroring ones.
-constexpr std::array kLobeWidths = {0.1f, 0.01f, 0.001f};
 constexpr size_t kCandidates = kFromLight + kFromCosine + kLobeWidths.size();
-
-vec3 onCone(float cosine, float turn) {
-    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)), angle = 2 * kPi * turn;
-    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
-}
-
-// Of a direction at cosine c from the axis, with t = (1 - c) / 2: w (1 + w) / (4π (t + w)²). Half of all are
-// within t = w of it and the rest reach everywhere.
-float lobeDensity(float width, float t) {
-    const float reach = t + width;
-    return width * (1 + width) / (4 * kPi * reach * reach);
-}
-vec3 drawLobe(float width, float choice, float turn) {
-    return onCone(1 - 2 * choice * width / (1 + width - choice), turn);
-}
 
 struct Candidate {
     vec3 direction;

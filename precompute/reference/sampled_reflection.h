@@ -1,8 +1,8 @@
 // The radiance that a point reflects, from a few shadow rays.
 #pragma once
 
+#include "engine/math/hashed_numbers.h"
 #include "precompute/reference/dressed_asset.h"
-#include "precompute/reference/hashed_numbers.h"
 #include "precompute/reference/light_distribution.h"
 
 namespace relume {

@@ -5,8 +5,11 @@
 #include "engine/render/relighter.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/batch_plan.h"
+#include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/brdf/factorization_error.h"
+#include "precompute/reference/bounce_twin.h"
+#include "precompute/reference/dressed_asset.h"
 #include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"
@@ -33,7 +36,7 @@ struct ErrorSum {
 
 struct Sums {
     uint64_t mismatched = 0, hemisphere = 0;
-    ErrorSum transport, wavelet, quantisation, layout, total;
+    ErrorSum transport, wavelet, quantisation, layout, total, bounce;
     double brdf = 0;
 };
 
@@ -113,8 +116,44 @@ class DeviceStages {
     std::vector<std::vector<vec3>> mCoefficients; // row by row
 };
 
+// Light by way of other surfaces, found anew, and what the last bounce was gathered from.
+class Bounces {
+  public:
+    Bounces(const vk::Device& device, const Asset& asset)
+        : mAsset(asset), mBound(defaultAppearance(asset)), mTracer(partMeshes(asset)) {
+        BakePlan plan = planOf(asset);
+        plan.options = optionsOf(asset);
+        BakeObserver silent;
+        BakeTimes times;
+        mBounced = bounceTransport(device, plan, {}, silent, times, &mFrom);
+    }
+
+    void addTo(std::vector<vec3>& coefficients, size_t part, size_t set, size_t row) const {
+        mBounced->addTo(coefficients, part, set, row, mAsset.faceSize);
+    }
+
+    // Of one bounced row: against the twin.
+    void check(size_t part, size_t set, uint32_t vertex, int term, ErrorSum& sum) const {
+        constexpr int kDirections = 64; // a side of a face of their cube
+        const std::vector<vec3> expected =
+            bouncedVector(mAsset, mBound, mTracer, mFrom, part, vertex, set, term, kDirections);
+        const SparseTransport& rows = mBounced->rows(part, set);
+        std::vector<vec3> found(expected.size(), vec3(0));
+        rows.addCoefficients(size_t(vertex) * rows.terms + size_t(term), found);
+        for (size_t i = 0; i < expected.size(); i++) sum.add(found[i], expected[i]);
+    }
+
+  private:
+    const Asset& mAsset;
+    Appearance mBound;
+    RayTracer mTracer;
+    std::vector<SparseTransport> mFrom;
+    std::shared_ptr<const BouncedTransport> mBounced;
+};
+
 void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t vertex,
-                 const RayTracer& tracer, const DeviceStages& device, size_t point, Sums& sums) {
+                 const RayTracer& tracer, const DeviceStages& device, size_t point, const Bounces* bounces,
+                 Sums& sums) {
     const AssetPart& part = asset.parts[partIndex];
     const MaterialSet& set = part.sets[setIndex];
     const vec3 normal = part.mesh.normals[vertex];
@@ -131,12 +170,17 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
         std::vector<vec3> expected = transportVector(visibility, size, asset.faceSize, asset.transportSamples,
                                                      set.brdf, term, frameOf(part.mesh, vertex));
         haarFaces(expected, asset.faceSize);
-        const std::vector<vec3>& found = device.coefficients(point, size_t(term));
+        std::vector<vec3> found = device.coefficients(point, size_t(term));
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
 
-        const std::vector<vec3> stored = coefficientsOf(
-            set.transport, size_t(vertex) * size_t(set.brdf.terms) + size_t(term), expected.size());
-        const std::vector<vec3>& exact = reference.terms[size_t(term)].coefficients;
+        const size_t row = size_t(vertex) * size_t(set.brdf.terms) + size_t(term);
+        const std::vector<vec3> stored = coefficientsOf(set.transport, row, expected.size());
+        std::vector<vec3> exact = reference.terms[size_t(term)].coefficients;
+        if (bounces) {
+            bounces->check(partIndex, setIndex, vertex, term, sums.bounce);
+            bounces->addTo(found, partIndex, setIndex, row);
+            bounces->addTo(exact, partIndex, setIndex, row);
+        }
         for (size_t i = 0; i < expected.size(); i++) {
             sums.layout.add(stored[i], found[i]);
             sums.total.add(stored[i], exact[i]);
@@ -224,13 +268,16 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
                     int samples) {
     const Mesh* occluder = &asset.occluder;
     const RayTracer tracer({&occluder, 1});
+    std::optional<Bounces> bounces;
+    if (asset.bounces > 0) bounces.emplace(device, asset);
     Sums sums;
     for (const auto& [partIndex, vertices] : drawSamples(asset, samples)) {
         const AssetPart& part = asset.parts[partIndex];
         for (size_t set = 0; set < part.sets.size(); set++) {
             const DeviceStages stages(device, asset, part, part.sets[set], vertices);
             for (size_t point = 0; point < vertices.size(); point++)
-                checkVertex(asset, partIndex, set, vertices[point], tracer, stages, point, sums);
+                checkVertex(asset, partIndex, set, vertices[point], tracer, stages, point,
+                            bounces ? &*bounces : nullptr, sums);
             sums.brdf += brdfError(part.sets[set]) * double(vertices.size()) / double(part.sets.size());
         }
     }
@@ -242,6 +289,7 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
     result.quantisationError = sums.quantisation.relative();
     result.brdfError = sums.brdf / samples;
     result.relightBits = countRelightDifferences(device, asset, prepared, rotation);
+    result.bounceError = sums.bounce.relative();
     result.layoutError = sums.layout.relative();
     result.totalError = sums.total.relative();
     return result;

@@ -15,9 +15,10 @@ struct Verification {
     double layoutError = 0;        // the asset's transport against all coefficients: what its layout loses
     double waveletError = 0;       // of rows: lost by keeping N
     double quantisationError = 0;  // of rows: against the coefficients they keep
-    double brdfError = 0;          // cos-weighted relative RMS of the K terms, mean over samples' materials
-    uint64_t relightBits = 0;      // vertices, of all, whose K-tuple differs between device and CPU
-    double totalError = 0; // the asset's rows against uncompressed transport under Embree's visibility
+    double bounceError = 0;   // of bounced rows, where light bounces: against the twin of the last bounce
+    double brdfError = 0;     // cos-weighted relative RMS of the K terms, mean over samples' materials
+    uint64_t relightBits = 0; // vertices, of all, whose K-tuple differs between device and CPU
+    double totalError = 0;    // the asset's rows against uncompressed transport under Embree's visibility
 };
 
 // Recomputes `samples` random vertices (seeded, so the same ones every time), and relights all vertices under

@@ -1,7 +1,7 @@
 #include "precompute/reference/vertex_views.h"
 
 #include "engine/math/tangent_frame.h"
-#include "precompute/reference/layer_weights.h"
+#include "engine/render/layer_weights.h"
 
 namespace relume {
 

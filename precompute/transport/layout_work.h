@@ -16,6 +16,7 @@ struct SetSample {
     std::vector<const SparseTransport*> blocks; // each of clusters, of which only the last may not be full
     uint32_t vertices;                          // of the whole set
     float unit;                                 // transportUnit() of the set
+    bool isBounced = false;                     // whether the rows have light of other surfaces, too
 
     uint64_t sampledVertices() const {
         uint64_t sampled = 0;
@@ -50,6 +51,7 @@ struct RowSource {
     std::vector<MaterialSet*> sets;
     std::vector<float> spectrum; // lightSpectrum()
     std::vector<float> units;    // per set: transportUnit()
+    bool isBounced = false;
 };
 
 // Vertices of a set.

@@ -52,6 +52,16 @@ void setRay(RTCRay& ray, vec3 origin, vec3 direction) {
 
 } // namespace
 
+bool meetsFront(const Mesh& mesh, const RayHit& hit, vec3 direction) {
+    const uvec3 corners = mesh.triangles[hit.triangle];
+    const vec3 normal = hit.weights.x * mesh.normals[corners.x] + hit.weights.y * mesh.normals[corners.y] +
+                        hit.weights.z * mesh.normals[corners.z];
+    const vec3 across = glm::cross(mesh.positions[corners.y] - mesh.positions[corners.x],
+                                   mesh.positions[corners.z] - mesh.positions[corners.x]);
+    const float side = glm::dot(across, normal) < 0 ? -1.0f : 1.0f;
+    return side * glm::dot(across, direction) < 0;
+}
+
 struct RayTracer::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;

@@ -20,6 +20,10 @@ struct RayHit {
     float distance;
 };
 
+// Returns whether a ray meets the front of a hit's triangle in its mesh: the side that the interpolated
+// normal is on, with which windings need not agree.
+bool meetsFront(const Mesh& mesh, const RayHit& hit, vec3 direction);
+
 class RayTracer {
   public:
     // Builds the acceleration structure; keeps no reference to `meshes`, any of which may be empty. Throws

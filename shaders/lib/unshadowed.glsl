@@ -87,21 +87,25 @@ float litShare(vec3 irradiance, vec3 unshadowed) {
     return all > 0 ? clamp(luminance(irradiance) / all, 0, 1) : 1;
 }
 
-// Estimates with signed terms: the control variate T + r (E - S), between a part of r E and E. `shadowed` is T, `share`
-// r; `exact` and `terms` are the unshadowed E and S.
+// Estimates with signed terms: the control variate T + r (E - S), between a part of r E and E, or above that of bounced
+// light as much as T is above S. `shadowed` is T, `share` r; `exact` and `terms` are the unshadowed E and S.
 const float kLeastShare = 0.25;
-vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms) {
-    return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, exact);
+vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms, bool isBounced) {
+    const vec3 most = isBounced ? exact + max(shadowed - terms, 0) : exact;
+    return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, most);
 }
 
 // Estimates with nonnegative terms: the ratio E T / S. Where all terms vanish in the view, the sums of the tuples give
 // the ratio. Each channel's is clamped to a range around the luminance's, and that to a part of the irradiance's:
-// errors of storage would color and blacken what little light reaches.
+// errors of storage would color and blacken what little light reaches. Bounced light has colors of its own; where T is
+// above S, it is what is above.
 const float kLeastView = 1e-4, kLeastOfGrey = 0.8, kMostOfGrey = 1.25;
-vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples) {
+vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples, bool isBounced) {
     const vec3 all = terms + kLeastView * unshadowedTuples, lit = shadowed + kLeastView * tuples;
+    const vec3 ratio = lit / max(all, vec3(1e-30));
+    if (isBounced) return exact * clamp(ratio, 0, 1) + max(shadowed - terms, 0);
     const float grey = max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
-    return exact * min(clamp(lit / max(all, vec3(1e-30)), kLeastOfGrey * grey, kMostOfGrey * grey), 1);
+    return exact * min(clamp(ratio, kLeastOfGrey * grey, kMostOfGrey * grey), 1);
 }
 
 #endif

@@ -134,6 +134,7 @@ const uint kSurfaceLook = 2; // paint or a texture as well
 
 // How a draw's fragments estimate radiance: shaders/lib/unshadowed.glsl.
 const uint kTermsAlone = 0, kResidualDifference = 1, kResidualRatio = 2;
+const uint kBounced = 4; // added to the latter two: light of other surfaces is in the tuples
 
 // Where a part's paint comes from.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;

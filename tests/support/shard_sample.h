@@ -29,7 +29,7 @@ inline BakePlan planIn(Asset asset, TransportLayout layout) {
             asset.layout = recordOf({.layout = layout}, 0);
             set.transport =
                 emptyTransport(layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
-            std::visit([&](auto& own) { prepareLayout(own, set.brdf); }, set.transport);
+            std::visit([&](auto& own) { prepareLayout(own, set.brdf, false); }, set.transport);
         }
     BakePlan plan = planOf(std::move(asset));
     if (layout != TransportLayout::Rows) plan.scale = LayoutScale{std::vector<float>(sets, 1.0f), 1e-4};

@@ -287,7 +287,7 @@ TEST_CASE("brdf: wrong parameters are named with their range") {
 }
 
 TEST_CASE("brdf: hostile text ends in an error, not in a crash") {
-    usageError(std::string(1 << 17, ' ').append("{}"));
+    usageError(std::string(1 << 17, ' ') + "{}");
     const std::string deep = std::string(30000, '[') + std::string(30000, ']');
     CHECK(contains(usageError(R"({"model": "diffuse", "albedo": )" + deep + "}"), "nested"));
     usageError(std::string(1 << 20, 'x'));

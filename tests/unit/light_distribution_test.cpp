@@ -2,7 +2,7 @@
 #include "precompute/reference/light_distribution.h"
 
 #include "engine/math/cubemap.h"
-#include "precompute/reference/hashed_numbers.h"
+#include "engine/math/hashed_numbers.h"
 
 #include <doctest/doctest.h>
 

@@ -103,8 +103,8 @@ def bake(scene, output=None, *, progress=None, **options):
 
     output: a .relume file to write; a bake that was stopped goes on from its checkpoint. None: in memory.
     progress: called with the share of work done, 0 to 1, now and then. Ctrl-C stops.
-    options, as those of `relume bake`: preset, terms, factorization, layout, error, budget, coefficients, map_size,
-    face_size, visibility_size, visibility, transport_samples, occluder_triangles, refine, keep_visibility.
+    options, as those of `relume bake`: preset, terms, factorization, layout, error, budget, coefficients, bounces,
+    map_size, face_size, visibility_size, visibility, transport_samples, occluder_triangles, refine, keep_visibility.
     """
     if not isinstance(scene, Scene):
         scene = Scene().add(scene)

@@ -36,8 +36,8 @@ struct BasisCut {
 // The cut of least importance · error + price · bytes.
 BasisCut cutFor(const BasisAnalysis& analysis, double price);
 
-// Clusters are cut at one slope of error against bytes, their price, which gives the whole the least error for
-// its bytes (Shoham and Gersho 1988). A cluster's weight is how many it stands for.
+// Clusters are cut at one slope of error against bytes, their price, which gives the whole the least error
+// for its bytes (Shoham and Gersho 1988). A cluster's weight is how many it stands for.
 struct CutTotals {
     double bytes = 0;
     double error = 0; // squared, in units of the matrices, but for quantisation

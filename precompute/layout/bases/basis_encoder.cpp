@@ -128,7 +128,9 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
     return encoded;
 }
 
-void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf) { layout.kinds = basisKinds(brdf); }
+void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf, bool isBounced) {
+    layout.kinds = basisKinds(brdf, isBounced);
+}
 
 EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding) {
@@ -159,8 +161,8 @@ double findPrice(const BasisTransport&, std::span<const SetSample> samples, int 
     tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
         const auto& [sample, rows, first] = places[i];
         const uint32_t count = std::min(kBasisVertices, rows->vertices - first);
-        analyses[i] = analyse(
-            clusterMatrix(*rows, first, count, basisKinds(sample->set->brdf), spectrum, sample->unit));
+        analyses[i] = analyse(clusterMatrix(
+            *rows, first, count, basisKinds(sample->set->brdf, sample->isBounced), spectrum, sample->unit));
         analyses[i].weight = double(sample->vertices) / double(sample->sampledVertices());
     });
     return priceFor(analyses, target);
@@ -171,7 +173,7 @@ double convertRows(const BasisTransport&, const RowSource& source, const LayoutT
     std::vector<BasisTransport> made;
     for (const MaterialSet* set : source.sets) {
         const SparseTransport& rows = rowsOf(set->transport);
-        made.push_back({rows.vertices, rows.terms, basisKinds(set->brdf), {}});
+        made.push_back({rows.vertices, rows.terms, basisKinds(set->brdf, source.isBounced), {}});
         made.back().clusters.resize(made.back().clusterCount());
     }
     const std::vector<SetPlace> places = placesOf(source.sets, kBasisVertices);

@@ -16,7 +16,7 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
                            std::span<const BasisKind> kinds, std::span<const float> spectrum);
 
 // What layouts.h wants of a layout.
-void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf);
+void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf, bool isBounced);
 EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding);
 double findPrice(const BasisTransport& layout, std::span<const SetSample> samples, int faceSize,

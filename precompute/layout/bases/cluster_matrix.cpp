@@ -49,18 +49,22 @@ void forEachEntry(const SparseTransport& rows, uint32_t first, uint32_t count,
 
 } // namespace
 
-std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf) {
+std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf, bool isBounced) {
     std::vector<BasisKind> kinds;
     for (int term = 0; term < brdf.terms; term++) {
         const vec3* map = brdf.lightMap(term);
         if (isGrey(brdf, map)) {
             kinds.push_back({uint32_t(term), vec3(1)});
+            if (isBounced) {
+                kinds.push_back({uint32_t(term), {1, 0, -1}});
+                kinds.push_back({uint32_t(term), {1, -2, 1}});
+            }
             continue;
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance(brdf, map));
         const double most = solver.eigenvalues().sum() * kLeastEnergy;
         for (int i = 2; i >= 0; i--) {
-            if (i < 2 && solver.eigenvalues()[i] <= most) break;
+            if (i < 2 && !isBounced && solver.eigenvalues()[i] <= most) break;
             Eigen::Vector3d color = solver.eigenvectors().col(i);
             if (color.sum() < 0) color = -color;
             kinds.push_back({uint32_t(term), vec3(color.x(), color.y(), color.z())});

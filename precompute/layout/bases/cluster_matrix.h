@@ -11,9 +11,10 @@
 
 namespace relume {
 
-// Per term the principal directions of its light map, an orthonormal set by falling energy, but for those
-// with less than 1e-7 of the term's; for a map whose channels are equal, (1, 1, 1) alone.
-std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf);
+// Returns, per term, the principal directions of its light map, an orthonormal set by falling energy, but for
+// those with less than 1e-7 of the term's; for a map whose channels are equal, (1, 1, 1) alone. Bounced light
+// has colors of its own: `isBounced` gives all three directions.
+std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf, bool isBounced = false);
 
 // The amount of a kind in coefficient `t` is dot(kindDual(kind), t).
 inline vec3 kindDual(const BasisKind& kind) { return kind.color / glm::dot(kind.color, kind.color); }

@@ -9,7 +9,7 @@ namespace relume {
 void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, ConversionPasses& passes);
 
 // What layouts.h wants of a layout.
-inline void prepareLayout(SparseTransport&, const FactoredBrdf&) {}
+inline void prepareLayout(SparseTransport&, const FactoredBrdf&, bool) {}
 EncodedBlock encodeBlock(const SparseTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding);
 inline double findPrice(const SparseTransport&, std::span<const SetSample>, int, const LayoutTarget&) {

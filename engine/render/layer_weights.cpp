@@ -1,4 +1,4 @@
-#include "precompute/reference/layer_weights.h"
+#include "engine/render/layer_weights.h"
 
 namespace relume {
 

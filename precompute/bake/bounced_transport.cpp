@@ -1,0 +1,157 @@
+#include "precompute/bake/bounced_transport.h"
+
+#include "precompute/bake/vertex_rows.h"
+#include "precompute/bounce/bounce_gather.h"
+#include "precompute/transport/row_sum.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace relume {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of the transport that lights others before the first bounce: the smallest that the kernels make.
+constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 96;
+
+// A plan of the bound sets alone, at low resolution, without an occluder yet.
+BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
+    BakePlan sources{plan.options};
+    sources.options.keepVisibility = false;
+    sources.options.transportSamples = 1;
+    sources.asset.faceSize = sources.options.faceSize = kSourceFaceSize;
+    sources.asset.visibilitySize = sources.options.visibilitySize = kSourceVisibilitySize;
+    sources.asset.coefficients = sources.options.coefficients = kSourceKept;
+    sources.asset.visibilityOffset = plan.asset.visibilityOffset;
+    sources.blockVertices = plan.blockVertices;
+    for (size_t number = 0; number < plan.asset.parts.size(); number++) {
+        const AssetPart& part = plan.asset.parts[number];
+        AssetPart& source = sources.asset.parts.emplace_back();
+        source.name = part.name;
+        source.mesh = part.mesh;
+        source.sets = {part.sets[bound[number].set]};
+        sources.firstSet.push_back(uint32_t(number));
+    }
+    return sources;
+}
+
+// Rows of kBounceFaceSize, of a larger cube's.
+SparseTransport coarseRows(const SparseTransport& rows, int faceSize) {
+    SparseTransport coarse{rows.vertices, rows.terms, {0}, {}, {}, {}};
+    for (size_t row = 0; row < rows.rows(); row++) {
+        for (uint64_t entry = rows.rowStarts[row]; entry < rows.rowStarts[row + 1]; entry++)
+            if (const auto index = bounceCoefficient(rows.indices[entry], faceSize)) {
+                coarse.indices.push_back(*index);
+                coarse.values.push_back(rows.values[entry]);
+            }
+        coarse.scales.push_back(rows.scales[row] * float(faceSize) / kBounceFaceSize);
+        coarse.rowStarts.push_back(coarse.entries());
+    }
+    return coarse;
+}
+
+// Per part, the direct transport of its bound set.
+std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& plan, const Appearance& bound,
+                                         const BakeLimits& limits, BakeObserver& observer, BakeTimes& times) {
+    std::vector<std::vector<uint32_t>> vertices;
+    std::vector<SparseTransport> rows;
+    for (size_t number = 0; number < plan.asset.parts.size(); number++) {
+        const AssetPart& part = plan.asset.parts[number];
+        std::vector<uint32_t>& all = vertices.emplace_back(part.mesh.vertexCount());
+        std::iota(all.begin(), all.end(), 0u);
+        rows.push_back({0, uint32_t(part.sets[bound[number].set].brdf.terms), {0}, {}, {}, {}});
+    }
+    BakePlan sources = planOfSources(plan, bound);
+    std::swap(sources.asset.occluder, plan.asset.occluder); // large: never twice
+    const TakeRows take = [&](uint32_t part, std::span<const BakedRows> sets) {
+        appendRows(rows[part], coarseRows(sets[0].transport, kSourceFaceSize));
+    };
+    bakeVertices(device, sources, vertices, limits, take, observer, times);
+    std::swap(sources.asset.occluder, plan.asset.occluder);
+    return rows;
+}
+
+// Row by row.
+SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
+    SparseTransport rows{a.vertices, a.terms, {0}, {}, {}, {}};
+    RowSum sum(kBounceCoefficients);
+    for (size_t row = 0; row < a.rows(); row++) {
+        sum.add(a, row, 1);
+        sum.add(b, row, 1);
+        appendRow(rows, sum.pack(kSourceKept));
+    }
+    return rows;
+}
+
+} // namespace
+
+void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize,
+                             int kept) const {
+    RowSum sum(6 * size_t(faceSize) * size_t(faceSize));
+    for (size_t set = 0; set < sets.size(); set++) {
+        const SparseTransport& bounced = mRows[part][set];
+        BakedRows& baked = sets[set];
+        SparseTransport rows{0, baked.transport.terms, {0}, {}, {}, {}};
+        for (size_t row = 0; row < baked.transport.rows(); row++) {
+            sum.add(baked.transport, row, 1);
+            sum.add(bounced, size_t(first) * bounced.terms + row, float(kBounceFaceSize) / float(faceSize),
+                    [&](uint16_t index) { return coefficientOfBounce(index, faceSize); });
+            const double all = sum.energy();
+            appendRow(rows, sum.pack(kept));
+            baked.losses[row].total += all - energyOf(baked.transport, row);
+            baked.losses[row].dropped += std::max(0.0, all - energyOf(rows, row));
+        }
+        rows.vertices = baked.transport.vertices;
+        baked.transport = std::move(rows);
+    }
+}
+
+void BouncedTransport::addTo(std::span<vec3> coefficients, size_t part, size_t set, size_t row,
+                             int faceSize) const {
+    std::vector<vec3> bounced(kBounceCoefficients, vec3(0));
+    mRows[part][set].addCoefficients(row, bounced);
+    for (size_t i = 0; i < bounced.size(); i++)
+        coefficients[coefficientOfBounce(uint16_t(i), faceSize)] +=
+            bounced[i] * (float(kBounceFaceSize) / float(faceSize));
+}
+
+std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device, BakePlan& plan,
+                                                        const BakeLimits& limits, BakeObserver& observer,
+                                                        BakeTimes& times,
+                                                        std::vector<SparseTransport>* lastSources) {
+    const Appearance bound = defaultAppearance(plan.asset);
+    StageObserver stage(observer, BakeStage::Bounces);
+    std::vector<SparseTransport> direct = bakeSources(device, plan, bound, limits, stage, times);
+    const Clock::time_point start = Clock::now();
+    const BounceGather gather(plan.asset, bound);
+    std::vector<std::vector<SparseTransport>> bounced;
+    const int bounces = plan.options.bounces;
+    const uint64_t all = plan.vertices();
+    for (int bounce = 0; bounce < bounces; bounce++) {
+        std::vector<SparseTransport> from;
+        for (size_t part = 0; part < direct.size(); part++)
+            from.push_back(bounce == 0 ? direct[part] : sumOf(direct[part], bounced[part][bound[part].set]));
+        const Clock::time_point began = Clock::now();
+        observer.stage(BakeStage::Bounces, "");
+        bounced = gather.gather(from, [&](uint64_t done) {
+            const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+            const double perSecond = double(done) / std::max(seconds, 1e-9);
+            const auto left = double(all - done + all * uint64_t(bounces - 1 - bounce));
+            observer.progress({.vertices = all,
+                               .done = done,
+                               .fraction = double(done) / double(all),
+                               .verticesPerSecond = perSecond,
+                               .secondsLeft = left / perSecond});
+            return !observer.wantsStop();
+        });
+        if (bounced.empty()) throw BakeStopped("stopped");
+        if (lastSources && bounce == bounces - 1) *lastSources = std::move(from);
+    }
+    times.bounces += std::chrono::duration<double>(Clock::now() - start).count();
+    return std::make_shared<const BouncedTransport>(std::move(bounced));
+}
+
+} // namespace relume

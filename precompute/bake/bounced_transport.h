@@ -1,0 +1,39 @@
+// Light that reaches vertices by way of other surfaces, as transport to be added to what was baked.
+#pragma once
+
+#include "precompute/bake/block_baker.h"
+
+namespace relume {
+
+// Changes with what bounced light comes to, for checkpoints and shards of before.
+constexpr uint32_t kBouncesVersion = 1;
+
+// What adds bounced light to blocks as they are baked.
+class BouncedTransport {
+  public:
+    // Of every part, by BounceGather: rows per set.
+    explicit BouncedTransport(std::vector<std::vector<SparseTransport>> rows) : mRows(std::move(rows)) {}
+
+    // To the rows of a part's vertices from `first` on, per set. Rows keep their `kept` largest coefficients;
+    // what is lost by that is added to their losses.
+    void addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize, int kept) const;
+
+    // To all coefficients of a row of a set.
+    void addTo(std::span<vec3> coefficients, size_t part, size_t set, size_t row, int faceSize) const;
+
+    const SparseTransport& rows(size_t part, size_t set) const { return mRows[part][set]; }
+
+  private:
+    std::vector<std::vector<SparseTransport>> mRows;
+};
+
+// Finds the light of as many bounces as the plan's options have, of the parts in the first material of each,
+// or as they are painted. Direct transport is baked for it at a low resolution. Throws BakeStopped, Error;
+// then nothing more can be baked of `plan`, whose occluder is borrowed. `lastSources`, if any: what the last
+// bounce was gathered from.
+std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device, BakePlan& plan,
+                                                        const BakeLimits& limits, BakeObserver& observer,
+                                                        BakeTimes& times,
+                                                        std::vector<SparseTransport>* lastSources = nullptr);
+
+} // namespace relume

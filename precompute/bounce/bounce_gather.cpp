@@ -1,0 +1,214 @@
+#include "precompute/bounce/bounce_gather.h"
+
+#include "engine/math/tangent_frame.h"
+#include "engine/render/layer_weights.h"
+#include "precompute/bounce/bounce_rays.h"
+#include "precompute/transport/row_sum.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace relume {
+
+namespace {
+
+using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kTogether = 16; // hits that are multiplied out together: their rows fit a core's cache
+
+int termsOf(const AssetPart& part) {
+    int terms = 0;
+    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
+    return terms;
+}
+
+std::vector<const Mesh*> meshesOf(const Asset& asset) {
+    std::vector<const Mesh*> meshes;
+    for (const AssetPart& part : asset.parts) meshes.push_back(&part.mesh);
+    return meshes;
+}
+
+} // namespace
+
+std::optional<uint16_t> bounceCoefficient(uint16_t coefficient, int size) {
+    const int face = coefficient / (size * size), y = coefficient / size % size, x = coefficient % size;
+    if (x >= kBounceFaceSize || y >= kBounceFaceSize) return std::nullopt;
+    return uint16_t((face * kBounceFaceSize + y) * kBounceFaceSize + x);
+}
+
+uint16_t coefficientOfBounce(uint16_t coefficient, int size) {
+    const int face = coefficient / (kBounceFaceSize * kBounceFaceSize),
+              y = coefficient / kBounceFaceSize % kBounceFaceSize, x = coefficient % kBounceFaceSize;
+    return uint16_t((face * size + y) * size + x);
+}
+
+// A surface that a ray meets: the vertex whose rows stand for it, and how much of each is seen.
+struct BounceGather::Hit {
+    size_t part;
+    uint32_t vertex;
+    std::array<vec3, kMaxTerms> views;
+};
+
+// What a thread needs, for one vertex after another.
+struct BounceGather::Room {
+    explicit Room(int mostTerms) : sum(kBounceCoefficients) {
+        for (int channel = 0; channel < 3; channel++) {
+            light[channel].setZero(mostTerms, kTogether);
+            outgoing[channel].setZero(kTogether, kBounceCoefficients);
+            total[channel].setZero(mostTerms, kBounceCoefficients);
+        }
+    }
+
+    std::array<Matrix, 3> light;    // per term and hit: g, times what the ray stands for
+    std::array<Matrix, 3> outgoing; // per hit: what leaves it towards the vertex
+    std::array<Matrix, 3> total;    // per term
+    RowSum sum;
+};
+
+BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
+    : mAsset(asset), mBound(bound), mTracer(meshesOf(asset)) {
+    for (size_t part = 0; part < asset.parts.size(); part++)
+        mLayers.push_back(wornLayers(asset.parts[part], bound[part]));
+}
+
+BounceGather::~BounceGather() = default;
+
+// Attributes are interpolated as in the view pass. Rows are those of one corner, chosen as often as it
+// counts.
+bool BounceGather::find(vec3 origin, vec3 direction, float choice, Hit& hit) const {
+    const std::optional<RayHit> met = mTracer.intersect(origin, direction);
+    if (!met || !meetsFront(mAsset.parts[met->mesh].mesh, *met, direction)) return false;
+    const AssetPart& part = mAsset.parts[met->mesh];
+    const Mesh& mesh = part.mesh;
+    const uvec3 corners = mesh.triangles[met->triangle];
+    const vec3 weights = met->weights;
+    const auto interpolate = [&](const auto& values) {
+        return weights.x * values[corners.x] + weights.y * values[corners.y] + weights.z * values[corners.z];
+    };
+    const vec3 normal = interpolate(mesh.normals);
+    if (glm::dot(normal, normal) < 1e-12f) return false; // opposite ones on a fold
+    const vec3 tangent = mesh.tangents.empty() ? vec3(0) : interpolate(mesh.tangents);
+    const TangentFrame frame = tangentFrame(glm::normalize(normal), tangent);
+    const vec3 outgoing = liftAboveHorizon(frame.toLocal(-direction));
+    const vec2 uv = mesh.uvs.empty() ? vec2(0) : interpolate(mesh.uvs);
+    const vec4 color = mesh.colors.empty() ? vec4(0) : interpolate(mesh.colors);
+
+    hit.part = met->mesh;
+    hit.vertex = choice < weights.x ? corners.x : choice < weights.x + weights.y ? corners.y : corners.z;
+    const size_t worn = mBound[hit.part].set;
+    const FactoredBrdf& brdf = part.sets[worn].brdf;
+    const std::vector<WornLayer>& layers = mLayers[hit.part];
+    const std::vector<vec3> shares = layerWeights(part, worn, layers, uv, color);
+    const MapPlace place = placeInMap(brdf.size, brdf.mapping, outgoing);
+    for (int term = 0; term < brdf.terms; term++) {
+        vec3 view(0);
+        for (size_t i = 0; i < layers.size(); i++)
+            view += shares[i] * lookupMap(brdf.viewMap(layers[i].layer, term), place);
+        hit.views[size_t(term)] = view;
+    }
+    return true;
+}
+
+void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const SparseTransport> from,
+                                Room& room, std::span<SparseTransport> rows) const {
+    const AssetPart& part = mAsset.parts[number];
+    const Mesh& mesh = part.mesh;
+    const TangentFrame frame = frameOf(mesh, vertex);
+    const vec3 origin = mesh.positions[vertex] + mAsset.visibilityOffset * mesh.normals[vertex];
+    const int terms = termsOf(part);
+    for (Matrix& total : room.total) total.topRows(terms).setZero();
+
+    int count = 0; // of hits in hand
+    bool isAny = false;
+    const auto multiplyOut = [&] {
+        for (size_t channel = 0; channel < 3; channel++)
+            room.total[channel].topRows(terms).noalias() +=
+                room.light[channel].topLeftCorner(terms, count) * room.outgoing[channel].topRows(count);
+        count = 0;
+    };
+    Hit hit;
+    for (BounceRays rays(number, vertex); rays.next();) {
+        const vec3 local = rays.direction();
+        if (!find(origin, frame.toWorld(local), rays.choice(), hit)) continue;
+        isAny = true;
+        int row = 0;
+        for (const MaterialSet& set : part.sets) {
+            const MapPlace place = placeInMap(set.brdf.size, set.brdf.mapping, local);
+            for (int term = 0; term < set.brdf.terms; term++, row++) {
+                const vec3 g = lookupMap(set.brdf.lightMap(term), place) * BounceRays::kWeight;
+                for (int channel = 0; channel < 3; channel++)
+                    room.light[size_t(channel)](row, count) = g[channel];
+            }
+        }
+        std::array<float*, 3> out;
+        for (size_t channel = 0; channel < 3; channel++) {
+            room.outgoing[channel].row(count).setZero();
+            out[channel] = room.outgoing[channel].row(count).data();
+        }
+        const SparseTransport& sources = from[hit.part];
+        for (uint32_t term = 0; term < sources.terms; term++) {
+            const size_t source = size_t(hit.vertex) * sources.terms + term;
+            const vec3 step = hit.views[term] * sources.scales[source] * kCoefficientUnit;
+            for (uint64_t entry = sources.rowStarts[source]; entry < sources.rowStarts[source + 1]; entry++) {
+                const vec3 value = step * vec3(unpackCoefficient(sources.values[entry]));
+                for (size_t channel = 0; channel < 3; channel++)
+                    out[channel][sources.indices[entry]] += value[int(channel)];
+            }
+        }
+        if (++count == kTogether) multiplyOut();
+    }
+    if (count > 0) multiplyOut();
+
+    int row = 0;
+    for (SparseTransport& own : rows) {
+        for (uint32_t term = 0; term < own.terms; term++, row++) {
+            if (isAny)
+                for (int i = 0; i < kBounceCoefficients; i++)
+                    room.sum.add(size_t(i),
+                                 {room.total[0](row, i), room.total[1](row, i), room.total[2](row, i)});
+            appendRow(own, room.sum.pack(kBounceKept));
+        }
+        own.vertices++;
+    }
+}
+
+std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const SparseTransport> from,
+                                                               const Report& report) const {
+    constexpr uint32_t kBlock = 32, kBatch = 1024; // vertices of a task, and between two reports
+    int mostTerms = 0;
+    for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termsOf(part));
+    tbb::enumerable_thread_specific<Room> rooms(mostTerms);
+    const auto emptyRows = [](const AssetPart& part) {
+        std::vector<SparseTransport> rows;
+        for (const MaterialSet& set : part.sets)
+            rows.push_back({0, uint32_t(set.brdf.terms), {0}, {}, {}, {}});
+        return rows;
+    };
+    std::vector<std::vector<SparseTransport>> gathered;
+    uint64_t done = 0;
+    for (size_t number = 0; number < mAsset.parts.size(); number++) {
+        const AssetPart& part = mAsset.parts[number];
+        std::vector<SparseTransport>& all = gathered.emplace_back(emptyRows(part));
+        const auto vertices = uint32_t(part.mesh.vertexCount());
+        for (uint32_t first = 0; first < vertices; first += kBatch) {
+            const uint32_t end = std::min(first + kBatch, vertices);
+            std::vector<std::vector<SparseTransport>> blocks((end - first + kBlock - 1) / kBlock,
+                                                             emptyRows(part));
+            tbb::parallel_for(size_t(0), blocks.size(), [&](size_t block) {
+                const auto begin = uint32_t(first + block * kBlock);
+                for (uint32_t vertex = begin; vertex < std::min(begin + kBlock, end); vertex++)
+                    gatherVertex(number, vertex, from, rooms.local(), blocks[block]);
+            });
+            for (const std::vector<SparseTransport>& block : blocks)
+                for (size_t set = 0; set < all.size(); set++) appendRows(all[set], block[set]);
+            done += end - first;
+            if (!report(done)) return {};
+        }
+    }
+    return gathered;
+}
+
+} // namespace relume

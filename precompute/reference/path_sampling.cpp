@@ -1,0 +1,26 @@
+#include "precompute/reference/path_sampling.h"
+
+#include "precompute/reference/lobe_sampling.h"
+
+namespace relume {
+
+vec3 sampleBounces(const PathScene& scene, const SurfacePoint& point, int bounces, HashedNumbers& random) {
+    vec3 sum(0), throughput(1);
+    SurfacePoint at = point;
+    for (int bounce = 0; bounce < bounces; bounce++) {
+        const vec3 mirror(-at.outgoing.x, -at.outgoing.y, at.outgoing.z);
+        const vec3 incoming = drawReflected(mirror, random);
+        if (!(incoming.z > 0)) break;
+        throughput *= at.reflected(incoming) * (incoming.z / reflectedDensity(mirror, incoming));
+        if (throughput == vec3(0)) break;
+        const vec3 direction = at.frame.toWorld(incoming);
+        const std::optional<RayHit> hit =
+            scene.tracer.intersect(at.position + scene.shadowOffset * at.frame.n, direction);
+        if (!hit || !meetsFront(*scene.meshes[hit->mesh], *hit, direction)) break;
+        at = scene.asset.pointAt(*hit, at.position);
+        sum += throughput * sampleReflection(at, scene.light, scene.tracer, scene.shadowOffset, random);
+    }
+    return sum;
+}
+
+} // namespace relume

@@ -1,0 +1,25 @@
+// The radiance that a point reflects of light that other surfaces send it, by tracing paths.
+#pragma once
+
+#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/light_distribution.h"
+#include "precompute/reference/sampled_reflection.h"
+
+namespace relume {
+
+// What paths meet. Refers to all of it.
+struct PathScene {
+    const DressedAsset& asset;
+    const RayTracer& tracer; // of the asset's partMeshes()
+    std::span<const Mesh* const> meshes;
+    const LightDistribution& light;
+    float shadowOffset; // that rays start along a point's normal
+};
+
+// An unbiased estimate, from one path, of what reaches the eye after 1 to `bounces` reflections on the way to
+// the point; what the point reflects of the light itself is not part of it. Directions are drawn from the
+// cosine and lobes about the mirror direction, weighed by the balance heuristic (Veach 1997); at every
+// surface met the light is sampled (sampleReflection). Surfaces are black from behind.
+vec3 sampleBounces(const PathScene& scene, const SurfacePoint& point, int bounces, HashedNumbers& random);
+
+} // namespace relume

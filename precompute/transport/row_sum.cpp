@@ -1,0 +1,64 @@
+#include "precompute/transport/row_sum.h"
+
+#include "engine/base/check.h"
+
+#include <bit>
+#include <utility>
+
+namespace relume {
+
+RowSum::RowSum(size_t coefficients) : mSums(coefficients, vec3(0)), mTouched((coefficients + 63) / 64) {}
+
+double RowSum::energy() const {
+    double sum = 0;
+    for (size_t word = 0; word < mTouched.size(); word++)
+        for (uint64_t left = mTouched[word]; left != 0; left &= left - 1) {
+            const vec3 value = mSums[word * 64 + size_t(std::countr_zero(left))];
+            sum += double(glm::dot(value, value));
+        }
+    return sum;
+}
+
+PackedRow RowSum::pack(int kept) {
+    std::vector<uint16_t> indices; // rising, so that the packers' ties are as among all coefficients
+    std::vector<vec3> values;
+    for (size_t word = 0; word < mTouched.size(); word++)
+        for (; mTouched[word] != 0; mTouched[word] &= mTouched[word] - 1) {
+            indices.push_back(uint16_t(word * 64 + size_t(std::countr_zero(mTouched[word]))));
+            values.push_back(std::exchange(mSums[indices.back()], vec3(0)));
+        }
+    PackedRow row = packLargest(values, kept);
+    for (uint16_t& index : row.indices) index = indices[index];
+    return row;
+}
+
+double energyOf(const SparseTransport& rows, size_t row) {
+    double sum = 0;
+    for (uint64_t entry = rows.rowStarts[row]; entry < rows.rowStarts[row + 1]; entry++) {
+        const vec3 value = rows.scales[row] * kCoefficientUnit * vec3(unpackCoefficient(rows.values[entry]));
+        sum += double(glm::dot(value, value));
+    }
+    return sum;
+}
+
+void appendRow(SparseTransport& rows, const PackedRow& row) {
+    rows.indices.insert(rows.indices.end(), row.indices.begin(), row.indices.end());
+    rows.values.insert(rows.values.end(), row.values.begin(), row.values.end());
+    rows.scales.push_back(row.scale);
+    rows.rowStarts.push_back(rows.entries());
+}
+
+void appendRows(SparseTransport& rows, const SparseTransport& more) {
+    RELUME_CHECK_EQ(rows.terms, more.terms);
+    const auto join = [](auto& values, const auto& others) {
+        values.insert(values.end(), others.begin(), others.end());
+    };
+    const uint64_t before = rows.entries();
+    for (size_t row = 0; row < more.rows(); row++) rows.rowStarts.push_back(before + more.rowStarts[row + 1]);
+    join(rows.scales, more.scales);
+    join(rows.indices, more.indices);
+    join(rows.values, more.values);
+    rows.vertices += more.vertices;
+}
+
+} // namespace relume

@@ -1,0 +1,48 @@
+// Sums of sparse rows, packed as rows again.
+#pragma once
+
+#include "engine/transport/rows/sparse_transport.h"
+#include "precompute/transport/row_packing.h"
+
+namespace relume {
+
+// One row at a time. It is empty again once it was packed.
+class RowSum {
+  public:
+    explicit RowSum(size_t coefficients);
+
+    void add(size_t coefficient, vec3 value) {
+        mSums[coefficient] += value;
+        mTouched[coefficient / 64] |= uint64_t(1) << coefficient % 64;
+    }
+    // Adds `weight` times a row; coefficient i of it counts as place(i).
+    template <typename Place>
+    void add(const SparseTransport& rows, size_t row, float weight, const Place& place) {
+        const vec3 step = weight * rows.scales[row] * kCoefficientUnit;
+        for (uint64_t entry = rows.rowStarts[row]; entry < rows.rowStarts[row + 1]; entry++)
+            add(place(rows.indices[entry]), step * vec3(unpackCoefficient(rows.values[entry])));
+    }
+    void add(const SparseTransport& rows, size_t row, float weight) {
+        add(rows, row, weight, [](uint16_t index) { return index; });
+    }
+
+    double energy() const; // Σ |coefficient|²
+
+    // Returns the sum's `kept` largest coefficients, as packLargest() takes them.
+    PackedRow pack(int kept);
+
+  private:
+    std::vector<vec3> mSums;        // per coefficient
+    std::vector<uint64_t> mTouched; // a bit per coefficient
+};
+
+// Returns Σ |coefficient|² of a row.
+double energyOf(const SparseTransport& rows, size_t row);
+
+// Appends a row to `rows`, whose `vertices` are the caller's to count.
+void appendRow(SparseTransport& rows, const PackedRow& row);
+
+// Appends the vertices of others, of as many terms.
+void appendRows(SparseTransport& rows, const SparseTransport& more);
+
+} // namespace relume

@@ -1,0 +1,152 @@
+// Bounced light, from the bake to the image: against closed forms and a path-traced reference.
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
+#include "engine/render/compare.h"
+#include "engine/render/relighter.h"
+#include "engine/render/view_pass.h"
+#include "precompute/bake/bake.h"
+#include "precompute/reference/reference_image.h"
+#include "precompute/reference/verification.h"
+#include "tests/support/bowl.h"
+#include "tests/support/test_device.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 72;
+
+LightCube uniformLight(int size) { return {size, std::vector<vec3>(size_t(6 * size * size), vec3(1))}; }
+
+// A low sun and a sky that is brighter on one side.
+LightCube sunnyLight(int size) {
+    LightCube light{size, {}};
+    for (int i = 0; i < 6 * size * size; i++) {
+        const int face = i / (size * size);
+        light.radiance.push_back(face == 3   ? vec3(0.1f)
+                                 : face == 0 ? vec3(1.5f, 1.4f, 1.2f)
+                                             : vec3(0.4f, 0.5f, 0.7f));
+    }
+    return light;
+}
+
+BakeOptions bounceOptions(int bounces) {
+    BakeOptions options;
+    options.bounces = bounces;
+    options.visibilitySize = 128;
+    options.factorization.terms = 4;
+    return options;
+}
+
+Asset bakeBowl(const vk::Device& device, float albedo, int bounces) {
+    Scene scene;
+    scene.parts.push_back(
+        {"bowl", makeBowl(32, 12), fmt::format(R"({{"model":"diffuse","albedo":{}}})", albedo), "bowl", ""});
+    return bake(device, std::move(scene), bounceOptions(bounces));
+}
+
+// A gold torus, tilted, on a red floor beside a white wall.
+Scene cornerScene() {
+    Scene scene;
+    Mesh floor = makePlane(4, 24), wall = makePlane(4, 24);
+    for (vec3& position : floor.positions) position.y -= 0.6f;
+    for (vec3& position : wall.positions) position = {-1.6f, position.z + 1.4f, position.x};
+    std::fill(wall.normals.begin(), wall.normals.end(), vec3(1, 0, 0));
+    scene.parts.push_back({"torus", makeTorus(0.9f, 0.35f, 48, 24), "gold", "torus", ""});
+    scene.parts.push_back({"floor", floor, R"({"model":"diffuse","albedo":[0.8,0.15,0.1]})", "floor", ""});
+    scene.parts.push_back({"wall", wall, "white-diffuse", "wall", ""});
+    return scene;
+}
+
+Image draw(const vk::Device& device, const Asset& asset, const LightCube& cube, const Camera& camera) {
+    LightPass light(device, asset.faceSize);
+    light.setCube(cube);
+    Relighter relighter(device, asset);
+    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
+    vk::Commands commands(device, "bounce test");
+    commands.begin();
+    light.record(commands);
+    relighter.record(commands, light);
+    view.record(commands, camera, relighter);
+    commands.submitAndWait();
+    return view.read();
+}
+
+double meanRadiance(const vk::Device& device, const Asset& asset) {
+    const Image image =
+        draw(device, asset, uniformLight(asset.faceSize), {{0, 3, 0.01f}, {0, -0.6f, 0}, 0.5f});
+    double sum = 0, count = 0;
+    for (const vec4& pixel : image.pixels)
+        if (pixel.w == 1) sum += double(pixel.x + pixel.y + pixel.z) / 3, count++;
+    return sum / count;
+}
+
+} // namespace
+
+TEST_CASE("image: a diffuse bowl under an even sky has ρ/2 / (1 - ρ/2)") {
+    const TestDevice device;
+    for (const float albedo : {0.2f, 0.5f, 0.9f}) {
+        const double share = double(albedo) / 2;
+        CHECK(meanRadiance(device, bakeBowl(device, albedo, 8)) ==
+              doctest::Approx(share / (1 - share)).epsilon(0.02));
+    }
+}
+
+TEST_CASE("image: in a white furnace every bounce brings a white bowl nearer to the light, from below") {
+    const TestDevice device;
+    double before = 0;
+    for (const int bounces : {0, 1, 2, 4, 8}) {
+        const double radiance = meanRadiance(device, bakeBowl(device, 1, bounces));
+        CHECK(radiance > before);
+        CHECK(radiance < 1);
+        CHECK(radiance == doctest::Approx(1 - std::pow(0.5, bounces + 1)).epsilon(0.02));
+        before = radiance;
+    }
+    CHECK(before > 0.98);
+}
+
+TEST_CASE("image: bounced light against paths, in gold, red and white") {
+    const TestDevice device;
+    const Asset direct = bake(device, cornerScene(), bounceOptions(0));
+    const Asset bounced = bake(device, cornerScene(), bounceOptions(2));
+    CHECK(bounced.bounces == 2);
+    const Camera camera{{3.2f, 1.6f, 2.4f}, {-0.4f, -0.1f, 0}, 0.7f};
+    const LightCube light = sunnyLight(direct.faceSize);
+    ReferenceOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.samples = 1;
+    options.raysPerTexelSide = 1;
+    const Image directTruth = renderReference(direct, camera, light, options);
+    options.bounces = 2;
+    options.paths = 256;
+    const Image truth = renderReference(bounced, camera, light, options);
+    const double own = compareImages(draw(device, direct, light, camera), directTruth).relativeRmse;
+    const double without = compareImages(draw(device, direct, light, camera), truth).relativeRmse;
+    const double with = compareImages(draw(device, bounced, light, camera), truth).relativeRmse;
+    MESSAGE("direct light against direct paths ", own, ", against bounced paths ", without, ", bounced ",
+            with);
+    CHECK(without > 2.5 * own);
+    CHECK(with < 1.3 * own);
+}
+
+TEST_CASE("verify: bounced rows are those of the twin, and stored beside direct light") {
+    const TestDevice device;
+    Scene scene = cornerScene();
+    BakeOptions options = bounceOptions(2);
+    options.layout = {.layout = TransportLayout::Rows};
+    options.coefficients = 384;
+    const Asset asset = bake(device, std::move(scene), options);
+    Environment white{8, 4, std::vector<vec3>(32, vec3(1))};
+    const Verification found = verify(device, asset, prepareForSampling(white), 0, 24);
+    CHECK(found.bounceError > 0);
+    CHECK(found.bounceError < 0.15);
+    CHECK(found.transportError < 1e-4);
+    CHECK(found.layoutError < 0.1);
+    CHECK(found.relightBits == 0);
+}

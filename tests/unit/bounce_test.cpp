@@ -1,0 +1,167 @@
+// Light by way of other surfaces: one bounce against a closed form and against its twin.
+#include "engine/import/builtin_mesh.h"
+#include "engine/math/haar.h"
+#include "precompute/bounce/bounce_gather.h"
+#include "precompute/reference/bounce_twin.h"
+#include "precompute/reference/dressed_asset.h"
+#include "precompute/transport/row_sum.h"
+#include "tests/support/bowl.h"
+#include "tests/support/diffuse_asset.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+#include <tbb/global_control.h>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+// Rows of one coefficient, of this value.
+SparseTransport constantRows(const AssetPart& part, vec3 value, size_t coefficient = 0) {
+    SparseTransport rows{0, uint32_t(part.sets[0].brdf.terms), {0}, {}, {}, {}};
+    RowSum sum(kBounceCoefficients);
+    for (size_t row = 0; row < part.mesh.vertexCount() * rows.terms; row++) {
+        sum.add(coefficient, value);
+        appendRow(rows, sum.pack(1));
+    }
+    rows.vertices = uint32_t(part.mesh.vertexCount());
+    return rows;
+}
+
+SparseTransport randomRows(const AssetPart& part, std::mt19937& random) {
+    SparseTransport rows{0, uint32_t(part.sets[0].brdf.terms), {0}, {}, {}, {}};
+    RowSum sum(kBounceCoefficients);
+    std::uniform_real_distribution<float> amount(0.5f, 1);
+    for (size_t row = 0; row < part.mesh.vertexCount() * rows.terms; row++) {
+        for (int i = 0; i < 8; i++) sum.add(size_t(i), {amount(random), amount(random), amount(random)});
+        appendRow(rows, sum.pack(8));
+    }
+    rows.vertices = uint32_t(part.mesh.vertexCount());
+    return rows;
+}
+
+std::vector<vec3> denseRow(const SparseTransport& rows, size_t row) {
+    std::vector<vec3> dense(kBounceCoefficients, vec3(0));
+    rows.addCoefficients(row, dense);
+    return dense;
+}
+
+// Two terms and colors, so that terms and channels can be mistaken for each other.
+FactoredBrdf twoTerms() {
+    FactoredBrdf brdf = makeDiffuseFactors({0.8f, 0.5f, 0.3f});
+    brdf.terms = 2;
+    brdf.eigenvalues.push_back(brdf.eigenvalues[0]);
+    for (size_t i = 0; i < brdf.mapTexels(); i++) {
+        const float x = float(i % 8) / 8, y = float(i / 8) / 8;
+        brdf.lightMaps.push_back({x, 0.5f, y});
+        brdf.viewMaps.push_back(vec3(y, x, 0.25f) / kPi);
+    }
+    return brdf;
+}
+
+} // namespace
+
+TEST_CASE("bounce: a bowl sees itself with half of its directions") {
+    Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
+    const BounceGather gather(asset, defaultAppearance(asset));
+    const vec3 value(3, 2, 1);
+    const std::vector<SparseTransport> from = {constantRows(asset.parts[0], value, 17)};
+    const auto bounced = gather.gather(from, [](uint64_t) { return true; });
+    REQUIRE(bounced.size() == 1);
+    const SparseTransport& rows = bounced[0][0];
+    REQUIRE(rows.vertices == asset.parts[0].mesh.vertexCount());
+    double sum = 0;
+    for (size_t row = 0; row < rows.rows(); row++) {
+        const std::vector<vec3> dense = denseRow(rows, row);
+        for (size_t i = 0; i < dense.size(); i++)
+            if (i != 17) CHECK(dense[i] == vec3(0));
+        // ∫ cosine over half of the directions is π/2; what leaves a point is albedo / π of its row.
+        for (int channel = 0; channel < 3; channel++)
+            CHECK(dense[17][channel] == doctest::Approx(0.3f * value[channel]).epsilon(0.08));
+        sum += double(dense[17].x);
+    }
+    CHECK(sum / double(rows.rows()) == doctest::Approx(0.9).epsilon(0.005));
+}
+
+TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
+    Mesh ground = makePlane(4, 4);
+    for (vec3& position : ground.positions) position.y -= 0.5f;
+    Asset asset =
+        makeTestAsset({makeDiffusePart(makeTorus(1, 0.4f, 24, 12), 0.5f), makeDiffusePart(ground, 0.5f)});
+    asset.parts[0].sets[0].brdf = twoTerms();
+    const Appearance bound = defaultAppearance(asset);
+    std::mt19937 random(21);
+    const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random),
+                                               randomRows(asset.parts[1], random)};
+    const BounceGather gather(asset, bound);
+    const auto bounced = gather.gather(from, [](uint64_t) { return true; });
+    const RayTracer tracer(partMeshes(asset));
+    double difference = 0, all = 0;
+    for (size_t part = 0; part < 2; part++)
+        for (uint32_t vertex = 0; vertex < bounced[part][0].vertices; vertex += 7)
+            for (int term = 0; term < int(bounced[part][0].terms); term++) {
+                const std::vector<vec3> expected =
+                    bouncedVector(asset, bound, tracer, from, part, vertex, 0, term, 64);
+                const std::vector<vec3> found =
+                    denseRow(bounced[part][0], size_t(vertex) * bounced[part][0].terms + size_t(term));
+                for (size_t i = 0; i < expected.size(); i++) {
+                    difference += double(glm::dot(found[i] - expected[i], found[i] - expected[i]));
+                    all += double(glm::dot(expected[i], expected[i]));
+                }
+            }
+    REQUIRE(all > 0);
+    CHECK(std::sqrt(difference / all) < 0.03); // of 1,024 rays
+}
+
+TEST_CASE("bounce: the same rows from any number of threads; none when stopped") {
+    const Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
+    const BounceGather gather(asset, defaultAppearance(asset));
+    const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(1))};
+    const auto keepOn = [](uint64_t) { return true; };
+    const auto many = gather.gather(from, keepOn);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const auto single = gather.gather(from, keepOn);
+    CHECK(many[0][0].values == single[0][0].values);
+    CHECK(many[0][0].indices == single[0][0].indices);
+    CHECK(many[0][0].scales == single[0][0].scales);
+    CHECK(gather.gather(from, [](uint64_t) { return false; }).empty());
+}
+
+TEST_CASE("bounce: surfaces are black from behind") {
+    // A lid that shows its back to the bowl, and hides half of it from itself no more than before.
+    Mesh lid = makeQuad({-2, 0.2f, -2}, {0, 0, 4}, {4, 0, 0}); // normals up
+    Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f), makeDiffusePart(lid, 0.9f)});
+    const BounceGather gather(asset, defaultAppearance(asset));
+    const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(0)),
+                                               constantRows(asset.parts[1], vec3(1))};
+    const auto bounced = gather.gather(from, [](uint64_t) { return true; });
+    for (size_t row = 0; row < bounced[0][0].rows(); row++)
+        for (const vec3& value : denseRow(bounced[0][0], row)) CHECK(value == vec3(0));
+}
+
+TEST_CASE("bounce: coefficients of a coarser cube are those of a finer one, times the ratio of their sides") {
+    constexpr int kFine = 64, kRatio = kFine / kBounceFaceSize;
+    std::vector<vec3> coarse(kBounceFaceSize * kBounceFaceSize), fine(kFine * kFine);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> amount(-1, 1);
+    // Transport of a coarse texel is the sum of that of the fine ones.
+    for (vec3& value : coarse) value = {amount(random), amount(random), amount(random)};
+    for (int y = 0; y < kFine; y++)
+        for (int x = 0; x < kFine; x++)
+            fine[size_t(y * kFine + x)] =
+                coarse[size_t(y / kRatio * kBounceFaceSize + x / kRatio)] / float(kRatio * kRatio);
+    haarForward(coarse, kBounceFaceSize);
+    haarForward(fine, kFine);
+    for (uint16_t i = 0; i < coarse.size(); i++) {
+        const uint16_t at = coefficientOfBounce(i, kFine);
+        const vec3 expected = coarse[i] * float(kBounceFaceSize) / float(kFine);
+        CHECK(glm::length(fine[at] - expected) < 1e-5f);
+        CHECK(bounceCoefficient(at, kFine) == i);
+        fine[at] = vec3(0);
+    }
+    for (const vec3& rest : fine) CHECK(glm::length(rest) < 1e-5f);
+    CHECK(!bounceCoefficient(kBounceFaceSize, kFine));
+    CHECK(coefficientOfBounce(kBounceFaceSize * kBounceFaceSize + 1, kFine) == kFine * kFine + 1);
+}
