@@ -22,7 +22,7 @@ shared uint listedColumns[kListed];
 shared ivec3 listedLights[kListed];
 
 #ifdef PORTABLE
-shared uint gMet; // a bit an invocation
+shared uint gMet; // a bit an invocation, of which there are at most 32
 
 uvec4 ballot(bool isMet) {
     if (gl_LocalInvocationID.x == 0) gMet = 0;
@@ -41,18 +41,20 @@ uint countBelow(uvec4 met) { return subgroupBallotExclusiveBitCount(met); }
 uint countOf(uvec4 met) { return subgroupBallotBitCount(met); }
 #endif
 
-uint columnIndex(uint column) { return indices[column / 2] >> (column % 2 * 16) & 0xffff; }
+const uint kLanes = gl_WorkGroupSize.x;
 
 // Lists columns of [next, end) until there are no more or the list may be full, and moves `next` behind those it has
 // looked at. Returns how many are listed; callers go through them between this and a barrier.
 uint listColumns(inout uint next, uint end, bool replaces) {
-    const uint lanes = gl_WorkGroupSize.x;
     const uint firstEntry = replaces ? 0 : uint(table.length()) / 2;
     uint listed = 0;
     do {
         const uint column = next + gl_LocalInvocationID.x;
         ivec3 meets = ivec3(0);
-        if (column < end) meets = unpackLight(table[firstEntry + columnIndex(column)]);
+        if (column < end) {
+            const uint index = indices[column / 2] >> (column % 2 * 16) & 0xffff;
+            meets = unpackLight(table[firstEntry + index]);
+        }
         const bool isMet = meets != ivec3(0);
         const uvec4 met = ballot(isMet);
         if (isMet) {
@@ -61,8 +63,8 @@ uint listColumns(inout uint next, uint end, bool replaces) {
             listedLights[place] = meets;
         }
         listed += countOf(met);
-        next += lanes;
-    } while (next < end && listed + lanes <= kListed);
+        next += kLanes;
+    } while (next < end && listed + kLanes <= kListed);
     barrier();
     return listed;
 }
@@ -74,7 +76,6 @@ layout(binding = 5, scalar) buffer Sums { ivec3 componentSums[]; };
 layout(binding = 6, scalar) writeonly buffer Projections { vec4 projections[]; };
 layout(binding = 7, std430) writeonly buffer Stamps { uint stamps[]; }; // of clusters: when they last changed
 
-const uint kLanes = gl_WorkGroupSize.x;
 const uint kWords = 8; // of a column, that a group reads at a time
 const uint kStreams = kLanes / kWords;
 

@@ -1,5 +1,4 @@
-// What layouts of transport share: names of their chunks in errors, and what they say of one that holds a
-// block of vertices.
+// What layouts of transport say and are told of the chunk that holds a block of vertices.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"

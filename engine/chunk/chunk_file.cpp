@@ -277,13 +277,14 @@ std::string whereOf(const ChunkFile& file, const ChunkEntry& entry, const char* 
 }
 
 std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t chunkBytes,
-                                  uint64_t contentBytes, const std::string& where) {
+                                  uint64_t contentBytes, const char* ownerKind) {
     const std::vector<ChunkEntry> runs = file.find(tag, owner);
     uint64_t found = 0;
     for (const ChunkEntry& run : runs) found += run.rawSize;
     const uint64_t expected = contentBytes + chunkBytes * runs.size();
     if (found != expected)
-        throw Error(fmt::format("{}: expected {} bytes, found {}", where, expected, found));
+        throw Error(fmt::format("{}: expected {} bytes, found {}", whereOf(file, tag, owner, ownerKind),
+                                expected, found));
     return runs;
 }
 

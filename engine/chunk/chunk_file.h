@@ -135,8 +135,8 @@ std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t owner, const c
 std::string whereOf(const ChunkFile& file, const ChunkEntry& entry, const char* ownerKind);
 
 // Chunks of an array, whose headers of `chunkBytes` and content are checked to have these bytes before
-// anything is allocated for them. `where` names them in errors. Throws Error.
+// anything is allocated for them. Throws Error.
 std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t chunkBytes,
-                                  uint64_t contentBytes, const std::string& where);
+                                  uint64_t contentBytes, const char* ownerKind);
 
 } // namespace relume

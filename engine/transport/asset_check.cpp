@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace relume {

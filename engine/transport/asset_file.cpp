@@ -47,15 +47,14 @@ void addArray(ChunkWriter& file, ChunkTag tag, uint32_t owner, const std::vector
 
 template <typename Element>
 std::vector<Element> readArray(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t count) {
-    const auto runs =
-        findSized(file, tag, owner, 0, count * sizeof(Element), whereOf(file, tag, owner, ownerOf(tag)));
+    const auto runs = findSized(file, tag, owner, 0, count * sizeof(Element), ownerOf(tag));
     std::vector<Element> elements(count);
     size_t read = 0;
     for (const ChunkEntry& run : runs) {
-        if (run.rawSize % sizeof(Element) != 0)
-            throw Error(fmt::format("{}: {} bytes are not a multiple of {}", whereOf(file, run, ownerOf(tag)),
-                                    run.rawSize, sizeof(Element)));
         const std::string where = whereOf(file, run, ownerOf(tag));
+        if (run.rawSize % sizeof(Element) != 0)
+            throw Error(
+                fmt::format("{}: {} bytes are not a multiple of {}", where, run.rawSize, sizeof(Element)));
         const std::vector<std::byte> raw = file.load(run);
         const auto words = ByteReader(raw, where).getPlanes<uint32_t>(raw.size() / sizeof(uint32_t));
         std::memcpy(&elements[read], words.data(), raw.size());

@@ -2,11 +2,11 @@
 //
 // - blockVertices(layout, coefficients, most terms of a set): vertices of a block (asset.h);
 // - addTransport, readTransport: all of a set's transport, into a file and out of it;
-// - chunkSizes, memoryBytes, entriesOf, checkChunk: of the chunk of one block, how many bytes it can have,
-// how
-//   many its transport takes in memory, how many entries (entriesOf() of transport.h) that is, and whether a
-//   reader of the whole would refuse it (throws Error);
-// - checkLayout: of what a set says of its transport besides chunks. Throws Error.
+// - chunkSizes: how many bytes the chunk of one block can have;
+// - memoryBytes: how many bytes the transport of a block's chunk takes in memory;
+// - entriesOf: how many entries (entriesOf() of transport.h) a block's chunk holds;
+// - checkChunk: throws Error where a reader of the whole would refuse a block's chunk;
+// - checkLayout: throws Error where what a set says of its transport besides chunks is wrong.
 //
 // `layout` is a set's transport, perhaps without any in it.
 #pragma once

@@ -27,10 +27,10 @@ TransportLayout readLayoutName(std::string_view name, const std::string& where) 
                         where));
     std::string known;
     for (const LayoutFacts& facts : kLayoutFacts)
-        known += fmt::format("{}{}", known.empty() ? "" : " or ", facts.name);
-    throw Error(
-        fmt::format("{}: layout: expected {}, found \"{}\"; the file is damaged or of a later program", where,
-                    known, name));
+        known += fmt::format("{}{}", known.empty() ? "" : " and ", facts.name);
+    throw Error(fmt::format("{}: transport is in the layout \"{}\", and this program knows {}; the file is "
+                            "damaged or of a later program",
+                            where, name, known));
 }
 
 Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms) {

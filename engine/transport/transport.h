@@ -13,9 +13,9 @@
 
 namespace relume {
 
-// A layout is an alternative here, a folder here and in precompute/layout, and its number below. What is done
-// to transport is a function that each layout has one of, found by std::visit: a layout that lacks one does
-// not compile.
+// A layout is an alternative here, a folder here and in precompute/layout, and its number below, besides what
+// the compiler asks for. What is done to transport is a function that each layout has one of, found by
+// std::visit: a layout that lacks one does not compile.
 using Transport = std::variant<SparseTransport, BasisTransport>;
 
 // In the order of Transport's alternatives.
@@ -25,10 +25,9 @@ enum class TransportLayout { Rows, Bases };
 struct LayoutFacts {
     const char* name;        // as files and options have it
     std::array<char, 4> tag; // of its chunks
-    bool isCompressed;       // made of rows, within bytes or an error that can be asked for
 };
 inline constexpr auto kLayoutFacts = []<typename... Kept>(std::type_identity<std::variant<Kept...>>) {
-    return std::array{LayoutFacts{Kept::kName, Kept::kTag, Kept::kIsCompressed}...};
+    return std::array{LayoutFacts{Kept::kName, Kept::kTag}...};
 }(std::type_identity<Transport>());
 static_assert(size_t(TransportLayout::Bases) + 1 == kLayoutFacts.size());
 static_assert(
@@ -39,9 +38,11 @@ static_assert(
 inline TransportLayout layoutOf(const Transport& transport) { return TransportLayout(transport.index()); }
 constexpr const char* layoutName(TransportLayout layout) { return kLayoutFacts[size_t(layout)].name; }
 constexpr std::array<char, 4> layoutTag(TransportLayout layout) { return kLayoutFacts[size_t(layout)].tag; }
-constexpr bool isCompressed(TransportLayout layout) { return kLayoutFacts[size_t(layout)].isCompressed; }
 bool isLayoutTag(std::array<char, 4> tag);
 std::optional<TransportLayout> layoutFromName(std::string_view name);
+
+// Rows are what is baked; every other layout is made of them.
+constexpr bool isCompressed(TransportLayout layout) { return layout != TransportLayout::Rows; }
 
 // Returns the layout that a file names. `where` stands for the file in errors. Throws Error for names of no
 // layout, and for "clusters", which version 0.1 had.

@@ -35,7 +35,7 @@ ChunkSizes rawSizes(const BakePlan& plan, uint32_t block, size_t chunk) {
 }
 
 // The transport, which holds nothing, of the set whose chunk it is.
-const Transport& layoutOf(const BakePlan& plan, uint32_t block, const ChunkEntry& entry) {
+const Transport& transportOf(const BakePlan& plan, uint32_t block, const ChunkEntry& entry) {
     return partOf(plan, block).sets[entry.owner - plan.firstSet[plan.blocks[block].part]].transport;
 }
 
@@ -47,7 +47,7 @@ uint64_t entriesOf(const BakePlan& plan, const StoredBlocks& blocks, uint32_t bl
         [&](const auto& layout) {
             return entriesOf(layout, plan.blocks[block].count(), entry.rawSize, load);
         },
-        layoutOf(plan, block, entry));
+        transportOf(plan, block, entry));
 }
 
 } // namespace
@@ -65,7 +65,8 @@ StoredBlock storeBlock(const BakePlan& plan, uint32_t block, BakedBlock baked) {
             fmt::format("part \"{}\", vertices from {} on as the device baked them", part.name, place.first);
         checkTransport(transport, coefficients, uint64_t(plan.asset.coefficients), where);
         const ChunkEntry chunk = expectedChunk(plan, block, set);
-        const BlockCoding coding{{place.first, place.count(), chunk.run},
+        const BlockCoding coding{place.first,
+                                 chunk.run,
                                  plan.asset.faceSize,
                                  plan.scale ? plan.scale->units[chunk.owner] : 1,
                                  plan.scale ? plan.scale->price : 0,
@@ -126,7 +127,7 @@ bool isPlausible(const BakePlan& plan, uint32_t block, size_t chunk, const Chunk
 uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& entry) {
     return std::visit(
         [&](const auto& layout) { return memoryBytes(layout, plan.blocks[block].count(), entry.rawSize); },
-        layoutOf(plan, block, entry));
+        transportOf(plan, block, entry));
 }
 
 uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,

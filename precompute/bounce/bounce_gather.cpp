@@ -74,8 +74,6 @@ BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
         mLayers.push_back(wornLayers(asset.parts[part], bound[part]));
 }
 
-BounceGather::~BounceGather() = default;
-
 // Attributes are interpolated as in the view pass. Rows are those of one corner, chosen as often as it
 // counts.
 bool BounceGather::find(vec3 origin, vec3 direction, float choice, Hit& hit) const {

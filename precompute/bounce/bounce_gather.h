@@ -34,7 +34,6 @@ class BounceGather {
     // Every part lights others as it looks in `bound`. Refers to `asset`, of whose transport it knows
     // nothing. Throws Error when Embree fails.
     BounceGather(const Asset& asset, const Appearance& bound);
-    ~BounceGather();
 
     // Told of the number of vertices that are done; returns whether to go on.
     using Report = std::function<bool(uint64_t vertices)>;

@@ -6,6 +6,7 @@
 #include "precompute/transport/light_spectrum.h"
 #include "precompute/transport/unit_sum.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace relume {

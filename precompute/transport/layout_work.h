@@ -1,16 +1,19 @@
 // What layouts are given to work on when a bake or a conversion encodes transport.
 #pragma once
 
-#include "engine/chunk/block_chunk.h"
 #include "engine/transport/asset.h"
 
 #include <algorithm>
 #include <functional>
+#include <optional>
+#include <span>
+#include <string>
 #include <tbb/parallel_for.h>
+#include <vector>
 
 namespace relume {
 
-// Clusters of a set that stand for all of them.
+// Vertices of a set that stand for all of them.
 struct SetSample {
     const MaterialSet* set;
     std::vector<const SparseTransport*> blocks; // each of clusters, of which only the last may not be full
@@ -33,7 +36,7 @@ struct LayoutTarget {
 
 // How a block is encoded by itself.
 struct BlockCoding {
-    BlockPlace place;
+    uint32_t first, run; // its first vertex in the set, and the run of its chunk
     int faceSize;
     float unit; // transportUnit() of the set
     double price;

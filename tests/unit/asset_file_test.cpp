@@ -2,6 +2,7 @@
 #include "engine/import/asset_info.h"
 #include "engine/import/old_asset.h"
 #include "engine/transport/asset_arrays.h"
+#include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
 #include "engine/transport/rows/rows_chunk.h"
 #include "tests/support/asset_sample.h"
@@ -412,8 +413,8 @@ TEST_CASE("asset file: transport in clusters, and in layouts to come, is refused
           "a.relume: chunk META: transport is in clusters, a layout that is no longer read; bake again, or "
           "convert the file with the program that made it: relume convert FILE --layout bases -o NEW");
     CHECK(refusal([&] { decodeAsset(fileIn("cells"), "a.relume"); }) ==
-          "a.relume: chunk META: layout: expected rows or bases, found \"cells\"; the file is damaged or of "
-          "a later program");
+          "a.relume: chunk META: transport is in the layout \"cells\", and this program knows rows and "
+          "bases; the file is damaged or of a later program");
     // Chunks of it in a set that says to be in rows.
     CHECK(refusal([&] { decodeAsset(fileIn("rows"), "a.relume"); }).starts_with("a.relume: chunk TRCL of"));
 
@@ -539,7 +540,16 @@ TEST_CASE("asset file: META of any other length or with unknown words is refused
     const std::vector<std::byte> meta = chunk(chunks, "META", kWholeFile).raw;
     for (size_t length = 1; length < meta.size(); length++)
         REQUIRE(refusal([&](auto& raw) { raw.resize(length); }) != "accepted");
-    CHECK(refusal([](auto& raw) { raw.push_back(std::byte(0)); }).find("no more bytes") != std::string::npos);
+    CHECK(refusal([](auto& raw) { raw.push_back(std::byte(0)); }) != "accepted");
+    const auto append = [&](std::initializer_list<int> more) {
+        return refusal([&](auto& raw) {
+            for (const int byte : more) raw.push_back(std::byte(byte));
+        });
+    };
+    CHECK(append({1, 0, 0, 0}) == "accepted");
+    CHECK(append({0, 0, 0, 0}).find("bounces") != std::string::npos);
+    CHECK(append({kMostBounces + 1, 0, 0, 0}).find("bounces") != std::string::npos);
+    CHECK(append({1, 0, 0, 0, 0}).find("no more bytes") != std::string::npos);
     const auto replaces = [&](const std::string& from, const std::string& to) {
         return refusal([&](std::vector<std::byte>& raw) {
             const auto bytes = std::as_bytes(std::span(from));
@@ -555,6 +565,19 @@ TEST_CASE("asset file: META of any other length or with unknown words is refused
     Asset wordy = sampleAsset();
     wordy.provenance.options = std::string(size_t(2) << 20, 'x');
     CHECK_THROWS_WITH_AS(encodeAsset(wordy), doctest::Contains("provenance take"), Error);
+}
+
+TEST_CASE("asset file: bounces are kept, and residuals told of them") {
+    Asset asset = sampleAsset();
+    MaterialSet& set = asset.parts[0].sets[0];
+    set.residual = sampleResidual(set.brdf);
+    for (const int bounces : {0, 3}) {
+        asset.bounces = bounces;
+        const Asset read = decodeAsset(encodeAsset(asset), "file");
+        CHECK(read.bounces == bounces);
+        REQUIRE(read.parts[0].sets[0].residual);
+        CHECK(read.parts[0].sets[0].residual->isBounced == (bounces > 0));
+    }
 }
 
 TEST_CASE("asset file: polar maps of earlier files keep their radius") {

@@ -22,13 +22,6 @@ uint32_t roundUp(uint64_t value, uint32_t step) { return uint32_t((value + step 
 // Puts a byte into a word, the lowest first.
 void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint8_t(value)) << 8 * place; }
 
-// The group size of kernels that list columns: a subgroup, or 8 to 32 invocations of portable shaders.
-uint32_t listingLanes(const vk::Device& device) {
-    const vk::DeviceInfo& info = device.info();
-    if (!info.takesPortableShaders()) return info.subgroupSize;
-    return info.isSoftware ? 8 : 32;
-}
-
 // Column indices, all below `coefficients`, two a word.
 std::vector<uint32_t> inPairs(std::span<const uint16_t> indices, uint32_t coefficients) {
     std::vector<uint32_t> words((indices.size() + 1) / 2, 0);
@@ -56,12 +49,12 @@ uint32_t pushed(RelightMode mode) {
 
 BasesRelighter::Programs::Programs(const vk::Device& device) {
     using enum vk::ComputeProgram::Subgroups;
-    project = {device,
-               relight_project_comp_spirv,
-               {listingLanes(device)},
-               "relight project",
-               device.info().takesPortableShaders() ? Any : Full};
-    combine = {device, relight_combine_comp_spirv, {listingLanes(device)}, "relight combine"};
+    const vk::DeviceInfo& info = device.info();
+    const bool isPortable = info.takesPortableShaders();
+    // A subgroup, or 8 to 32 invocations of portable shaders.
+    const uint32_t lanes = !isPortable ? info.subgroupSize : info.isSoftware ? 8 : 32;
+    project = {device, relight_project_comp_spirv, {lanes}, "relight project", isPortable ? Any : Full};
+    combine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
 }
 
 // Clusters on their way to the device.

@@ -83,14 +83,14 @@ BasisCluster decodeBasisCluster(std::span<const std::byte> raw, uint32_t number,
 
 void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t) {
     for (size_t cluster = 0; cluster < transport.clusters.size(); cluster++)
-        file.add(transport.kTag, owner, uint32_t(cluster),
+        file.add(BasisTransport::kTag, owner, uint32_t(cluster),
                  encodeBasisCluster(transport.clusters[cluster], uint32_t(cluster),
                                     transport.verticesOf(cluster)));
 }
 
 void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,
                    BasisTransport& transport) {
-    for (const ChunkEntry& run : file.find(transport.kTag, owner)) {
+    for (const ChunkEntry& run : file.find(BasisTransport::kTag, owner)) {
         const size_t next = transport.clusters.size();
         if (next >= transport.clusterCount())
             throw Error(fmt::format("{}: expected {} clusters, found more", whereOf(file, run, "set"),
@@ -101,7 +101,7 @@ void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint
     }
     if (transport.clusters.size() != transport.clusterCount() || transport.entries() != columns)
         throw Error(fmt::format("{}: expected {} clusters with {} columns, found {} with {}",
-                                whereOf(file, transport.kTag, owner, "set"), transport.clusterCount(),
+                                whereOf(file, BasisTransport::kTag, owner, "set"), transport.clusterCount(),
                                 columns, transport.clusters.size(), transport.entries()));
 }
 

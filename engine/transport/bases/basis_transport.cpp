@@ -4,6 +4,7 @@
 #include "engine/chunk/rising_indices.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -42,11 +43,11 @@ void BasisTransport::addCoefficients(size_t row, std::span<vec3> coefficients) c
     }
 }
 
-void checkKinds(const BasisTransport& transport, const std::string& where) {
-    expect(transport.kinds.size() <= 3 * size_t(transport.terms), where, "at most three kinds a term");
+void checkLayout(const BasisTransport& layout, const std::string& where) {
+    expect(layout.kinds.size() <= 3 * size_t(layout.terms), where, "at most three kinds a term");
     uint32_t term = 0, ofTerm = 0;
-    for (const BasisKind& kind : transport.kinds) {
-        expect(kind.term >= term && kind.term < transport.terms, where, "kinds by rising term");
+    for (const BasisKind& kind : layout.kinds) {
+        expect(kind.term >= term && kind.term < layout.terms, where, "kinds by rising term");
         ofTerm = kind.term == term ? ofTerm + 1 : 1;
         term = kind.term;
         expect(ofTerm <= 3, where, "at most three kinds a term");
@@ -78,7 +79,7 @@ void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, ui
 
 void checkTransport(const BasisTransport& transport, uint32_t coefficients, uint64_t,
                     const std::string& where) {
-    checkKinds(transport, where);
+    checkLayout(transport, where);
     expectCount(transport.clusters.size(), transport.clusterCount(), where, "clusters");
     for (size_t number = 0; number < transport.clusters.size(); number++)
         checkCluster(transport.clusters[number], transport.verticesOf(number), transport.kinds.size(),

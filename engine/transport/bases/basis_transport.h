@@ -44,7 +44,6 @@ struct BasisCluster {
 struct BasisTransport {
     static constexpr const char* kName = "bases";
     static constexpr std::array<char, 4> kTag = {'T', 'R', 'B', 'S'};
-    static constexpr bool kIsCompressed = true;
 
     uint32_t vertices = 0;
     uint32_t terms = 0;
@@ -62,8 +61,8 @@ struct BasisTransport {
     void addCoefficients(size_t row, std::span<vec3> coefficients) const;
 };
 
-// What the weights of all clusters are amounts of. Throws Error.
-void checkKinds(const BasisTransport& transport, const std::string& where);
+// The kinds: what the weights of all clusters are amounts of. Throws Error.
+void checkLayout(const BasisTransport& layout, const std::string& where);
 
 // One cluster of so many vertices. Throws Error.
 void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, uint32_t coefficients,

@@ -18,7 +18,6 @@ uint32_t zigzag(int32_t value) { return uint32_t(value) << 1 ^ uint32_t(value >>
 int32_t unzigzag(uint32_t value) { return int32_t(value >> 1) ^ -int32_t(value & 1); }
 
 static_assert(kRunHeaderBytes + kRunRows * kRunRowBytes + kRunEntries * kRunEntryBytes <= kLargestChunk);
-static_assert(kRunRows == kMostBlockVertices * size_t(kLargestTerms));
 
 } // namespace
 
@@ -102,15 +101,14 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
 void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport, uint32_t block) {
     for (uint32_t run = 0; run * uint64_t(block) < transport.vertices; run++) {
         const uint32_t first = run * block, end = std::min(transport.vertices - first, block) + first;
-        file.add(transport.kTag, owner, run, encodeRun(transport, {first, end}));
+        file.add(SparseTransport::kTag, owner, run, encodeRun(transport, {first, end}));
     }
 }
 
 void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint32_t coefficients,
                    SparseTransport& transport) {
     const uint64_t bytes = transport.rows() * kRunRowBytes + entries * kRunEntryBytes;
-    const auto runs = findSized(file, transport.kTag, owner, kRunHeaderBytes, bytes,
-                                whereOf(file, transport.kTag, owner, "set"));
+    const auto runs = findSized(file, SparseTransport::kTag, owner, kRunHeaderBytes, bytes, "set");
     transport.rowStarts.reserve(transport.rows() + 1);
     transport.rowStarts.push_back(0);
     transport.scales.reserve(transport.rows());

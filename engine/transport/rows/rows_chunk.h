@@ -9,7 +9,7 @@ namespace relume {
 // Most entries and rows of a run that is written.
 constexpr size_t kRunEntries = size_t(1) << 20;
 constexpr uint32_t kMostBlockVertices = 64;
-constexpr size_t kRunRows = kMostBlockVertices * size_t(32);
+constexpr size_t kRunRows = kMostBlockVertices * size_t(kLargestTerms);
 
 // Vertices of a block: what is baked, kept in a checkpoint and written as one run. The largest power of two
 // up to kMostBlockVertices of which `terms` rows each of `coefficients` entries stay within kRunEntries; a
@@ -28,7 +28,7 @@ struct VertexRun {
     uint32_t first, end;
 };
 
-// Wants valid rows (asset_check.h). Vertex 0 of `transport` is vertex `offset` of its set.
+// Wants valid rows (checkTransport()). Vertex 0 of `transport` is vertex `offset` of its set.
 std::vector<std::byte> encodeRun(const SparseTransport& transport, VertexRun run, uint32_t offset = 0);
 
 // Appends a run to `transport`, whose vertices and terms are set and whose vertex 0 is vertex `offset` of its

@@ -15,7 +15,6 @@ namespace relume {
 struct SparseTransport {
     static constexpr const char* kName = "rows";
     static constexpr std::array<char, 4> kTag = {'T', 'R', 'A', 'N'};
-    static constexpr bool kIsCompressed = false;
 
     uint32_t vertices = 0;
     uint32_t terms = 0;

@@ -141,7 +141,7 @@ EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& ro
         encodeBases(matrix, analysis, cutFor(analysis, coding.price), layout.kinds, spectrum);
     checkCluster(encoded.cluster, rows.vertices, layout.kinds.size(), uint32_t(spectrum.size()),
                  coding.where);
-    return {encodeBasisCluster(encoded.cluster, coding.place.run, rows.vertices), encoded.error};
+    return {encodeBasisCluster(encoded.cluster, coding.run, rows.vertices), encoded.error};
 }
 
 double findPrice(const BasisTransport&, std::span<const SetSample> samples, int faceSize,
@@ -182,8 +182,7 @@ double convertRows(const BasisTransport&, const RowSource& source, const LayoutT
                              made[place.set].kinds, source.spectrum, source.units[place.set]);
     };
 
-    // The rows are read twice (kConversionPasses): once for what each cluster asks for, once for what it
-    // gets.
+    // Two passes over the rows (kConversionPasses): what each cluster asks for, then what it gets.
     std::vector<BasisAnalysis> analyses(places.size());
     passes.run(places, [&](size_t i) { analyses[i] = analyse(matrixOf(places[i])); });
     const double price = priceFor(analyses, target);

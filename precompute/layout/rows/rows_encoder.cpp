@@ -38,7 +38,7 @@ void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, Conversion
 }
 
 EncodedBlock encodeBlock(const SparseTransport&, const SparseTransport& rows, const BlockCoding& coding) {
-    return {encodeRun(rows, {0, rows.vertices}, coding.place.first), 0};
+    return {encodeRun(rows, {0, rows.vertices}, coding.first), 0};
 }
 
 } // namespace relume
