@@ -44,7 +44,8 @@ TEST_CASE("shader reload: all shaders that a frame uses are known") {
     constexpr std::string_view kInclude = "#include \"shaders/", kEnd = ".h\"\n";
     std::set<std::string> used, known;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(engine)) {
-        if (!entry.is_regular_file()) continue;
+        // engine/vk has the list of portable shaders, which are no others.
+        if (!entry.is_regular_file() || entry.path().parent_path().filename() == "vk") continue;
         const std::string text = readText(entry.path());
         for (size_t at = 0; (at = text.find(kInclude, at)) != std::string::npos;) {
             at += kInclude.size();
