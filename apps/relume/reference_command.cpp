@@ -41,7 +41,7 @@ void run(const Arguments& arguments) {
                                                   : ReferenceBrdf::Exact;
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
     options.appearance = arguments.appearance.appearance(asset);
-    options.bounces = arguments.bounces.value_or(asset.bounces);
+    options.bounces = arguments.bounces;
     options.paths = arguments.paths;
     options.groundFade = arguments.image.groundFade(asset);
     options.bakedOccluder = arguments.occluder == "baked";
@@ -106,7 +106,7 @@ void addReferenceCommand(CLI::App& program) {
                      "Reflections between surfaces before the last, traced with the exact BRDF: 0 to 8")
         ->check(CLI::Range(0, kMostBounces))
         ->type_name("B")
-        ->default_str("the bake's own");
+        ->default_str("the bake's own, with --brdf exact");
     command->add_option("--paths", arguments->paths, "Paths per pixel that find bounced light")
         ->check(CLI::Range(1, 1 << 20))
         ->type_name("COUNT")

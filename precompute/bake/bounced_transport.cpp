@@ -99,10 +99,12 @@ void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t fi
             sum.add(baked.transport, row, 1);
             sum.add(bounced, size_t(first) * bounced.terms + row, float(kBounceFaceSize) / float(faceSize),
                     [&](uint16_t index) { return coefficientOfBounce(index, faceSize); });
-            const double all = sum.energy();
-            appendRow(rows, sum.pack(kept));
-            baked.losses[row].total += all - energyOf(baked.transport, row);
-            baked.losses[row].dropped += std::max(0.0, all - energyOf(rows, row));
+            RowSum::Energies energies;
+            appendRow(rows, sum.pack(kept, &energies));
+            TransportLosses& losses = baked.losses[row];
+            losses.total += energies.total - energyOf(baked.transport, row);
+            losses.dropped += energies.dropped;
+            losses.quantised += energies.quantised;
         }
         rows.vertices = baked.transport.vertices;
         baked.transport = std::move(rows);
@@ -134,6 +136,7 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
         std::vector<SparseTransport> from;
         for (size_t part = 0; part < direct.size(); part++)
             from.push_back(bounce == 0 ? direct[part] : sumOf(direct[part], bounced[part][bound[part].set]));
+        bounced.clear();
         const Clock::time_point began = Clock::now();
         observer.stage(BakeStage::Bounces, "");
         bounced = gather.gather(from, [&](uint64_t done) {

@@ -6,7 +6,7 @@
 namespace relume {
 
 // Changes with what bounced light comes to, for checkpoints and shards of before.
-constexpr uint32_t kBouncesVersion = 1;
+constexpr uint32_t kBouncesVersion = 2;
 
 // What adds bounced light to blocks as they are baked.
 class BouncedTransport {

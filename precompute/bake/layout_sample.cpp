@@ -1,5 +1,6 @@
 #include "precompute/bake/layout_sample.h"
 
+#include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/stored_blocks.h"
 #include "precompute/bake/vertex_rows.h"
 #include "precompute/transport/layout_work.h"
@@ -41,6 +42,20 @@ class SampleSink : public BakeSink {
     const BakePlan& mPlan;
 };
 
+// To rows of these vertices of a part, one after the other.
+void addBounces(const BakePlan& plan, uint32_t part, std::span<const uint32_t> vertices,
+                std::vector<BakedRows>& rows) {
+    std::vector<BakedRows> sum;
+    for (const BakedRows& set : rows) sum.emplace_back(set.transport.terms);
+    for (uint32_t i = 0; i < rows.front().transport.vertices; i++) {
+        std::vector<BakedRows> one;
+        for (const BakedRows& set : rows) one.push_back(set.vertices(i, i + 1));
+        plan.bounced->addTo(one, part, vertices[i], plan.asset.faceSize, plan.asset.coefficients);
+        for (size_t set = 0; set < sum.size(); set++) sum[set].append(one[set]);
+    }
+    rows = std::move(sum);
+}
+
 // Per set, from vertices spread over its part: a few blocks would not tell. A ground's shadow is on one in
 // twenty. Visibility that was kept would be of little use: it is packed by blocks, and to unpack all of one
 // for a few vertices takes longer than to find theirs.
@@ -59,16 +74,21 @@ std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeL
     std::vector<float> units;
     std::vector<UnitSum> sums; // of the sets of one part at a time: rows are not held
     uint32_t summed = 0;       // that part
+    size_t taken = 0;          // of its vertices
     const auto endPart = [&] {
         for (const UnitSum& sum : sums) units.push_back(sum.unit());
         sums.clear();
+        taken = 0;
     };
     const auto take = [&](uint32_t part, std::span<const BakedRows> sets) {
         if (part != summed) endPart();
         summed = part;
-        for (size_t set = 0; set < sets.size(); set++) {
-            if (sums.size() == set) sums.emplace_back(sets[set].transport.terms, spectrum);
-            sums[set].add(sets[set].transport);
+        std::vector<BakedRows> own(sets.begin(), sets.end());
+        if (plan.bounced) addBounces(plan, part, std::span(chosen[part]).subspan(taken), own);
+        taken += own.front().transport.vertices;
+        for (size_t set = 0; set < own.size(); set++) {
+            if (sums.size() == set) sums.emplace_back(own[set].transport.terms, spectrum);
+            sums[set].add(own[set].transport);
         }
     };
     bakeVertices(device, plan, chosen, limits, take, observer, times);

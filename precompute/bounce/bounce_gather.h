@@ -24,7 +24,7 @@ constexpr int kBounceKept = 64; // most coefficients of a bounced row
 
 // Returns which of them a coefficient of a larger cube is, face · size² + y · size + x; none: a finer one.
 // The coefficients of cubes of n texels a side are those of the first n × n of every face of a larger one,
-// times n / size: the Haar basis is nested.
+// times size / n: the Haar basis is nested.
 std::optional<uint16_t> bounceCoefficient(uint16_t coefficient, int size);
 // Returns the coefficient of a cube of `size` texels a side that one of kBounceFaceSize is.
 uint16_t coefficientOfBounce(uint16_t coefficient, int size);

@@ -32,6 +32,7 @@ void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const Sp
         if (!mesh.uvs.empty()) uv += hit.weights[i] * mesh.uvs[corners[i]];
         if (!mesh.colors.empty()) color += hit.weights[i] * mesh.colors[corners[i]];
     }
+    if (glm::dot(normal, normal) < 1e-12f) return; // opposite ones on a fold
     const TangentFrame frame = tangentFrame(glm::normalize(normal), tangent);
     const vec3 outgoing = liftAboveHorizon(frame.toLocal(-direction));
     const size_t set = bound[hit.mesh].set;

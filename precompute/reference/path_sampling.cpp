@@ -15,10 +15,10 @@ vec3 sampleBounces(const PathScene& scene, const SurfacePoint& point, int bounce
         if (throughput == vec3(0)) break;
         const vec3 direction = at.frame.toWorld(incoming);
         const std::optional<RayHit> hit =
-            scene.tracer.intersect(at.position + scene.shadowOffset * at.frame.n, direction);
+            scene.surfaces.intersect(at.position + scene.shadowOffset * at.frame.n, direction);
         if (!hit || !meetsFront(*scene.meshes[hit->mesh], *hit, direction)) break;
         at = scene.asset.pointAt(*hit, at.position);
-        sum += throughput * sampleReflection(at, scene.light, scene.tracer, scene.shadowOffset, random);
+        sum += throughput * sampleReflection(at, scene.light, scene.occluder, scene.shadowOffset, random);
     }
     return sum;
 }

@@ -10,7 +10,8 @@ namespace relume {
 // What paths meet. Refers to all of it.
 struct PathScene {
     const DressedAsset& asset;
-    const RayTracer& tracer; // of the asset's partMeshes()
+    const RayTracer& surfaces; // of the asset's partMeshes()
+    const RayTracer& occluder; // what casts shadows
     std::span<const Mesh* const> meshes;
     const LightDistribution& light;
     float shadowOffset; // that rays start along a point's normal

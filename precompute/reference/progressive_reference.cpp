@@ -74,9 +74,9 @@ void ProgressiveReference::sampleRow(int y) {
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
         const SurfacePoint point = mDressed->pointAt(*hit, mCamera.eye);
         mSample[pixel] = sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
-        if (mAsset.bounces > 0)
-            mSample[pixel] += sampleBounces({*mDressed, mTracer, mMeshes, *mLight, mShadowOffset}, point,
-                                            mAsset.bounces, random);
+        if (mKind == ReferenceBrdf::Exact && mAsset.bounces > 0)
+            mSample[pixel] += sampleBounces({*mDressed, mTracer, mTracer, mMeshes, *mLight, mShadowOffset},
+                                            point, mAsset.bounces, random);
     }
 }
 

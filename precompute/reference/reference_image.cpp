@@ -27,6 +27,10 @@ struct LightSample {
 // Texels a side of the light cube that paths sample where the light is an environment.
 constexpr int kPathFaceSize = 128;
 
+int bouncesOf(const ReferenceOptions& options, const Asset& asset) {
+    return options.bounces.value_or(options.brdf == ReferenceBrdf::Exact ? asset.bounces : 0);
+}
+
 // What all pixels share.
 struct Renderer {
     const Camera& camera;
@@ -38,6 +42,7 @@ struct Renderer {
     RayTracer surfaces;                    // one mesh per part
     RayTracer occluder;
     float shadowOffset;
+    int bounces;
     std::optional<LightDistribution> bounced; // the light that paths find, where light bounces
     std::vector<const Mesh*> meshes;
 
@@ -57,11 +62,11 @@ vec3 Renderer::radianceAt(const RayHit& hit) const {
 
 vec3 Renderer::bouncedRadiance(const RayHit& hit, uint32_t pixel) const {
     const SurfacePoint point = asset.pointAt(hit, camera.eye);
-    const PathScene scene{asset, surfaces, meshes, *bounced, shadowOffset};
+    const PathScene scene{asset, surfaces, occluder, meshes, *bounced, shadowOffset};
     glm::dvec3 sum(0);
     for (int path = 0; path < options.paths; path++) {
         HashedNumbers random(pixel, uint32_t(path));
-        sum += sampleBounces(scene, point, options.bounces, random);
+        sum += sampleBounces(scene, point, bounces, random);
     }
     return vec3(sum / double(options.paths));
 }
@@ -160,8 +165,8 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
         throw UsageError(fmt::format("a reference image of {} x {} pixels: each side must be 1 to {}",
                                      options.width, options.height, kLargestSide));
     expectSamples(options.samples);
-    if (options.bounces > 0 && options.brdf != ReferenceBrdf::Exact)
-        throw UsageError("bounced light is traced with the exact BRDF alone");
+    if (bouncesOf(options, asset) > 0 && options.brdf != ReferenceBrdf::Exact)
+        throw UsageError("bounced light is traced with the exact BRDF alone; use --bounces 0");
     const std::vector<const Mesh*> meshes = partMeshes(asset);
     const std::vector<const Mesh*> occluders =
         options.bakedOccluder ? std::vector<const Mesh*>{&asset.occluder} : meshes;
@@ -188,7 +193,8 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
         RayTracer(meshes),
         RayTracer(occluders),
         offset,
-        options.bounces > 0 ? std::optional<LightDistribution>(cube) : std::nullopt,
+        bouncesOf(options, asset),
+        bouncesOf(options, asset) > 0 ? std::optional<LightDistribution>(cube) : std::nullopt,
         meshes};
     return render(renderer, progress);
 }
@@ -245,7 +251,7 @@ Image renderReference(const Asset& asset, const Camera& camera, const Environmen
                       const std::function<void(int)>& progress) {
     const Environment prepared = prepareForSampling(environment, maxWidth);
     const LightCube cube =
-        options.bounces > 0 ? sampleEnvironment(prepared, kPathFaceSize, rotation) : LightCube();
+        bouncesOf(options, asset) > 0 ? sampleEnvironment(prepared, kPathFaceSize, rotation) : LightCube();
     return renderUnder(lightSamples(prepared, rotation), cube, asset, camera, options, progress);
 }
 

@@ -20,8 +20,10 @@ struct ReferenceOptions {
     Appearance appearance = {}; // what parts wear; empty: the default appearance
     std::optional<GroundFade> groundFade = std::nullopt;
     // Reflections between surfaces, besides the last towards the eye, and paths a pixel that they are traced
-    // by; their noise goes with the square root of these.
-    int bounces = 0, paths = 256;
+    // by; their noise falls with the square root of these. None: as many as the asset's transport has, of the
+    // exact BRDF; others have no bounced light.
+    std::optional<int> bounces = std::nullopt;
+    int paths = 256;
     bool bakedOccluder = false; // cast shadows with the asset's simplified occluder, not the full mesh
 };
 

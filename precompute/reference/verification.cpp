@@ -123,6 +123,7 @@ class Bounces {
         : mAsset(asset), mBound(defaultAppearance(asset)), mTracer(partMeshes(asset)) {
         BakePlan plan = planOf(asset);
         plan.options = optionsOf(asset);
+        plan.options.visibilityMethod = usableMethod(device, *plan.options.visibilityMethod);
         BakeObserver silent;
         BakeTimes times;
         mBounced = bounceTransport(device, plan, {}, silent, times, &mFrom);

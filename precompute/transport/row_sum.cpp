@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -9,17 +10,7 @@ namespace relume {
 
 RowSum::RowSum(size_t coefficients) : mSums(coefficients, vec3(0)), mTouched((coefficients + 63) / 64) {}
 
-double RowSum::energy() const {
-    double sum = 0;
-    for (size_t word = 0; word < mTouched.size(); word++)
-        for (uint64_t left = mTouched[word]; left != 0; left &= left - 1) {
-            const vec3 value = mSums[word * 64 + size_t(std::countr_zero(left))];
-            sum += double(glm::dot(value, value));
-        }
-    return sum;
-}
-
-PackedRow RowSum::pack(int kept) {
+PackedRow RowSum::pack(int kept, Energies* energies) {
     std::vector<uint16_t> indices; // rising, so that the packers' ties are as among all coefficients
     std::vector<vec3> values;
     for (size_t word = 0; word < mTouched.size(); word++)
@@ -28,6 +19,18 @@ PackedRow RowSum::pack(int kept) {
             values.push_back(std::exchange(mSums[indices.back()], vec3(0)));
         }
     PackedRow row = packLargest(values, kept);
+    if (energies) {
+        *energies = {};
+        double keptEnergy = 0;
+        for (const vec3& value : values) energies->total += double(glm::dot(value, value));
+        for (size_t i = 0; i < row.indices.size(); i++) {
+            const vec3 value = values[row.indices[i]],
+                       lost = value - row.scale * kCoefficientUnit * vec3(unpackCoefficient(row.values[i]));
+            keptEnergy += double(glm::dot(value, value));
+            energies->quantised += double(glm::dot(lost, lost));
+        }
+        energies->dropped = std::max(0.0, energies->total - keptEnergy);
+    }
     for (uint16_t& index : row.indices) index = indices[index];
     return row;
 }

@@ -26,10 +26,12 @@ class RowSum {
         add(rows, row, weight, [](uint16_t index) { return index; });
     }
 
-    double energy() const; // Σ |coefficient|²
-
-    // Returns the sum's `kept` largest coefficients, as packLargest() takes them.
-    PackedRow pack(int kept);
+    // Returns the sum's `kept` largest coefficients, as packLargest() takes them; `energies`, if any: sums of
+    // squares of the coefficients, of those that are dropped, and of what quantization changes of the others.
+    struct Energies {
+        double total = 0, dropped = 0, quantised = 0;
+    };
+    PackedRow pack(int kept, Energies* energies = nullptr);
 
   private:
     std::vector<vec3> mSums;        // per coefficient
