@@ -1,4 +1,5 @@
-// What layouts of transport say and are told of the chunk that holds a block of vertices.
+// Types by which layouts of transport describe the chunk of a block of vertices, and limits that it is held
+// to.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"
@@ -17,10 +18,10 @@ struct ChunkSizes {
     uint64_t least, most, step;
 };
 
-// What indices of coefficients are below, and most entries of a row.
+// Limits that rows are checked against.
 struct RowLimits {
-    uint32_t coefficients;
-    uint64_t longestRow;
+    uint32_t coefficients; // indices are below it
+    uint64_t longestRow;   // in entries
 };
 
 // Gives the bytes of a chunk before compression.

@@ -1,4 +1,4 @@
-// What a check of data says where something does not hold.
+// Checks of data that throw an Error where something does not hold.
 #pragma once
 
 #include "engine/base/error.h"

@@ -20,7 +20,7 @@ Relighter::Relighter(const vk::Device& device, const Asset& asset, const Relight
     mSpheres = std::make_unique<LitSpheres>(device, asset, options.residual);
 }
 
-// What relights a layout; not defined.
+// Declares the relighter of each layout; the functions are not defined.
 RowsRelighter relighterOf(const SparseTransport&);
 BasesRelighter relighterOf(const BasisTransport&);
 

@@ -103,7 +103,7 @@ void writeResidual(FieldWriter& out, const MaterialSet& set, uint32_t number, Re
     for (const auto& kernel : set.residual->layers) write(out, *kernel);
 }
 
-// What a set says of its transport, besides chunks.
+// Fields that META has of a set's transport, besides its chunks.
 void writeLayout(FieldWriter&, const SparseTransport&) {}
 void readLayout(FieldReader&, SparseTransport&) {}
 

@@ -21,7 +21,7 @@ using Transport = std::variant<SparseTransport, BasisTransport>;
 // In the order of Transport's alternatives.
 enum class TransportLayout { Rows, Bases };
 
-// What is known of a layout without transport.
+// Facts of a layout that hold without any transport.
 struct LayoutFacts {
     const char* name;        // as files and options have it
     std::array<char, 4> tag; // of its chunks

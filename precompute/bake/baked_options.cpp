@@ -66,7 +66,7 @@ class OptionReader {
                                 count("vertices"),      value.contains("auto") && value["auto"] == true};
     }
 
-    // Of bakes with bounced light alone.
+    // Bakes of direct light do not have the option.
     int bounces() { return mOptions.contains("bounces") ? integer("bounces") : 0; }
 
     // `parse` gives an std::optional, empty for a name it does not know.

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of the transport that lights others before the first bounce: the smallest that the kernels make.
+// The sources, transport that lights others, have the smallest sizes that the kernels make.
 constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 96;
 
 // A plan of the bound sets alone, at low resolution, without an occluder yet.
@@ -38,7 +38,7 @@ BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
     return sources;
 }
 
-// Rows of kBounceFaceSize, of a larger cube's.
+// Returns the rows of kBounceFaceSize that are part of a larger cube's.
 SparseTransport coarseRows(const SparseTransport& rows, int faceSize) {
     SparseTransport coarse{rows.vertices, rows.terms, {0}, {}, {}, {}};
     for (size_t row = 0; row < rows.rows(); row++) {
@@ -53,7 +53,7 @@ SparseTransport coarseRows(const SparseTransport& rows, int faceSize) {
     return coarse;
 }
 
-// Per part, the direct transport of its bound set.
+// Returns, per part, the direct transport of its bound set.
 std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& plan, const Appearance& bound,
                                          const BakeLimits& limits, BakeObserver& observer, BakeTimes& times) {
     std::vector<std::vector<uint32_t>> vertices;
@@ -74,7 +74,7 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
     return rows;
 }
 
-// Row by row.
+// Adds row to row.
 SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
     SparseTransport rows{a.vertices, a.terms, {0}, {}, {}, {}};
     RowSum sum(kBounceCoefficients);

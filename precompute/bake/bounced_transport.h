@@ -5,26 +5,27 @@
 
 namespace relume {
 
-// Changes with what bounced light comes to, for checkpoints and shards of before.
+// The version is raised when bounced light comes out differently: checkpoints and shards of before do not
+// fit.
 constexpr uint32_t kBouncesVersion = 2;
 
-// What adds bounced light to blocks as they are baked.
+// Rows of bounced light, which are added to blocks as they are baked.
 class BouncedTransport {
   public:
-    // Of every part, by BounceGather: rows per set.
+    // Takes rows per part and set, as BounceGather gives them.
     explicit BouncedTransport(std::vector<std::vector<SparseTransport>> rows) : mRows(std::move(rows)) {}
 
-    // To the rows of a part's vertices from `first` on, per set. Rows keep their `kept` largest coefficients;
-    // what is lost by that is added to their losses.
+    // Adds them to the rows of a part's vertices from `first` on, per set. Rows keep their `kept` largest
+    // coefficients; what is lost by that is added to their losses.
     void addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize, int kept) const;
 
-    // To all coefficients of a row of a set.
+    // Adds one to all coefficients of a row of a set.
     void addTo(std::span<vec3> coefficients, size_t part, size_t set, size_t row, int faceSize) const;
 
     const SparseTransport& rows(size_t part, size_t set) const { return mRows[part][set]; }
 
   private:
-    std::vector<std::vector<SparseTransport>> mRows;
+    std::vector<std::vector<SparseTransport>> mRows; // of kBounceFaceSize
 };
 
 // Finds the light of as many bounces as the plan's options have, of the parts in the first material of each,

@@ -24,7 +24,7 @@ std::vector<std::byte> encodeBasisCluster(const BasisCluster& cluster, uint32_t 
 BasisCluster decodeBasisCluster(std::span<const std::byte> raw, uint32_t number, uint32_t vertices,
                                 size_t kinds, uint32_t coefficients, const std::string& where);
 
-// What layout_chunks.h wants of a layout; checkLayout() is in basis_transport.h.
+// These are the functions that layout_chunks.h lists; checkLayout() is in basis_transport.h.
 inline uint32_t blockVertices(const BasisTransport&, int, int) { return kBasisVertices; }
 void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t block);
 void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,

@@ -44,7 +44,7 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
 uint32_t decorrelate(uint32_t packed);
 uint32_t correlate(uint32_t stored);
 
-// What layout_chunks.h wants of a layout.
+// These are the functions that layout_chunks.h lists.
 void addTransport(ChunkWriter& file, uint32_t owner, const SparseTransport& transport, uint32_t block);
 void readTransport(const ChunkFile& file, uint32_t owner, uint64_t entries, uint32_t coefficients,
                    SparseTransport& transport);
