@@ -1,5 +1,4 @@
-// Types by which layouts of transport describe the chunk of a block of vertices, and limits that it is held
-// to.
+// Types by which layouts of transport describe and check the chunk of a block of vertices.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"

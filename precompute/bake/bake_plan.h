@@ -24,8 +24,8 @@ struct BakePlan {
     Asset asset; // all but the rows, whose numbers are set, and the measured errors
     // What encodes blocks that are not kept in rows: known once a sample of them is baked (layout_sample.h).
     std::optional<LayoutScale> scale;
-    // What is added to blocks as they are baked, where light bounces: known once it was found
-    // (precompute/bake/bounced_transport.h).
+    // Bounced light, which is added to blocks as they are baked. Null until it was found, and where none is
+    // asked for.
     std::shared_ptr<const BouncedTransport> bounced;
     uint32_t blockVertices = 0, visibilityRun = 0; // vertices; the second divides the first
     std::vector<BakeBlock> blocks;                 // part after part, in vertex order

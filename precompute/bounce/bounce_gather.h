@@ -35,7 +35,7 @@ class BounceGather {
     // nothing. Throws Error when Embree fails.
     BounceGather(const Asset& asset, const Appearance& bound);
 
-    // The report is told the number of vertices that are done; and returns whether to go on.
+    // The report is told the number of vertices that are done, and returns whether to go on.
     using Report = std::function<bool(uint64_t vertices)>;
 
     // Returns rows per part and set, from those of the bound sets, per part, all of kBounceFaceSize. The same
