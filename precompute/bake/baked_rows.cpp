@@ -8,10 +8,7 @@
 
 namespace relume {
 
-BakedRows::BakedRows(uint32_t terms) {
-    transport.terms = terms;
-    transport.rowStarts = {0};
-}
+BakedRows::BakedRows(uint32_t terms) : transport(emptyRows(terms)) {}
 
 BakedRows BakedRows::vertices(uint32_t first, uint32_t end) const {
     RELUME_CHECK_LE(end, transport.vertices);

@@ -62,7 +62,7 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
         const AssetPart& part = plan.asset.parts[number];
         std::vector<uint32_t>& all = vertices.emplace_back(part.mesh.vertexCount());
         std::iota(all.begin(), all.end(), 0u);
-        rows.push_back({0, uint32_t(part.sets[bound[number].set].brdf.terms), {0}, {}, {}, {}});
+        rows.push_back(emptyRows(uint32_t(part.sets[bound[number].set].brdf.terms)));
     }
     BakePlan sources = planOfSources(plan, bound);
     std::swap(sources.asset.occluder, plan.asset.occluder); // large: never twice
@@ -94,7 +94,7 @@ void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t fi
     for (size_t set = 0; set < sets.size(); set++) {
         const SparseTransport& bounced = mRows[part][set];
         BakedRows& baked = sets[set];
-        SparseTransport rows{0, baked.transport.terms, {0}, {}, {}, {}};
+        SparseTransport rows = emptyRows(baked.transport.terms);
         for (size_t row = 0; row < baked.transport.rows(); row++) {
             sum.add(baked.transport, row, 1);
             sum.add(bounced, size_t(first) * bounced.terms + row, float(kBounceFaceSize) / float(faceSize),

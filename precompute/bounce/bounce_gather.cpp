@@ -179,22 +179,21 @@ std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const S
     int mostTerms = 0;
     for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termsOf(part));
     tbb::enumerable_thread_specific<Room> rooms(mostTerms);
-    const auto emptyRows = [](const AssetPart& part) {
+    const auto rowsOfSets = [](const AssetPart& part) {
         std::vector<SparseTransport> rows;
-        for (const MaterialSet& set : part.sets)
-            rows.push_back({0, uint32_t(set.brdf.terms), {0}, {}, {}, {}});
+        for (const MaterialSet& set : part.sets) rows.push_back(emptyRows(uint32_t(set.brdf.terms)));
         return rows;
     };
     std::vector<std::vector<SparseTransport>> gathered;
     uint64_t done = 0;
     for (size_t number = 0; number < mAsset.parts.size(); number++) {
         const AssetPart& part = mAsset.parts[number];
-        std::vector<SparseTransport>& all = gathered.emplace_back(emptyRows(part));
+        std::vector<SparseTransport>& all = gathered.emplace_back(rowsOfSets(part));
         const auto vertices = uint32_t(part.mesh.vertexCount());
         for (uint32_t first = 0; first < vertices; first += kBatch) {
             const uint32_t end = std::min(first + kBatch, vertices);
             std::vector<std::vector<SparseTransport>> blocks((end - first + kBlock - 1) / kBlock,
-                                                             emptyRows(part));
+                                                             rowsOfSets(part));
             tbb::parallel_for(size_t(0), blocks.size(), [&](size_t block) {
                 const auto begin = uint32_t(first + block * kBlock);
                 for (uint32_t vertex = begin; vertex < std::min(begin + kBlock, end); vertex++)

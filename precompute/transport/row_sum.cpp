@@ -35,6 +35,8 @@ PackedRow RowSum::pack(int kept, Energies* energies) {
     return row;
 }
 
+SparseTransport emptyRows(uint32_t terms) { return {0, terms, {0}, {}, {}, {}}; }
+
 double energyOf(const SparseTransport& rows, size_t row) {
     double sum = 0;
     for (uint64_t entry = rows.rowStarts[row]; entry < rows.rowStarts[row + 1]; entry++) {

@@ -38,6 +38,9 @@ class RowSum {
     std::vector<uint64_t> mTouched; // a bit per coefficient
 };
 
+// Returns rows of no vertices yet.
+SparseTransport emptyRows(uint32_t terms);
+
 // Returns Σ |coefficient|² of a row.
 double energyOf(const SparseTransport& rows, size_t row);
 

@@ -20,7 +20,7 @@ namespace {
 
 // Rows of one coefficient, of this value.
 SparseTransport constantRows(const AssetPart& part, vec3 value, size_t coefficient = 0) {
-    SparseTransport rows{0, uint32_t(part.sets[0].brdf.terms), {0}, {}, {}, {}};
+    SparseTransport rows = emptyRows(uint32_t(part.sets[0].brdf.terms));
     RowSum sum(kBounceCoefficients);
     for (size_t row = 0; row < part.mesh.vertexCount() * rows.terms; row++) {
         sum.add(coefficient, value);
@@ -31,7 +31,7 @@ SparseTransport constantRows(const AssetPart& part, vec3 value, size_t coefficie
 }
 
 SparseTransport randomRows(const AssetPart& part, std::mt19937& random) {
-    SparseTransport rows{0, uint32_t(part.sets[0].brdf.terms), {0}, {}, {}, {}};
+    SparseTransport rows = emptyRows(uint32_t(part.sets[0].brdf.terms));
     RowSum sum(kBounceCoefficients);
     std::uniform_real_distribution<float> amount(0.5f, 1);
     for (size_t row = 0; row < part.mesh.vertexCount() * rows.terms; row++) {
