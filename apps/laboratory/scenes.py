@@ -99,8 +99,8 @@ def paper_options(terms: int, **others: Any) -> dict[str, Any]:
 
 
 def default_options(**others: Any) -> dict[str, Any]:
-    """Relume's defaults, but for refinement: vertices are the paper's."""
-    return {"refine": "off", **others}
+    """Relume's defaults, but for refinement and bounces: vertices and light are the paper's."""
+    return {"refine": "off", "bounces": 0, **others}
 
 
 def scene_recipe(setup: Setup, model: str, found: Input, material: str, options: dict[str, Any],

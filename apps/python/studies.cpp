@@ -1,5 +1,6 @@
 // References, errors and advice.
 #include "apps/python/module.h"
+#include "precompute/bake/bake_preset.h"
 #include "precompute/error/advice.h"
 #include "precompute/error/heat_maps.h"
 #include "precompute/error/study_json.h"
@@ -119,7 +120,7 @@ py::dict imagesOf(const ErrorStudy& study, const ViewPoints& points) {
 
 py::list errors(const std::shared_ptr<const Asset>& asset, const std::vector<Light>& lights,
                 const std::optional<Camera>& camera, std::pair<int, int> size, bool residual, int passes,
-                bool withImages, const py::object& progress) {
+                std::optional<int> bounces, bool withImages, const py::object& progress) {
     const std::shared_ptr<const vk::Device> on = device();
     ErrorStudies studies;
     runLong(progress, [&](const std::function<void(double)>& tell) {
@@ -129,7 +130,8 @@ py::list errors(const std::shared_ptr<const Asset>& asset, const std::vector<Lig
                               {.view = {cameraOr(camera, *asset, size), size.first, size.second},
                                .mostPasses = passes,
                                .lowOrder = 5, // as `relume errors`: 25 harmonics
-                               .residual = residual},
+                               .residual = residual,
+                               .bounces = bounces},
                               tell);
     });
     py::list results;
@@ -145,6 +147,7 @@ py::object advice(const SceneBuilder& scene, const Light& light, double error, s
                   const py::object& progress) {
     const std::shared_ptr<const vk::Device> on = device();
     AdviceRequest request{scene.build(false), {}, error};
+    request.options.bounces = presetOptions(BakePreset::Default).bounces;
     request.points = points;
     if (!asIs) request.refinable = scene.build(true);
     std::string text;

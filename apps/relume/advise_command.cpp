@@ -5,6 +5,7 @@
 #include "apps/relume/studied_light.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
+#include "precompute/bake/bake_preset.h"
 #include "precompute/error/advice.h"
 #include "precompute/error/study_json.h"
 
@@ -53,6 +54,7 @@ void print(const Advice& advice) {
 void run(Arguments& arguments) {
     const StudiedLight light = arguments.light.studied();
     AdviceRequest request{arguments.scene.load(false), {}, arguments.error};
+    request.options.bounces = presetOptions(BakePreset::Default).bounces;
     request.points = size_t(arguments.points);
     if (!arguments.asIs) request.refinable = arguments.scene.load(true);
     const std::unique_ptr<vk::Device> device = arguments.device.open();

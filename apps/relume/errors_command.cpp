@@ -24,6 +24,7 @@ struct Arguments {
     DeviceArguments device;
     std::filesystem::path images; // a folder; empty: none
     bool residual = true;
+    std::optional<int> bounces; // none: as many as the bake has
     bool json = false;
 };
 
@@ -86,10 +87,10 @@ void run(const Arguments& arguments) {
     }
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
     Progress progress("tracing", pixels, "pixels");
-    const ErrorStudies studies =
-        studyErrors(*device, asset, appearance, std::span(&light, 1),
-                    {.view = view, .lowOrder = kLowOrder, .residual = arguments.residual},
-                    [&](double share) { progress.update(uint64_t(double(pixels) * share)); });
+    const ErrorStudies studies = studyErrors(
+        *device, asset, appearance, std::span(&light, 1),
+        {.view = view, .lowOrder = kLowOrder, .residual = arguments.residual, .bounces = arguments.bounces},
+        [&](double share) { progress.update(uint64_t(double(pixels) * share)); });
     const ErrorStudy& study = studies.lights.front();
     if (!arguments.images.empty()) writeImages(arguments.images, study, studies.points);
     if (arguments.json)
@@ -116,6 +117,11 @@ void addErrorsCommand(CLI::App& program) {
                      "Draw with what the K terms leave of the BRDF; off: with the terms alone")
         ->check(CLI::IsMember({"on", "off"}))
         ->default_str("on");
+    command
+        ->add_option("--bounces", arguments->bounces,
+                     "Reflections between surfaces that the exact image has, at least the bake's, up to 8 "
+                     "(default: the bake's)")
+        ->type_name("B");
     command
         ->add_option("--images", arguments->images,
                      "Also write the images and a heat map of every source into this folder")

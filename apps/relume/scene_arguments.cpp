@@ -171,7 +171,7 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
         ->default_str(std::string(visibilityMethodName(*defaults.visibilityMethod)));
     addSize("--transport-samples", mTransportSamples, "COUNT", defaults.transportSamples,
             "BRDF evaluations per lighting texel: 1, 4 or 16");
-    addBounces(command, mBounces, fmt::format("{}", defaults.bounces));
+    if (takesLayout) addBounces(command, mBounces, fmt::format("{}", defaults.bounces));
     command
         .add_option("--occluder", mOccluder, "Triangles that cast shadows: full, or a count to simplify to")
         ->type_name("TRIANGLES")
@@ -211,7 +211,7 @@ static size_t occluderFrom(const std::string& text) {
 
 void BakeArguments::resolve() {
     options = presetOptions(mPreset);
-    if (!mTakesLayout) options.layout = {.layout = TransportLayout::Rows};
+    if (!mTakesLayout) options.layout = {.layout = TransportLayout::Rows}, options.bounces = 0;
     mFactorization.resolve(options.factorization, options.mapping);
     options.factorization = mFactorization.options;
     options.mapping = mFactorization.mapping;

@@ -52,7 +52,7 @@ struct SceneArguments {
 struct BakeArguments {
     BakeOptions options; // after resolve()
 
-    // `takesLayout`: without, all is kept in rows.
+    // `takesLayout`: without, all is kept in rows, of direct light alone.
     void add(CLI::App& command, bool takesLayout = true);
     // Fills what needs parsing and validates. Throws UsageError.
     void resolve();

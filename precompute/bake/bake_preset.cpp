@@ -9,6 +9,9 @@ namespace {
 // Triangles. The paper tells of a simplified occluder and of no number.
 constexpr size_t kPaperOccluder = 5000;
 
+// The second is seen in corners of bright parts; a third hardly anywhere (docs/bounces.md).
+constexpr int kDefaultBounces = 2;
+
 BakeOptions paperOptions() {
     BakeOptions options;
     options.layout = {.layout = TransportLayout::Rows};
@@ -27,6 +30,7 @@ BakeOptions presetOptions(BakePreset preset) {
     if (preset == BakePreset::Paper) return paperOptions();
     BakeOptions options;
     options.refinement = RefinementRecord{.wanted = kAutoRefinementError, .isAuto = true};
+    options.bounces = kDefaultBounces;
     return options;
 }
 

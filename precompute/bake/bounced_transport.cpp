@@ -1,12 +1,19 @@
 #include "precompute/bake/bounced_transport.h"
 
+#include "engine/base/error.h"
+#include "engine/base/log.h"
+#include "precompute/bake/baked_options.h"
 #include "precompute/bake/vertex_rows.h"
 #include "precompute/bounce/bounce_gather.h"
 #include "precompute/transport/row_sum.h"
+#include "precompute/visibility/visibility.h"
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
+#include <map>
 #include <numeric>
+#include <unistd.h>
 
 namespace relume {
 
@@ -74,6 +81,29 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
     return rows;
 }
 
+// Throws Error where the host cannot hold the rows that bouncing takes at once.
+void expectMemory(const BakePlan& plan, const Appearance& bound) {
+    const uint64_t needed = bounceBytes(plan.asset, bound);
+    const uint64_t present = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
+    if (needed > present)
+        throw Error(fmt::format("--bounces: finding bounced light of {} vertices takes up to {:.1f} GB of "
+                                "memory, this machine has {:.1f}: use --bounces 0, fewer --terms, or "
+                                "simplify the mesh",
+                                plan.vertices(), double(needed) * 1e-9, double(present) * 1e-9));
+}
+
+// Tells of parts whose factors reflect more than they receive.
+void logHeld(const BakePlan& plan, const BounceGather& gather) {
+    std::map<size_t, float> shares; // by part, the largest of its layers
+    for (const BounceGather::HeldLayer& held : gather.heldLayers())
+        shares[held.part] = std::max(shares[held.part], held.share);
+    for (const auto& [part, share] : shares)
+        log(LogLevel::Info,
+            fmt::format(
+                "{}: factors reflect {:.2f} of even light; as a source of bounced light they are held to 1",
+                plan.asset.parts[part].name, share));
+}
+
 // Adds row to row.
 SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
     SparseTransport rows{a.vertices, a.terms, {0}, {}, {}, {}};
@@ -87,6 +117,22 @@ SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
 }
 
 } // namespace
+
+uint64_t bounceBytes(const Asset& asset, const Appearance& bound) {
+    constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t),
+                       kRowBytes = sizeof(float) + sizeof(uint64_t);
+    uint64_t bytes = 0;
+    for (size_t number = 0; number < asset.parts.size(); number++) {
+        const AssetPart& part = asset.parts[number];
+        // Direct transport, and that with the bounce before; and bounced rows of all sets.
+        uint64_t ofVertex =
+            2 * uint64_t(part.sets[bound[number].set].brdf.terms) * (kSourceKept * kEntryBytes + kRowBytes);
+        for (const MaterialSet& set : part.sets)
+            ofVertex += uint64_t(set.brdf.terms) * (kBounceKept * kEntryBytes + kRowBytes);
+        bytes += part.mesh.vertexCount() * ofVertex;
+    }
+    return bytes;
+}
 
 void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize,
                              int kept) const {
@@ -125,17 +171,21 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
                                                         BakeTimes& times,
                                                         std::vector<SparseTransport>* lastSources) {
     const Appearance bound = defaultAppearance(plan.asset);
+    expectMemory(plan, bound);
     StageObserver stage(observer, BakeStage::Bounces);
     std::vector<SparseTransport> direct = bakeSources(device, plan, bound, limits, stage, times);
     const Clock::time_point start = Clock::now();
     const BounceGather gather(plan.asset, bound);
+    logHeld(plan, gather);
     std::vector<std::vector<SparseTransport>> bounced;
     const int bounces = plan.options.bounces;
     const uint64_t all = plan.vertices();
     for (int bounce = 0; bounce < bounces; bounce++) {
         std::vector<SparseTransport> from;
-        for (size_t part = 0; part < direct.size(); part++)
+        for (size_t part = 0; part < direct.size(); part++) {
             from.push_back(bounce == 0 ? direct[part] : sumOf(direct[part], bounced[part][bound[part].set]));
+            if (bounce == bounces - 1) direct[part] = {};
+        }
         bounced.clear();
         const Clock::time_point began = Clock::now();
         observer.stage(BakeStage::Bounces, "");
@@ -155,6 +205,16 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
     }
     times.bounces += std::chrono::duration<double>(Clock::now() - start).count();
     return std::make_shared<const BouncedTransport>(std::move(bounced));
+}
+
+std::shared_ptr<const BouncedTransport> bouncedTransportOf(const vk::Device& device, const Asset& asset,
+                                                           BakeObserver& observer,
+                                                           std::vector<SparseTransport>* lastSources) {
+    BakePlan plan = planOf(asset);
+    plan.options = optionsOf(asset);
+    plan.options.visibilityMethod = usableMethod(device, *plan.options.visibilityMethod);
+    BakeTimes times;
+    return bounceTransport(device, plan, {}, observer, times, lastSources);
 }
 
 } // namespace relume

@@ -45,6 +45,29 @@ uint16_t coefficientOfBounce(uint16_t coefficient, int size) {
     return uint16_t((face * size + y) * size + x);
 }
 
+vec3 reflectedShare(const FactoredBrdf& brdf, int layer) {
+    // (1 / π) ∫∫ f cosθi cosθo dωi dωo, the terms' integrals apart.
+    std::vector<vec3> in(size_t(brdf.terms), vec3(0)), out = in;
+    for (BounceRays rays(0, 0); rays.next();) {
+        const MapPlace place = placeInMap(brdf.size, brdf.mapping, rays.direction());
+        for (int term = 0; term < brdf.terms; term++) {
+            in[size_t(term)] += BounceRays::kWeight * lookupMap(brdf.lightMap(term), place);
+            out[size_t(term)] += BounceRays::kWeight * lookupMap(brdf.viewMap(layer, term), place);
+        }
+    }
+    vec3 share(0);
+    for (size_t term = 0; term < in.size(); term++) share += in[term] * out[term] / kPi;
+    return share;
+}
+
+vec3 sourceGain(vec3 reflectedShare) {
+    constexpr float kTolerance = 1e-3f; // of sums over directions
+    vec3 gain(1);
+    for (int channel = 0; channel < 3; channel++)
+        if (reflectedShare[channel] > 1 + kTolerance) gain[channel] = 1 / reflectedShare[channel];
+    return gain;
+}
+
 // A surface that a ray meets: the vertex whose rows stand for it, and how much of each is seen.
 struct BounceGather::Hit {
     size_t part;
@@ -70,8 +93,16 @@ struct BounceGather::Room {
 
 BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
     : mAsset(asset), mBound(bound), mTracer(meshesOf(asset)) {
-    for (size_t part = 0; part < asset.parts.size(); part++)
+    for (size_t part = 0; part < asset.parts.size(); part++) {
         mLayers.push_back(wornLayers(asset.parts[part], bound[part]));
+        std::vector<vec3>& gains = mGains.emplace_back();
+        for (const WornLayer& worn : mLayers.back()) {
+            const vec3 share = reflectedShare(asset.parts[part].sets[bound[part].set].brdf, worn.layer);
+            gains.push_back(sourceGain(share));
+            if (gains.back() != vec3(1))
+                mHeld.push_back({part, worn.layer, std::max({share.x, share.y, share.z})});
+        }
+    }
 }
 
 // Attributes are interpolated as in the view pass. Rows are those of one corner, chosen as often as it
@@ -104,7 +135,7 @@ bool BounceGather::find(vec3 origin, vec3 direction, float choice, Hit& hit) con
     for (int term = 0; term < brdf.terms; term++) {
         vec3 view(0);
         for (size_t i = 0; i < layers.size(); i++)
-            view += shares[i] * lookupMap(brdf.viewMap(layers[i].layer, term), place);
+            view += shares[i] * mGains[hit.part][i] * lookupMap(brdf.viewMap(layers[i].layer, term), place);
         hit.views[size_t(term)] = view;
     }
     return true;

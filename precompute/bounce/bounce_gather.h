@@ -29,11 +29,27 @@ std::optional<uint16_t> bounceCoefficient(uint16_t coefficient, int size);
 // Returns the coefficient of a cube of `size` texels a side that one of kBounceFaceSize is.
 uint16_t coefficientOfBounce(uint16_t coefficient, int size);
 
+// Returns what a layer's terms reflect of even light from all sides, per channel: at most 1 of a BRDF that
+// makes no light, and its factors may exceed it.
+vec3 reflectedShare(const FactoredBrdf& brdf, int layer);
+
+// Returns what its view maps are multiplied by where it lights others: 1, or what brings a larger share down
+// to 1, so that bounces die out.
+vec3 sourceGain(vec3 reflectedShare);
+
 class BounceGather {
   public:
-    // Every part lights others as it looks in `bound`. Refers to `asset`, of whose transport it knows
-    // nothing. Throws Error when Embree fails.
+    // Every part lights others as it looks in `bound`, times its sourceGain(). Refers to `asset`, of whose
+    // transport it knows nothing. Throws Error when Embree fails.
     BounceGather(const Asset& asset, const Appearance& bound);
+
+    // A layer that is held down.
+    struct HeldLayer {
+        size_t part;
+        int layer;   // of the set that is bound
+        float share; // what it would reflect, the largest of the channels
+    };
+    const std::vector<HeldLayer>& heldLayers() const { return mHeld; }
 
     // The report is told the number of vertices that are done, and returns whether to go on.
     using Report = std::function<bool(uint64_t vertices)>;
@@ -53,7 +69,9 @@ class BounceGather {
     const Asset& mAsset;
     Appearance mBound;
     std::vector<std::vector<WornLayer>> mLayers; // per part: what lights others
-    RayTracer mTracer;                           // one mesh per part
+    std::vector<std::vector<vec3>> mGains;       // per part and layer: what its view maps are multiplied by
+    std::vector<HeldLayer> mHeld;
+    RayTracer mTracer; // one mesh per part
 };
 
 } // namespace relume

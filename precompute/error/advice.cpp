@@ -122,7 +122,7 @@ std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceReq
     const std::optional<int> terms = termsForBases(grid, rung, request.error);
     if (!terms) return std::nullopt;
     options.factorization.terms = *terms;
-    const BakePlan plan = planBake(device, scene, options, observer);
+    BakePlan plan = planBake(device, scene, options, observer);
     std::vector<vec3> eyes;
     for (const SeenPoints& seen : points) eyes.push_back(seen.eye);
     const LayoutCosts costs =
@@ -142,6 +142,7 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
                       const Report& report) {
     BakeOptions options = request.options;
     options.factorization.terms = kMaxTerms;
+    options.bounces = 0; // errors are those of direct light
     const BakePlan plan = planBake(device, scene, options, observer);
     const Appearance appearance = defaultAppearance(plan.asset);
     GridLight gridLight{{}, sampleLight(light.light, plan.asset.faceSize)};

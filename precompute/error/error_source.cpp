@@ -19,6 +19,8 @@ constexpr std::array<Words, kErrorSources> kWords = {{
     {"light resolution (F)", "light_resolution"},
     {"occluder", "occluder"},
     {"visibility resolution (V)", "visibility"},
+    {"bounced light", "bounces"},
+    {"bounces beyond the bake's", "more_bounces"},
 }};
 
 } // namespace

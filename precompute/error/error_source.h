@@ -20,8 +20,10 @@ enum class ErrorSource {
     LightResolution, // F × F texels a face of the light instead of its own resolution
     Occluder,        // shadows of the baked occluder, from the height that it asks for
     Visibility,      // V × V rays a face
+    Bounces,         // light of other surfaces as it is baked: of K terms, at a low resolution, interpolated
+    MoreBounces,     // reflections between surfaces beyond those that are baked
 };
-constexpr size_t kErrorSources = 11;
+constexpr size_t kErrorSources = 13;
 
 // In a few words, for tables; and as an identifier, for files.
 std::string_view errorSourceTitle(ErrorSource source);

@@ -2,8 +2,10 @@
 
 #include "engine/base/error.h"
 #include "engine/render/view_pass.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/error/low_order_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -87,16 +89,33 @@ LowOrderStudy studyLowOrder(const ViewPoints& points, std::span<const StageRadia
             errorOf(low, kTermsStage, study.stages, study.budget.level)};
 }
 
+// Tells of bounced light that is found anew as a share of all work.
+class BounceObserver : public BakeObserver {
+  public:
+    // Refers to `tell`, which may be empty.
+    BounceObserver(const std::function<void(double)>& tell, double share, int bounces)
+        : mTell(tell), mShare(share), mPasses(bounces + 1) {}
+
+    void stage(BakeStage, const std::string& part) override { mPass += part.empty(); }
+    void progress(const BakeStatus& status) override {
+        if (mTell) mTell(mShare * std::min((mPass - 1 + status.fraction) / mPasses, 1.0));
+    }
+
+  private:
+    const std::function<void(double)>& mTell;
+    double mShare;
+    int mPasses, mPass = 1; // direct transport, which names parts, then every bounce
+};
+
 } // namespace
 
 ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
                          std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
                          const std::function<void(double)>& progress) {
-    if (asset.bounces > 0)
-        throw UsageError(
-            fmt::format("expected a bake of direct light alone, found one of up to {} bounces: the "
-                        "sources of error are told of bakes with --bounces 0",
-                        asset.bounces));
+    const int bounces = options.bounces.value_or(asset.bounces);
+    if (bounces < asset.bounces || bounces > kMostBounces)
+        throw UsageError(fmt::format("--bounces: expected {}, as many as the bake has, to {}, found {}",
+                                     asset.bounces, kMostBounces, bounces));
     const ErrorView& view = options.view;
     ErrorStudies studies{viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height), {}};
     const ViewPoints& points = studies.points;
@@ -111,15 +130,21 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
     if (options.lowOrder > 0)
         for (size_t i = 0; i < lights.size(); i++)
             stageLights.push_back(lowOrderStage(stageLights[i], options.lowOrder));
-    constexpr double kStagesShare = 0.85; // of the work, roughly
+    const double bouncesShare = asset.bounces > 0 ? 0.4 : 0; // of the work, roughly
+    constexpr double kStagesShare = 0.85;                    // with that
+    StageOptions stageOptions{options.residual, bounces};
+    if (asset.bounces > 0) {
+        BounceObserver observer(progress, bouncesShare, asset.bounces);
+        stageOptions.bounced = bouncedTransportOf(device, asset, observer);
+    }
     const auto stagesProgress = [&](double share) {
-        if (progress) progress(kStagesShare * share);
+        if (progress) progress(bouncesShare + (kStagesShare - bouncesShare) * share);
     };
     std::vector<std::vector<StageRadiance>> stages =
-        StageTracer(asset, appearance, options.residual)
+        StageTracer(asset, appearance, stageOptions)
             .trace(points.hits, view.camera.eye, stageLights, stagesProgress);
 
-    ProgressiveReference reference(asset);
+    ProgressiveReference reference(asset, ReferenceBrdf::Exact, bounces);
     for (size_t i = 0; i < lights.size(); i++) {
         ErrorStudy& study = studies.lights.emplace_back();
         study.stages = std::move(stages[i]);

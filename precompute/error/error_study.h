@@ -51,9 +51,12 @@ struct ErrorStudyOptions {
     int mostPasses = 512; // of the reference, added until its noise is a tenth of the measured error; 0: none
     int lowOrder = 0;     // of LowOrderStudy; 0: none
     bool residual = true; // what K terms leave of BRDFs is added
+    // Reflections between surfaces that the truth has, at least the asset's own; none: as many as the asset.
+    std::optional<int> bounces = {};
 };
 
-// One view under several lights, which share all rays. Throws Error. `progress` as StageTracer::trace().
+// One view under several lights, which share all rays but those of paths. Throws Error. `progress` as
+// StageTracer::trace().
 ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
                          std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
                          const std::function<void(double)>& progress = {});

@@ -1,6 +1,7 @@
 #include "precompute/error/layout_costs.h"
 
 #include "engine/base/check.h"
+#include "precompute/bake/bounced_transport.h"
 #include "precompute/layout/conversion.h"
 #include "precompute/reference/relight_twin.h"
 #include "precompute/reference/vertex_views.h"
@@ -71,12 +72,18 @@ double squaredDifference(const AssetPart& part, const PartAppearance& worn,
 
 } // namespace
 
-LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Appearance& appearance,
+LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearance& appearance,
                         const LightVector& light, std::span<const vec3> eyes, const ErrorGrid& grid,
                         BakeObserver& observer, const std::function<void(double)>& progress) {
     RELUME_CHECK(plan.options.layout.layout == TransportLayout::Bases);
     LayoutCosts costs;
     costs.bakeSeconds = plan.factorisationSeconds + plan.occluderSeconds;
+    if (plan.options.bounces > 0) {
+        const auto start = std::chrono::steady_clock::now();
+        BakeTimes times;
+        plan.bounced = bounceTransport(device, plan, {}, observer, times);
+        costs.bakeSeconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
     std::array<double, kTriedLayoutErrors.size()> squares{};
     // A part's bake takes about as long as making bases of it, for all errors.
     const size_t pieces = plan.asset.parts.size() * 2 * kTriedLayoutErrors.size();
@@ -99,6 +106,7 @@ LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Ap
         Asset sample;
         sample.faceSize = plan.asset.faceSize;
         sample.coefficients = plan.asset.coefficients;
+        sample.bounces = plan.asset.bounces;
         sample.parts.emplace_back();
         AssetPart& sampled = sample.parts.front();
         sampled.mesh.positions.resize(sink.vertices.size());

@@ -19,11 +19,11 @@ struct LayoutCosts {
     double bakeSeconds = 0; // of all vertices, as long as those of the sample took
 };
 
-// Bakes a few blocks of every part on the device and encodes them. `plan` is for bases. Vertices count as
-// much as `grid` says of their part's share of images, seen from `eyes` in front of them. `progress`, not
-// empty, is told the share that is done, after a part's bake and after each of its layouts. Throws
-// BakeStopped, Error.
-LayoutCosts layoutCosts(const vk::Device& device, const BakePlan& plan, const Appearance& appearance,
+// Bakes a few blocks of every part on the device and encodes them, after finding all bounced light where
+// there is to be any, which `plan` keeps. `plan` is for bases. Vertices count as much as `grid` says of their
+// part's share of images, seen from `eyes` in front of them. `progress`, not empty, is told the share that is
+// done, after a part's bake and after each of its layouts. Throws BakeStopped, Error.
+LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearance& appearance,
                         const LightVector& light, std::span<const vec3> eyes, const ErrorGrid& grid,
                         BakeObserver& observer, const std::function<void(double)>& progress);
 

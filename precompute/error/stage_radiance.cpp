@@ -1,14 +1,17 @@
 #include "precompute/error/stage_radiance.h"
 
 #include "engine/base/check.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/error/shared_progress.h"
+#include "precompute/reference/path_sampling.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_views.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <tbb/parallel_for.h>
 
@@ -45,12 +48,19 @@ struct StageTracer::Light {
     std::vector<vec3> coarse;   // 6 F² texels, row by row
     std::vector<vec3> coarseOf; // per cell of mTruth, the coarse texel around it
     std::vector<vec3> fine;     // per cell of mTruth
+    LightDistribution paths;    // the same, for paths
 };
 
 // A vertex's tuples at the stages that have any.
 struct StageTracer::Tuples {
-    static constexpr size_t kStages = 4; // as drawn, all light, exact storage, all coefficients
-    std::vector<vec3> values;            // [(light · kStages + stage) · K + term]
+    static constexpr size_t kStages = 4;  // as drawn, all light, exact storage, all coefficients
+    static constexpr size_t kBounced = 4; // what bounced light is of the last
+    static constexpr size_t kValues = 5;
+    std::vector<vec3> values; // [(light · kValues + stage) · K + term]
+
+    std::span<const vec3> at(size_t light, size_t stage, size_t terms) const {
+        return std::span(values).subspan((light * kValues + stage) * terms, terms);
+    }
 };
 
 // What a part wears at a point of it, seen from the eye.
@@ -64,26 +74,41 @@ struct StageTracer::Wear {
 
 struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
+
+    // Returns a point's tuple of a stage, interpolated between the corners of its triangle.
+    std::vector<vec3> interpolate(const RayHit& hit, const uvec3& corners, size_t light, size_t stage,
+                                  size_t terms) const {
+        std::vector<vec3> tuple(terms, vec3(0));
+        for (int corner = 0; corner < 3; corner++) {
+            const std::span<const vec3> of =
+                tuples.at(vertexKey(hit.mesh, corners[corner])).at(light, stage, terms);
+            for (size_t term = 0; term < terms; term++) tuple[term] += hit.weights[corner] * of[term];
+        }
+        return tuple;
+    }
 };
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, bool addsResidual,
-                         const BakeOptions& options)
-    : mAsset(asset), mAppearance(appearance), mAddsResidual(addsResidual),
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const StageOptions& options,
+                         const BakeOptions& baked)
+    : mAsset(asset), mAppearance(appearance), mOptions(options),
       mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs), mBaked(asset), mTruth(kTruthFaceSize),
       mFull(mergedMesh(asset), asset.visibilitySize), mFullFine(mergedMesh(asset), kTruthVisibility),
-      mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {
+      mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()), mMeshes(partMeshes(asset)),
+      mSurfaces(mMeshes) {
+    RELUME_CHECK_EQ(options.bounced != nullptr, asset.bounces > 0);
+    RELUME_CHECK(options.bounces >= asset.bounces && options.bounces <= kMostBounces);
     for (size_t part = 0; part < asset.parts.size(); part++)
         mTables.emplace_back(asset.parts[part].sets[appearance[part].set],
-                             wornLayers(asset.parts[part], appearance[part]), options.factorization.method,
+                             wornLayers(asset.parts[part], appearance[part]), baked.factorization.method,
                              mBrdfs);
 }
 
-StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, bool addsResidual)
-    : StageTracer(asset, appearance, addsResidual, optionsOf(asset)) {}
+StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const StageOptions& options)
+    : StageTracer(asset, appearance, options, optionsOf(asset)) {}
 
 StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
-    Light prepared;
+    Light prepared{.paths = LightDistribution(light.fine)};
     prepared.haar = haarOf(light.coarse.radiance, mAsset.faceSize);
     prepared.drawn = coefficientsOf(light.drawn);
     prepared.coarse = light.coarse.radiance;
@@ -99,17 +124,23 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
                                               std::span<const Light> lights) const {
     const MaterialSet& set = mAsset.parts[part].sets[mAppearance[part].set];
     const auto terms = size_t(set.brdf.terms);
-    Tuples tuples{std::vector<vec3>(lights.size() * Tuples::kStages * terms)};
-    mBaked.forEachTerm(part, vertex, set.brdf, [&](size_t term, const std::vector<vec3>& exact) {
+    Tuples tuples{std::vector<vec3>(lights.size() * Tuples::kValues * terms)};
+    mBaked.forEachTerm(part, vertex, set.brdf, [&](size_t term, const std::vector<vec3>& direct) {
+        const size_t row = size_t(vertex) * terms + term;
+        std::vector<vec3> bounced(direct.size(), vec3(0));
+        if (mOptions.bounced)
+            mOptions.bounced->addTo(bounced, part, mAppearance[part].set, row, mAsset.faceSize);
+        std::vector<vec3> exact(direct.size());
+        std::ranges::transform(direct, bounced, exact.begin(), std::plus());
         const std::vector<uint16_t> kept = selectLargest(exact, mAsset.coefficients);
-        const std::vector<vec3> stored =
-            coefficientsOf(set.transport, size_t(vertex) * terms + term, exact.size());
+        const std::vector<vec3> stored = coefficientsOf(set.transport, row, exact.size());
         for (size_t light = 0; light < lights.size(); light++) {
-            vec3* of = &tuples.values[light * Tuples::kStages * terms + term];
+            vec3* of = &tuples.values[light * Tuples::kValues * terms + term];
             of[0] = product(stored, lights[light].drawn);
             of[terms] = product(stored, lights[light].haar);
             of[2 * terms] = productOf(exact, kept, lights[light].haar);
             of[3 * terms] = product(exact, lights[light].haar);
+            of[Tuples::kBounced * terms] = product(bounced, lights[light].haar);
         }
     });
     return tuples;
@@ -119,7 +150,7 @@ StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& point) 
     const AssetPart& part = mAsset.parts[number];
     const MaterialSet& set = part.sets[mAppearance[number].set];
     const FactoredBrdf& brdf = set.brdf;
-    const ResidualSet* residual = mAddsResidual ? set.residual.get() : nullptr;
+    const ResidualSet* residual = mOptions.addsResidual ? set.residual.get() : nullptr;
     Wear wear{&brdf, wornLayers(part, mAppearance[number]), point.layerWeights(), {}, residual};
     wear.views = pointViews(brdf, wear.layers, wear.weights, point.outgoing);
     return wear;
@@ -139,31 +170,27 @@ void StageTracer::traceVertices(const RayHit& hit, const Wear& wear,
     const size_t terms = wear.views.size();
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
     constexpr size_t kFirst = size_t(ErrorSource::Drawing) + 1;
-    std::vector<vec3> tuple(terms);
     for (size_t light = 0; light < result.size(); light++) {
-        for (size_t stage = 0; stage < Tuples::kStages; stage++) {
-            std::ranges::fill(tuple, vec3(0));
-            for (int corner = 0; corner < 3; corner++) {
-                const Tuples& tuples = vertices.tuples.at(vertexKey(hit.mesh, corners[corner]));
-                const vec3* of = &tuples.values[(light * Tuples::kStages + stage) * terms];
-                for (size_t term = 0; term < terms; term++) tuple[term] += hit.weights[corner] * of[term];
-            }
+        for (size_t stage = 0; stage < Tuples::kStages; stage++)
             result[light][kFirst + stage] =
-                estimateRadiance(wear.residual, wear.views, tuple, unshadowed[light]);
-        }
+                estimateRadiance(wear.residual, wear.views,
+                                 vertices.interpolate(hit, corners, light, stage, terms), unshadowed[light]);
         result[light][0] = result[light][kFirst];
     }
 }
 
-// The point's own transport: of the K terms, then of the whole table, then of the BRDF itself.
-void StageTracer::traceOwnTransport(size_t number, const SurfacePoint& point, const Wear& wear,
-                                    std::span<const UnshadowedLight> unshadowed,
-                                    std::span<const uint64_t> baked, std::span<const Light> lights,
-                                    std::span<StageRadiance> result) const {
+// The point's own direct transport: of the K terms, then of the whole table, then of the BRDF itself. Bounced
+// light is the vertices' still.
+std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const SurfacePoint& point,
+                                                 const Wear& wear,
+                                                 std::span<const UnshadowedLight> unshadowed,
+                                                 const Vertices& vertices, std::span<const uint64_t> baked,
+                                                 std::span<const Light> lights,
+                                                 std::span<StageRadiance> result) const {
     const FactoredBrdf& brdf = *wear.brdf;
     const std::vector<LitCell> lit = mBaked.lit(baked, point.frame);
     const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
-    const std::vector<vec3> table = mTables[number].lightMap(wear.layers, wear.weights, point.outgoing);
+    const std::vector<vec3> table = mTables[hit.mesh].lightMap(wear.layers, wear.weights, point.outgoing);
 
     constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 2;
     const size_t terms = wear.views.size();
@@ -182,17 +209,28 @@ void StageTracer::traceOwnTransport(size_t number, const SurfacePoint& point, co
                 sums[light][stage] +=
                     glm::dvec3(lit[i].weight * reflected[stage] * lights[light].coarse[lit[i].texel]);
     }
+    const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
+    std::vector<vec3> added;
     for (size_t light = 0; light < lights.size(); light++) {
         const auto first = tuples.begin() + std::ptrdiff_t(light * terms);
-        const std::vector<vec3> tuple(first, first + std::ptrdiff_t(terms));
-        result[light][kFirst] = estimateRadiance(wear.residual, wear.views, tuple, unshadowed[light]);
+        std::vector<vec3> tuple(first, first + std::ptrdiff_t(terms));
+        const auto estimate = [&] {
+            return estimateRadiance(wear.residual, wear.views, tuple, unshadowed[light]);
+        };
+        const vec3 direct = estimate();
+        const std::vector<vec3> bounced = vertices.interpolate(hit, corners, light, Tuples::kBounced, terms);
+        std::ranges::transform(tuple, bounced, tuple.begin(), std::plus());
+        result[light][kFirst] = estimate();
+        added.push_back(result[light][kFirst] - direct);
         for (size_t stage = 0; stage < kStages; stage++)
-            result[light][kFirst + 1 + stage] = glm::max(vec3(sums[light][stage]), vec3(0));
+            result[light][kFirst + 1 + stage] = glm::max(vec3(sums[light][stage]), vec3(0)) + added.back();
     }
+    return added;
 }
 
 void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked,
-                             std::span<const Light> lights, std::span<StageRadiance> result) const {
+                             std::span<const Light> lights, std::span<const vec3> bounced,
+                             std::span<StageRadiance> result) const {
     std::vector<uint64_t> whole(mFull.texels() / 64), fine(mFullFine.texels() / 64);
     const vec3 origin = point.position + mFullOffset * point.frame.n;
     mFull.trace(origin, point.frame.n, whole);
@@ -221,7 +259,26 @@ void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t
     }
     for (size_t light = 0; light < lights.size(); light++)
         for (size_t stage = 0; stage < kStages; stage++)
-            result[light][kFirst + stage] = vec3(sums[light][stage]);
+            result[light][kFirst + stage] = vec3(sums[light][stage]) + bounced[light];
+}
+
+void StageTracer::tracePaths(const SurfacePoint& point, uint32_t number, std::span<const Light> lights,
+                             std::span<const vec3> bounced, std::span<StageRadiance> result) const {
+    constexpr auto kBounces = size_t(ErrorSource::Bounces), kMoreBounces = size_t(ErrorSource::MoreBounces);
+    for (size_t light = 0; light < lights.size(); light++) {
+        const PathScene scene{mDressed, mSurfaces, mSurfaces, mMeshes, lights[light].paths, mFullOffset};
+        std::array<vec3, kMostBounces> byBounces{};
+        for (int path = 0; path < kStagePaths && mOptions.bounces > 0; path++) {
+            HashedNumbers random(number, uint32_t(path));
+            sampleBounces(scene, point, std::span(byBounces).first(size_t(mOptions.bounces)), random);
+        }
+        vec3 baked(0), more(0);
+        for (size_t bounce = 0; bounce < byBounces.size(); bounce++)
+            (bounce < size_t(mAsset.bounces) ? baked : more) += byBounces[bounce] / float(kStagePaths);
+        StageRadiance& stages = result[light];
+        stages[kBounces + 1] = stages[kBounces] - bounced[light] + baked;
+        stages[kMoreBounces + 1] = stages[kMoreBounces] + more;
+    }
 }
 
 std::vector<std::vector<StageRadiance>>
@@ -255,8 +312,10 @@ StageTracer::trace(std::span<const RayHit> points, vec3 eye, std::span<const Sta
         const Wear wear = wearAt(hit.mesh, point);
         const std::vector<UnshadowedLight> unshadowed = unshadowedAt(point, wear, lights);
         traceVertices(hit, wear, unshadowed, vertices, stages);
-        traceOwnTransport(hit.mesh, point, wear, unshadowed, baked, lights, stages);
-        traceTruth(point, baked, lights, stages);
+        const std::vector<vec3> bounced =
+            traceOwnTransport(hit, point, wear, unshadowed, vertices, baked, lights, stages);
+        traceTruth(point, baked, lights, bounced, stages);
+        tracePaths(point, uint32_t(i), lights, bounced, stages);
         for (size_t light = 0; light < lights.size(); light++) result[light][i] = stages[light];
         pointProgress.add();
     });

@@ -39,14 +39,17 @@ void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const Sp
     const FactoredBrdf& brdf = part.sets[set].brdf;
     const std::vector<WornLayer> layers = wornLayers(part, bound[hit.mesh]);
     const std::vector<vec3> shares = layerWeights(part, set, layers, uv, color);
-    for (int term = 0; term < brdf.terms; term++)
-        for (size_t i = 0; i < layers.size(); i++) {
+    for (size_t i = 0; i < layers.size(); i++) {
+        const vec3 gain = sourceGain(reflectedShare(brdf, layers[i].layer));
+        for (int term = 0; term < brdf.terms; term++) {
             const vec3 view =
-                shares[i] * lookupMap(brdf.viewMap(layers[i].layer, term), brdf.size, brdf.mapping, outgoing);
+                gain * shares[i] *
+                lookupMap(brdf.viewMap(layers[i].layer, term), brdf.size, brdf.mapping, outgoing);
             for (int corner = 0; corner < 3; corner++)
                 addRow(from[hit.mesh], corners[corner], uint32_t(term), factor * hit.weights[corner] * view,
                        sum);
         }
+    }
 }
 
 } // namespace

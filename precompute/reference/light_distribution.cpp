@@ -15,7 +15,8 @@ LightDistribution::LightDistribution(const LightCube& light) : mSize(light.size)
         const vec3 radiance = light.radiance[i];
         const float solidAngle = cubeTexelSolidAngle(int(i % size), int(i / size % size), mSize);
         mTexels.push_back({radiance});
-        mEnds.push_back(sum += double((radiance.x + radiance.y + radiance.z) * solidAngle));
+        const vec3 magnitude = glm::abs(radiance);
+        mEnds.push_back(sum += double((magnitude.x + magnitude.y + magnitude.z) * solidAngle));
     }
     if (!(sum > 0)) {
         mEnds.clear();

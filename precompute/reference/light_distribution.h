@@ -7,7 +7,7 @@ namespace relume {
 
 class LightDistribution {
   public:
-    // Of a finite light, none of it negative.
+    // Takes a finite light, which may be negative in places: it is drawn by its magnitude there.
     explicit LightDistribution(const LightCube& light);
 
     bool isBlack() const { return mEnds.empty(); }
@@ -16,9 +16,9 @@ class LightDistribution {
         vec3 direction; // unit
         size_t texel;   // that it passes through
     };
-    // A texel in proportion to (r + g + b) · solid angle, and a direction through it, uniform over its square
-    // on the face. All three numbers are uniform in [0, 1); texels come in order of `choice`. Not of a black
-    // light.
+    // A texel in proportion to (|r| + |g| + |b|) · solid angle, and a direction through it, uniform over its
+    // square on the face. All three numbers are uniform in [0, 1); texels come in order of `choice`. Not of a
+    // black light.
     Draw draw(double choice, float across, float down) const;
 
     // How likely draw() is to give a unit direction through `texel`, in sr⁻¹.

@@ -4,10 +4,11 @@
 
 namespace relume {
 
-vec3 sampleBounces(const PathScene& scene, const SurfacePoint& point, int bounces, HashedNumbers& random) {
-    vec3 sum(0), throughput(1);
+void sampleBounces(const PathScene& scene, const SurfacePoint& point, std::span<vec3> byBounces,
+                   HashedNumbers& random) {
+    vec3 throughput(1);
     SurfacePoint at = point;
-    for (int bounce = 0; bounce < bounces; bounce++) {
+    for (vec3& sum : byBounces) {
         const vec3 mirror(-at.outgoing.x, -at.outgoing.y, at.outgoing.z);
         const vec3 incoming = drawReflected(mirror, random);
         if (!(incoming.z > 0)) break;
@@ -20,7 +21,6 @@ vec3 sampleBounces(const PathScene& scene, const SurfacePoint& point, int bounce
         at = scene.asset.pointAt(*hit, at.position);
         sum += throughput * sampleReflection(at, scene.light, scene.occluder, scene.shadowOffset, random);
     }
-    return sum;
 }
 
 } // namespace relume

@@ -5,6 +5,8 @@
 #include "precompute/reference/light_distribution.h"
 #include "precompute/reference/sampled_reflection.h"
 
+#include <span>
+
 namespace relume {
 
 // What paths meet. Refers to all of it.
@@ -17,10 +19,11 @@ struct PathScene {
     float shadowOffset; // that rays start along a point's normal
 };
 
-// An unbiased estimate, from one path, of what reaches the eye after 1 to `bounces` reflections on the way to
-// the point; what the point reflects of the light itself is not part of it. Directions are drawn from the
-// cosine and lobes about the mirror direction, weighed by the balance heuristic (Veach 1997); at every
-// surface met the light is sampled (sampleReflection). Surfaces are black from behind.
-vec3 sampleBounces(const PathScene& scene, const SurfacePoint& point, int bounces, HashedNumbers& random);
+// Adds an unbiased estimate, from one path, of what reaches the eye after b + 1 reflections on the way to the
+// point to byBounces[b]; what the point reflects of the light itself is not part of it. Directions are drawn
+// from the cosine and lobes about the mirror direction, weighed by the balance heuristic (Veach 1997); at
+// every surface met the light is sampled (sampleReflection). Surfaces are black from behind.
+void sampleBounces(const PathScene& scene, const SurfacePoint& point, std::span<vec3> byBounces,
+                   HashedNumbers& random);
 
 } // namespace relume

@@ -1,6 +1,7 @@
 #include "precompute/reference/progressive_reference.h"
 
 #include "engine/base/check.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
 #include "precompute/reference/reference_image.h"
@@ -20,9 +21,9 @@ bool isSame(const Camera& a, const Camera& b) {
 
 } // namespace
 
-ProgressiveReference::ProgressiveReference(const Asset& asset, ReferenceBrdf brdf)
-    : mAsset(asset), mKind(brdf), mMeshes(partMeshes(asset)), mTracer(mMeshes),
-      mShadowOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {}
+ProgressiveReference::ProgressiveReference(const Asset& asset, ReferenceBrdf brdf, std::optional<int> bounces)
+    : mAsset(asset), mKind(brdf), mBounces(bounces.value_or(asset.bounces)), mMeshes(partMeshes(asset)),
+      mTracer(mMeshes), mShadowOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {}
 
 void ProgressiveReference::restart(const Camera& camera, const LightCube& light, const Appearance& appearance,
                                    int width, int height, int samples) {
@@ -74,9 +75,11 @@ void ProgressiveReference::sampleRow(int y) {
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
         const SurfacePoint point = mDressed->pointAt(*hit, mCamera.eye);
         mSample[pixel] = sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
-        if (mKind == ReferenceBrdf::Exact && mAsset.bounces > 0)
-            mSample[pixel] += sampleBounces({*mDressed, mTracer, mTracer, mMeshes, *mLight, mShadowOffset},
-                                            point, mAsset.bounces, random);
+        if (mKind != ReferenceBrdf::Exact) continue;
+        std::array<vec3, kMostBounces> byBounces{};
+        sampleBounces({*mDressed, mTracer, mTracer, mMeshes, *mLight, mShadowOffset}, point,
+                      std::span(byBounces).first(size_t(mBounces)), random);
+        for (const vec3 radiance : byBounces) mSample[pixel] += radiance;
     }
 }
 

@@ -31,12 +31,13 @@ struct ReferenceError {
 };
 
 // Converges to renderReference() under a light cube, full mesh as occluder, as raysPerTexelSide grows: light
-// constant over each texel, the same surfaces, frames and shadow offset; with as many bounces as the asset
-// has light of. One caller at a time.
+// constant over each texel, the same surfaces, frames and shadow offset. One caller at a time.
 class ProgressiveReference {
   public:
-    // Builds the scene for rays. Refers to `asset`. Throws Error when Embree fails.
-    explicit ProgressiveReference(const Asset& asset, ReferenceBrdf brdf = ReferenceBrdf::Exact);
+    // Builds the scene for rays. Refers to `asset`. Light bounces between surfaces up to `bounces` times, or
+    // as often as the asset's does; with the exact BRDF alone. Throws Error when Embree fails.
+    explicit ProgressiveReference(const Asset& asset, ReferenceBrdf brdf = ReferenceBrdf::Exact,
+                                  std::optional<int> bounces = {});
 
     // Forgets what was summed. What is needed anew is made anew: surfaces stay as long as camera and size do,
     // BRDFs always. `samples`: of a pixel, as the view pass has them, 1, 2, 4 or 8. Throws as makeBrdf()
@@ -77,6 +78,7 @@ class ProgressiveReference {
 
     const Asset& mAsset;
     ReferenceBrdf mKind;
+    int mBounces;
     std::vector<const Mesh*> mMeshes; // of the parts
     RayTracer mTracer;                // one mesh per part: what is seen, and what casts shadows
     float mShadowOffset;

@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/math/cubemap.h"
+#include "engine/transport/asset_check.h"
 #include "precompute/reference/dressed_asset.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
@@ -66,7 +67,9 @@ vec3 Renderer::bouncedRadiance(const RayHit& hit, uint32_t pixel) const {
     glm::dvec3 sum(0);
     for (int path = 0; path < options.paths; path++) {
         HashedNumbers random(pixel, uint32_t(path));
-        sum += sampleBounces(scene, point, bounces, random);
+        std::array<vec3, kMostBounces> byBounces{};
+        sampleBounces(scene, point, std::span(byBounces).first(size_t(bounces)), random);
+        for (const vec3 radiance : byBounces) sum += radiance;
     }
     return vec3(sum / double(options.paths));
 }

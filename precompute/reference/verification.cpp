@@ -121,12 +121,8 @@ class Bounces {
   public:
     Bounces(const vk::Device& device, const Asset& asset)
         : mAsset(asset), mBound(defaultAppearance(asset)), mTracer(partMeshes(asset)) {
-        BakePlan plan = planOf(asset);
-        plan.options = optionsOf(asset);
-        plan.options.visibilityMethod = usableMethod(device, *plan.options.visibilityMethod);
         BakeObserver silent;
-        BakeTimes times;
-        mBounced = bounceTransport(device, plan, {}, silent, times, &mFrom);
+        mBounced = bouncedTransportOf(device, asset, silent, &mFrom);
     }
 
     void addTo(std::vector<vec3>& coefficients, size_t part, size_t set, size_t row) const {

@@ -15,7 +15,8 @@ namespace {
 const TemporaryFolder& bakes() {
     static const TemporaryFolder folder;
     if (std::filesystem::exists(folder.path() / "a.relume")) return folder;
-    const std::string options = " -K 2 -N 32 --visibility-size 64 --face-size 32 --map-size 16 -q -o ";
+    const std::string options =
+        " -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q -o ";
     REQUIRE_EQ(
         runRelume(folder, "bake sphere --ground --ground-tessellation 4" + options + "a.relume").exitCode, 0);
     REQUIRE_EQ(runRelume(folder, "bake sphere" + options + "bare.relume").exitCode, 0);

@@ -26,18 +26,18 @@ Outcome succeed(const CornerFolder& folder, const std::string& command) {
 
 } // namespace
 
-TEST_CASE("bounces: none are the default, and the same bytes; more are told of") {
+TEST_CASE("bounces: two are the default, and the same bytes; none are told of, too") {
     const CornerFolder folder;
     succeed(folder, kBake + "-o plain.relume");
     succeed(folder, kBake + "--bounces 0 -o none.relume");
     succeed(folder, kBake + "--bounces 2 -o two.relume");
-    CHECK(folder.read("plain.relume") == folder.read("none.relume"));
-    CHECK(folder.read("plain.relume") != folder.read("two.relume"));
+    CHECK(folder.read("plain.relume") == folder.read("two.relume"));
+    CHECK(folder.read("plain.relume") != folder.read("none.relume"));
     CHECK(says(succeed(folder, "info two.relume").out, "by up to 2 reflections between surfaces"));
     CHECK(says(succeed(folder, "info none.relume").out, "direct alone"));
-    const Outcome errors = runRelume(folder, "errors two.relume --size 8x8", kNoThreads);
+    const Outcome errors = runRelume(folder, "errors two.relume --size 8x8 --bounces 1", kNoThreads);
     CHECK(errors.exitCode == 2);
-    CHECK(says(errors.err, "--bounces 0"));
+    CHECK(says(errors.err, "--bounces: expected 2, as many as the bake has, to 8, found 1"));
     const Outcome many = runRelume(folder, kBake + "--bounces 9 -o many.relume", kNoThreads);
     CHECK(many.exitCode == 2);
     CHECK(says(many.err, "--bounces: expected 0 to 8, found 9"));

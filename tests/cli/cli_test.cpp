@@ -10,7 +10,7 @@ namespace {
 
 // A bake small enough for a test of a second.
 constexpr const char* kSmallBake =
-    "bake sphere --ground --ground-tessellation 4 -K 2 -N 32 --visibility-size 64 "
+    "bake sphere --ground --ground-tessellation 4 -K 2 -N 32 --bounces 0 --visibility-size 64 "
     "--face-size 32 --map-size 16 -q ";
 
 } // namespace
@@ -38,7 +38,8 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"bake -o x.relume --terms 33", "1 to 32"},
              {"bake -o x.relume --coefficients 0", "--coefficients"},
              {"bake -o x.relume --face-size 48", "32 or 64"},
-             {"bake -o x.relume --transport-samples 16 --visibility-size 64", "--transport-samples"},
+             {"bake -o x.relume --transport-samples 16 --bounces 0 --visibility-size 64",
+              "--transport-samples"},
              {"bake -o x.relume --occluder some", "--occluder"},
              {"bake -o x.relume --material ashikmin-shirley", "ashikhmin-shirley"},
              {"bake -o x.relume --validation all", "core, sync, gpu, best"},
@@ -208,8 +209,9 @@ TEST_CASE("cli: names with control characters cannot command the terminal") {
     const TemporaryFolder folder;
     folder.write("scene.json",
                  R"({"parts": [{"name": "\u001b[2Jred", "mesh": "sphere", "material": "clay"}]})");
-    const Outcome bake = runRelume(folder, "bake scene.json -K 1 -N 32 --visibility-size 64 --face-size 32 "
-                                           "--map-size 16 -o a.relume");
+    const Outcome bake =
+        runRelume(folder, "bake scene.json -K 1 -N 32 --bounces 0 --visibility-size 64 --face-size 32 "
+                          "--map-size 16 -o a.relume");
     REQUIRE_EQ(bake.exitCode, 0);
     const Outcome info = runRelume(folder, "info a.relume");
     for (const std::string& text : {bake.err, info.out}) {

@@ -19,7 +19,8 @@ namespace {
 // A triangle over a ground: parts of one and of three blocks, little work each.
 std::string bakeCommand(int groundQuads) {
     return "bake mesh.obj --ground --ground-tessellation " + std::to_string(groundQuads) +
-           " --refine off -K 2 -N 8 --layout rows --visibility-size 64 --face-size 32 --map-size 8 -q -o "
+           " --refine off -K 2 -N 8 --layout rows --bounces 0 --visibility-size 64 --face-size 32 --map-size "
+           "8 -q -o "
            "out.relume ";
 }
 const std::string kBake = bakeCommand(12);
@@ -247,9 +248,9 @@ TEST_CASE("durable bake: batches, threads and a device out of memory do not show
 
 TEST_CASE("durable bake: bases go on to the same bytes, sample or not") {
     // Parts of one and of 1681 vertices: of the second, not all are of the sample.
-    const std::string bake =
-        "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 2 -N 40 --visibility-size 64 "
-        "--face-size 32 --map-size 8 -q -o out.relume --error 0.2";
+    const std::string bake = "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 2 -N 40 "
+                             "--bounces 0 --visibility-size 64 "
+                             "--face-size 32 --map-size 8 -q -o out.relume --error 0.2";
     const BakeFolder undisturbed;
     REQUIRE_EQ(runRelume(undisturbed, bake, kNoThreads).exitCode, 0);
     const std::string whole = contents(undisturbed.path() / "out.relume");

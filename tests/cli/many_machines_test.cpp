@@ -12,7 +12,7 @@ namespace {
 // A triangle over a ground: parts of one and of seven blocks, little work each.
 const std::string kMesh = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
 const std::string kBake =
-    "bake mesh.obj --ground --ground-tessellation 20 --refine off -K 1 -N 8 --visibility-size 64 "
+    "bake mesh.obj --ground --ground-tessellation 20 --refine off -K 1 -N 8 --bounces 0 --visibility-size 64 "
     "--face-size 32 --map-size 8 --layout rows -q ";
 constexpr int kBlocks = 8;
 constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
@@ -94,9 +94,9 @@ TEST_CASE("many machines: one shard, two, and more than there are blocks") {
 TEST_CASE("many machines: shards in bases, merged, are the whole bake") {
     const BakeFolder folder;
     // 1681 vertices of ground: seven blocks of bases, more than the sample has.
-    const std::string bake =
-        "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 1 -N 40 --visibility-size 64 "
-        "--face-size 32 --map-size 8 --keep-visibility -q --budget 40 -o ";
+    const std::string bake = "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 1 -N 40 "
+                             "--bounces 0 --visibility-size 64 "
+                             "--face-size 32 --map-size 8 --keep-visibility -q --budget 40 -o ";
     REQUIRE_EQ(runRelume(folder, bake + "whole.relume", kNoThreads).exitCode, 0);
     for (const int count : {2, 12}) {
         std::string parts;

@@ -22,7 +22,7 @@ void prepare(const TemporaryFolder& folder, const std::string& layout) {
         writeExr(folder.path() / fmt::format("map_{}.exr", i), map);
     }
     folder.write("light.json", kLight);
-    REQUIRE_EQ(runRelume(folder, "bake sphere -K 2 -N 32 --visibility-size 64 --face-size 32 "
+    REQUIRE_EQ(runRelume(folder, "bake sphere -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 "
                                  "--map-size 16 -q -o rows.relume")
                    .exitCode,
                0);

@@ -26,7 +26,7 @@ TEST_CASE("presets: paper bakes and renders as its options do, and others beside
     };
     bake("--preset paper -o paper.relume");
     bake("-K 4 --factorization paper --layout rows --visibility raster --transport-samples 16 "
-         "--occluder 5000 --refine off -o options.relume");
+         "--occluder 5000 --refine off --bounces 0 -o options.relume");
     CHECK_EQ(contents(folder.path() / "paper.relume"), contents(folder.path() / "options.relume"));
     CHECK_EQ(infoOf(folder, "paper.relume")["preset"], "paper");
 

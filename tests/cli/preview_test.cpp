@@ -8,8 +8,9 @@ using namespace relume::test;
 
 namespace {
 
-const std::string kBakeIn = "bake mesh.obj --ground --refine off -K 2 -N 8 --visibility-size 64 --face-size "
-                            "32 --map-size 8 -q -o out.relume --layout ";
+const std::string kBakeIn =
+    "bake mesh.obj --ground --refine off -K 2 -N 8 --bounces 0 --visibility-size 64 --face-size "
+    "32 --map-size 8 -q -o out.relume --layout ";
 constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
 
 struct BakeFolder : TemporaryFolder {

@@ -31,7 +31,7 @@ struct RebakeFolder : TemporaryFolder {
                  const std::string& environment = kNoThreads) const {
         return runRelume(*this,
                          "bake scene.json --ground --ground-tessellation 12 --refine off --visibility-size "
-                         "64 --face-size 32 "
+                         "64 --bounces 0 --face-size 32 "
                          "--map-size 8 -q " +
                              arguments + " -o " + output,
                          environment);

@@ -16,12 +16,13 @@ struct BakeFolder : TemporaryFolder {
     BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
 
     Outcome bake(const std::string& arguments, const std::string& input = "mesh.obj --ground") const {
-        return runRelume(*this,
-                         "bake " + input +
-                             " --refine 0.05 -K 1 -N 8 --visibility-size 64 --face-size 32 --map-size 8 "
-                             "--layout rows -q " +
-                             arguments,
-                         kNoThreads);
+        return runRelume(
+            *this,
+            "bake " + input +
+                " --refine 0.05 -K 1 -N 8 --bounces 0 --visibility-size 64 --face-size 32 --map-size 8 "
+                "--layout rows -q " +
+                arguments,
+            kNoThreads);
     }
     json info(const std::string& file) const {
         const Outcome info = runRelume(*this, "info --json " + file);
@@ -90,12 +91,13 @@ TEST_CASE("refine: a ground whose tessellation is given starts with it") {
 TEST_CASE("refine: by itself a bake adds vertices to coarse parts alone") {
     const BakeFolder folder;
     const auto bake = [&](const std::string& input, const std::string& output) {
-        const Outcome outcome = runRelume(folder,
-                                          "bake " + input +
-                                              " -K 1 -N 8 --visibility-size 64 --face-size 32 --map-size 8 "
-                                              "--layout rows -q -o " +
-                                              output,
-                                          kNoThreads);
+        const Outcome outcome =
+            runRelume(folder,
+                      "bake " + input +
+                          " -K 1 -N 8 --bounces 0 --visibility-size 64 --face-size 32 --map-size 8 "
+                          "--layout rows -q -o " +
+                          output,
+                      kNoThreads);
         REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.err);
     };
     bake("mesh.obj --ground", "coarse.relume");
@@ -116,10 +118,11 @@ TEST_CASE("refine: by itself a bake adds vertices to coarse parts alone") {
 
 TEST_CASE("refine: its event") {
     const BakeFolder folder;
-    const Outcome bake = runRelume(folder,
-                                   "bake mesh.obj --ground --refine 0.1 -K 1 -N 8 --visibility-size 64 "
-                                   "--face-size 32 --map-size 8 --layout rows --json -o out.relume",
-                                   kNoThreads);
+    const Outcome bake =
+        runRelume(folder,
+                  "bake mesh.obj --ground --refine 0.1 -K 1 -N 8 --bounces 0 --visibility-size 64 "
+                  "--face-size 32 --map-size 8 --layout rows --json -o out.relume",
+                  kNoThreads);
     REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
     std::istringstream lines(bake.out);
     std::vector<std::string> order;

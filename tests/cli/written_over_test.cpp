@@ -31,7 +31,7 @@ struct InputFolder : TemporaryFolder {
     }
 
     static constexpr const char* kSmall =
-        " -K 1 -N 8 --layout rows --visibility-size 64 --face-size 32 --map-size 8 -q ";
+        " -K 1 -N 8 --layout rows --bounces 0 --visibility-size 64 --face-size 32 --map-size 8 -q ";
 
     Outcome run(const std::string& arguments) const { return runRelume(*this, arguments, kNoThreads); }
 

@@ -1,10 +1,12 @@
 // Bounced light, from the bake to the image: against closed forms and a path-traced reference.
+#include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
 #include "engine/render/compare.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "precompute/bake/bake.h"
+#include "precompute/error/error_study.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/reference/verification.h"
 #include "tests/support/bowl.h"
@@ -133,6 +135,38 @@ TEST_CASE("image: bounced light against paths, in gold, red and white") {
             with);
     CHECK(without > 2.5 * own);
     CHECK(with < 1.3 * own);
+}
+
+TEST_CASE("errors: those of bounced light, and of what is beyond it, add up to what is measured") {
+    const TestDevice device;
+    const Camera camera{{3.2f, 1.6f, 2.4f}, {-0.4f, -0.1f, 0}, 0.7f};
+    const auto sky = std::make_shared<const Environment>(prepareForSampling(makeSky()));
+    const Light light{.environments = {{sky}}};
+    const StudiedLight studied{light, sampleLight(light, kTruthFaceSize), {}};
+    const auto study = [&](const Asset& asset, int bounces) {
+        const ErrorStudies studies =
+            studyErrors(device, asset, defaultAppearance(asset), std::span(&studied, 1),
+                        {.view = {camera, 32, 24}, .mostPasses = 256, .bounces = bounces});
+        const ErrorStudy& found = studies.lights[0];
+        CHECK(found.budget.total == doctest::Approx(found.measured).epsilon(0.1));
+        CHECK(found.truthAside < 0.02);
+        return found.budget;
+    };
+    const auto rms = [](const ErrorBudget& budget, ErrorSource source) {
+        return budget.sources[size_t(source)].rms;
+    };
+    const Asset direct = bake(device, cornerScene(), bounceOptions(0));
+    const ErrorBudget ofDirect = study(direct, 2);
+    CHECK(rms(ofDirect, ErrorSource::Bounces) == 0);
+    CHECK(rms(ofDirect, ErrorSource::MoreBounces) > 0.1);
+    const Asset bounced = bake(device, cornerScene(), bounceOptions(2));
+    const ErrorBudget ofBounced = study(bounced, 2), ofMore = study(bounced, 6);
+    CHECK(rms(ofBounced, ErrorSource::Bounces) > 0.002);
+    CHECK(rms(ofBounced, ErrorSource::Bounces) < 0.3 * rms(ofDirect, ErrorSource::MoreBounces));
+    CHECK(rms(ofBounced, ErrorSource::MoreBounces) == 0);
+    CHECK(rms(ofMore, ErrorSource::MoreBounces) > 0.002);
+    CHECK(rms(ofMore, ErrorSource::MoreBounces) < 0.3 * rms(ofDirect, ErrorSource::MoreBounces));
+    CHECK_THROWS_AS(study(bounced, 1), UsageError);
 }
 
 TEST_CASE("verify: bounced rows are those of the twin, and stored beside direct light") {

@@ -32,10 +32,10 @@ class Session {
 
     // ring.obj on a ground, in a second or two.
     void bake(const std::string& file, const std::string& options) {
-        const Outcome bake = relume(
-            "bake ring.obj --ground --ground-tessellation 8 --refine off -K 4 -N 192 --visibility-size 64 "
-            "--face-size 32 --map-size 16 -q -o " +
-            file + " " + options);
+        const Outcome bake = relume("bake ring.obj --ground --ground-tessellation 8 --refine off -K 4 -N 192 "
+                                    "--bounces 0 --visibility-size 64 "
+                                    "--face-size 32 --map-size 16 -q -o " +
+                                    file + " " + options);
         REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
     }
 

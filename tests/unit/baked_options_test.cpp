@@ -20,6 +20,7 @@ Asset assetOf(const BakeOptions& options) {
     asset.faceSize = options.faceSize;
     asset.visibilitySize = options.visibilitySize;
     asset.transportSamples = options.transportSamples;
+    asset.bounces = options.bounces;
     asset.provenance.options = describeOptions(options);
     return asset;
 }

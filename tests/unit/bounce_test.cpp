@@ -85,6 +85,27 @@ TEST_CASE("bounce: a bowl sees itself with half of its directions") {
     CHECK(sum / double(rows.rows()) == doctest::Approx(0.9).epsilon(0.005));
 }
 
+TEST_CASE("bounce: factors that reflect more than they receive light others as if it were all") {
+    Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 1)});
+    FactoredBrdf& brdf = asset.parts[0].sets[0].brdf;
+    CHECK(glm::length(reflectedShare(brdf, 0) - vec3(1)) < 1e-3f);
+    const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(1))};
+    const auto keepOn = [](uint64_t) { return true; };
+    const BounceGather gather(asset, defaultAppearance(asset));
+    CHECK(gather.heldLayers().empty());
+    const auto bounced = gather.gather(from, keepOn);
+    for (vec3& value : brdf.viewMaps) value *= vec3(1.5f, 1, 0.5f);
+    const BounceGather held(asset, defaultAppearance(asset));
+    REQUIRE(held.heldLayers().size() == 1);
+    CHECK(held.heldLayers()[0].share == doctest::Approx(1.5));
+    const auto less = held.gather(from, keepOn);
+    const SparseTransport &all = bounced[0][0], &found = less[0][0];
+    for (size_t row = 0; row < all.rows(); row++) {
+        const vec3 expected = denseRow(all, row)[0] * vec3(1, 1, 0.5f);
+        CHECK(glm::length(denseRow(found, row)[0] - expected) < 2e-3f);
+    }
+}
+
 TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
     Mesh ground = makePlane(4, 4);
     for (vec3& position : ground.positions) position.y -= 0.5f;

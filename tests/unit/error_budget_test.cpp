@@ -24,7 +24,7 @@ std::vector<StageRadiance> randomStages(size_t points, std::span<const float> si
     return stages;
 }
 
-constexpr std::array<float, kErrorSources> kSizes = {0, 0.5f, 0, 0.1f, 0.3f, 1, 0, 0, 0.2f, 0, 0.05f};
+constexpr std::array<float, kErrorSources> kSizes = {0, 0.5f, 0, 0.1f, 0.3f, 1, 0, 0, 0.2f, 0, 0.05f, 0, 0};
 
 } // namespace
 

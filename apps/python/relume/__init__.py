@@ -182,15 +182,17 @@ class SampledReference:
         return Image(even), Image(odd)
 
 
-def errors(asset, light, camera=None, size=(120, 90), residual=True, passes=512, images=False, progress=None):
+def errors(asset, light, camera=None, size=(120, 90), residual=True, passes=512, bounces=None, images=False,
+           progress=None):
     """An image's error taken apart, as `relume errors --json` does. Minutes for larger images.
 
     light: a Light; or a list of them that share all rays, and then there is a result of each. passes: at most so many
-    of the reference that the image is held against, 0 for none. images: adds "images" by name, (height, width, 4):
+    of the reference that the image is held against, 0 for none. bounces: reflections between surfaces that the exact
+    image has, at least the bake's; None: as many. images: adds "images" by name, (height, width, 4):
     drawn, reference and harmonics, linear; total and each source as heat, display values.
     """
     lights = [light] if isinstance(light, Light) else list(light)
-    results = _relume._errors(asset, lights, camera, tuple(size), residual, passes, images, progress)
+    results = _relume._errors(asset, lights, camera, tuple(size), residual, passes, bounces, images, progress)
     return results[0] if isinstance(light, Light) else results
 
 

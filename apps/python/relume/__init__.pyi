@@ -109,11 +109,11 @@ class SampledReference:
 
 @overload
 def errors(asset: Asset, light: Light, camera: Optional[Camera] = None, size: tuple[int, int] = (120, 90),
-           residual: bool = True, passes: int = 512, images: bool = False,
+           residual: bool = True, passes: int = 512, bounces: Optional[int] = None, images: bool = False,
            progress: Progress = None) -> dict[str, Any]: ...
 @overload
 def errors(asset: Asset, light: Sequence[Light], camera: Optional[Camera] = None, size: tuple[int, int] = (120, 90),
-           residual: bool = True, passes: int = 512, images: bool = False,
+           residual: bool = True, passes: int = 512, bounces: Optional[int] = None, images: bool = False,
            progress: Progress = None) -> list[dict[str, Any]]: ...
 def advise(scene: Union[Scene, Path, Mesh], light: Light, error: float, points: int = 600, as_is: bool = False,
            progress: Progress = None) -> dict[str, Any]: ...
