@@ -17,6 +17,7 @@ void addReferenceCommand(CLI::App& program);
 void addCompareCommand(CLI::App& program);
 void addVerifyCommand(CLI::App& program);
 void addErrorsCommand(CLI::App& program);
+void addSheetCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addAdviseCommand(CLI::App& program);
 void addMaterialsCommand(CLI::App& program);

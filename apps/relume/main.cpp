@@ -1,4 +1,5 @@
 #include "apps/relume/commands.h"
+#include "apps/relume/help_formatter.h"
 #include "apps/relume/run_program.h"
 
 using namespace relume;
@@ -9,7 +10,7 @@ int main(int argc, char** argv) {
     CLI::App program{"Relights glossy objects in real time from transport baked once per vertex.", "relume"};
     program.set_version_flag("--version", "relume " RELUME_VERSION);
     program.require_subcommand(1);
-    program.get_formatter()->column_width(34);
+    program.formatter(std::make_shared<HelpFormatter>());
     program.footer(
         "Try: relume bake -o knot.relume && relume render knot.relume -o knot.png\n"
         "`relume COMMAND --help` explains each command.\n"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
     addRebakeCommand(program);
     addConvertCommand(program);
     addRenderCommand(program);
+    addSheetCommand(program);
     addReferenceCommand(program);
     addCompareCommand(program);
     addVerifyCommand(program);

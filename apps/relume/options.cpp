@@ -183,6 +183,21 @@ void LightArguments::addInputs(CommandFiles& files) const {
     for (const std::string& file : {mEnvironment, mBlend, mFile}) files.addInput(file);
 }
 
+// `file`: empty for the built-in sky.
+static EnvironmentLight environmentLight(const std::string& file, float gain, bool withPicture) {
+    Environment map = file.empty() ? makeSky() : readEnvironment(file);
+    EnvironmentLight light{std::make_shared<const Environment>(prepareForSampling(map)), 0, gain};
+    if (withPicture) light.picture = makePicture(file.empty() ? makeSky(kSkyPictureColumns) : std::move(map));
+    return light;
+}
+
+Light stillLight(const std::string& file, bool withPictures) {
+    if (!file.ends_with(".json")) return {.environments = {environmentLight(file, 1, withPictures)}};
+    MovingLight light = readLight(file);
+    if (withPictures) light.keepPictures();
+    return light.at(0);
+}
+
 MovingLight LightArguments::source(bool withPictures) const {
     if (!mFile.empty()) return readLight(mFile);
     if (!mDistant.empty())
@@ -197,15 +212,9 @@ MovingLight LightArguments::source(bool withPictures) const {
             {.lamps = {{directionAt(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))}}});
     }
     if (isSequence(mEnvironment) || isSequence(mBlend)) return sequence();
-    const auto lightOf = [&](const std::string& file, float gain) {
-        Environment map = file.empty() ? makeSky() : readEnvironment(file);
-        EnvironmentLight light{std::make_shared<const Environment>(prepareForSampling(map)), 0, gain};
-        if (withPictures)
-            light.picture = makePicture(file.empty() ? makeSky(kSkyPictureColumns) : std::move(map));
-        return light;
-    };
-    Light light{.environments = {lightOf(mEnvironment, mBlend.empty() ? 1 : 1 - mBlendWeight)}};
-    if (!mBlend.empty()) light.environments.push_back(lightOf(mBlend, mBlendWeight));
+    const float share = mBlend.empty() ? 1 : 1 - mBlendWeight;
+    Light light{.environments = {environmentLight(mEnvironment, share, withPictures)}};
+    if (!mBlend.empty()) light.environments.push_back(environmentLight(mBlend, mBlendWeight, withPictures));
     return MovingLight(std::move(light));
 }
 

@@ -72,6 +72,10 @@ struct LightArguments {
     float mIntensity = 1;
 };
 
+// Returns the light of an environment (.exr, .hdr; empty: the built-in sky) or of a light file (.json) at its
+// beginning; with what backgrounds are drawn from, if wanted.
+Light stillLight(const std::string& file, bool withPictures);
+
 // -o, --exposure, --tone, --background, --background-blur, --ground-fade
 struct ImageArguments {
     std::filesystem::path output;

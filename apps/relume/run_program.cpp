@@ -2,7 +2,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/log.h"
+#include "engine/base/nearest_name.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
@@ -40,6 +42,18 @@ void checkArguments(int argc, char** argv) {
     }
 }
 
+// Throws for a first word that is no command, where the program has commands.
+void checkCommand(const CLI::App& program, char** argv) {
+    const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
+    if (commands.empty() || !argv[1] || *argv[1] == '-') return;
+    std::vector<std::string> owned;
+    for (const CLI::App* command : commands) owned.push_back(command->get_name());
+    if (std::ranges::find(owned, argv[1]) != owned.end()) return;
+    const std::vector<std::string_view> names(owned.begin(), owned.end());
+    throw UsageError(fmt::format("{}: no such command; did you mean {}? `{} --help` lists all", argv[1],
+                                 nearestName(argv[1], names), program.get_name()));
+}
+
 // A message with its control characters spelled out: it may hold names that come from files.
 class PrintableText : public spdlog::custom_flag_formatter {
   public:
@@ -70,6 +84,11 @@ int runProgram(CLI::App& program, int argc, char** argv, const std::function<voi
     keepFreedMemory();
     try {
         checkArguments(argc, argv);
+        if (argc < 2 && program.get_require_subcommand_min() > 0) {
+            std::cerr << program.help();
+            return kExitUsage;
+        }
+        checkCommand(program, argv);
         try {
             program.parse(argc, argv);
             work();

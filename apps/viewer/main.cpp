@@ -1,3 +1,4 @@
+#include "apps/relume/help_formatter.h"
 #include "apps/relume/options.h"
 #include "apps/relume/run_program.h"
 #include "apps/viewer/viewer.h"
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
 
     CLI::App program{"Shows bakes and meshes under any distant light, live.", "relume-viewer"};
     program.set_version_flag("--version", "relume-viewer " RELUME_VERSION);
-    program.get_formatter()->column_width(34);
+    program.formatter(std::make_shared<HelpFormatter>());
     ViewerOptions options;
     program.add_option("FILE", options.files,
                        "Bakes (.relume); meshes and scenes, which are baked in view; environments and lights "

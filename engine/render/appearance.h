@@ -18,6 +18,8 @@ struct PartAppearance {
     // By the part's material map or vertex colours instead: the weights of the first four materials there,
     // over their sum; where that is zero, the first material alone.
     bool painted = false;
+
+    bool operator==(const PartAppearance&) const = default;
 };
 
 using Appearance = std::vector<PartAppearance>; // one per part

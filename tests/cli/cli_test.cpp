@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using namespace relume::test;
 
@@ -25,14 +26,23 @@ TEST_CASE("cli: help and version go to stdout and end well") {
         const Outcome own = runRelume(folder, std::string(command) + " --help");
         CHECK_EQ(own.exitCode, 0);
         CHECK(says(own.out, "Usage"));
+        for (const char* noise : {" in [", "{false}", "INT", "Excludes"}) CHECK(!says(own.out, noise));
+        std::istringstream lines(own.out.substr(own.out.find("Options:")));
+        for (std::string line; std::getline(lines, line);)
+            if (line.starts_with("  ")) CHECK_MESSAGE(line.size() <= 104, line);
     }
+    CHECK(says(runRelume(folder, "render --help").out, "--relight auto|full|incremental"));
     CHECK(says(runRelume(folder, "--version").out, "relume "));
 }
 
 TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
     const TemporaryFolder folder;
-    CHECK_EQ(runRelume(folder, "").exitCode, 2);
-    CHECK_EQ(runRelume(folder, "paint").exitCode, 2);
+    const Outcome nothing = runRelume(folder, "");
+    CHECK_EQ(nothing.exitCode, 2);
+    CHECK(says(nothing.err, "Usage"));
+    const Outcome unknown = runRelume(folder, "redner a.relume");
+    CHECK_EQ(unknown.exitCode, 2);
+    CHECK(says(unknown.err, "redner: no such command; did you mean render?"));
     CHECK_EQ(runRelume(folder, "bake").exitCode, 2); // no -o
     for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
              {"bake -o x.relume --terms 33", "1 to 32"},
