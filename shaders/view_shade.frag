@@ -8,6 +8,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/barycentric.glsl"
 #include "shaders/lib/disk_map.glsl"
+#include "shaders/lib/normal_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
 #include "shaders/lib/texels.glsl"
 #include "shaders/lib/unshadowed.glsl"
@@ -42,9 +43,14 @@ float tupleOf(int i) { return texelFetch(tuples, i).x; }
 vec4 fourOf(int i) { return texelFetch(tuples, i); }
 #endif
 layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
-layout(binding = 5, scalar) readonly buffer Layers { ViewLayer layers[]; };
+layout(binding = 5, scalar) readonly buffer Layers {
+    ViewDetail detail;
+    ViewLayer layers[];
+};
 layout(binding = 6) uniform sampler2DArray baseColor;
 layout(binding = 7) uniform sampler2DArray materialMap;
+layout(binding = 13) uniform sampler2DArray normalMap;
+layout(binding = 14) uniform sampler2DArray emissionMap;
 layout(binding = 11) uniform sampler2DArray unshadowedTuples; // three images for each four terms
 TEXELS(12, vec4, samplerBuffer, IrradianceWeights, irradianceWeights); // laid out as tuples of whole quads
 
@@ -143,7 +149,18 @@ Quad unshadowedTuple(TuplePlace at, uint quad) {
     return Quad(mix(a.a, b.a, share), mix(a.b, b.b, share), mix(a.c, b.c, share));
 }
 
-// Returns the reflected radiance, which is never negative.
+// Returns the unshadowed radiance towards `local`, the view direction in a frame; or what normal maps may raise it to.
+vec3 unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
+    const SpherePlaces at = spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
+    if (kLook == kSingleLook) return push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at);
+    vec3 sum = vec3(0);
+    for (uint i = 0; i < push.layers; i++)
+        sum += (isLimit ? layers[i].mostOfFlat : 1) * layerWeight(layers[i], paint, base) *
+               unshadowedRadiance(layers[i].firstSlot, min(layers[i].harmonics, kHarmonics), at);
+    return sum;
+}
+
+// Returns the radiance, which is never negative.
 vec3 shade(uint triangle, vec3 direction) {
     const uvec3 corners = texelOf(triangles, int(triangle)).xyz;
     vec4 low[3], high[3];
@@ -162,9 +179,9 @@ vec3 shade(uint triangle, vec3 direction) {
     // Opposite normals can cancel out on a fold; any direction does there.
     normal = dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal);
     mat3 frame = tangentFrame(normal);
+    vec3 tangent = vec3(0);
     TuplePlace tuplePlace = TuplePlace(vec2(0), uint(normal.y < 0), 0);
     if (kTangents) {
-        vec3 tangent = vec3(0);
         for (int c = 0; c < 3; c++)
             tangent += weights[c] * texelOf(vertices, int(corners[c] * kVertexTexels + 3)).xyz;
         const mat3 own = tangentFrame(normal, tangent);
@@ -176,7 +193,9 @@ vec3 shade(uint triangle, vec3 direction) {
     const vec2 place = diskMapCoordinates(push.mapping, local);
 
     vec4 paint = vec4(0);
-    vec3 base = vec3(0);
+    vec3 base = vec3(0), emitted = vec3(0);
+    mat3 mapped = frame; // of the normal that is seen; transport knows that of the vertices
+    vec3 seen = local;
     if (kLook == kSurfaceLook) {
         vec2 uv = vec2(0);
         vec4 color = vec4(0);
@@ -186,19 +205,25 @@ vec3 shade(uint triangle, vec3 direction) {
         }
         paint = paintWeights(uv, color);
         base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
+        if (detail.isTinted != 0) base *= color.rgb;
+        emitted = detail.emission * textureLod(emissionMap, vec3(uv, 0), 0).rgb;
+        if (detail.normalScale != 0) {
+            const vec3 map = 2 * textureLod(normalMap, vec3(uv, 0), 0).xyz - 1;
+            vec3 found = mappedNormal(normal, vec3[3](low[0].xyz, low[1].xyz, low[2].xyz),
+                                            vec2[3](high[0].zw, high[1].zw, high[2].zw),
+                                            map * vec3(detail.normalScale, detail.normalScale, 1));
+            found = facingNormal(found, normalize(-direction));
+            mapped = kTangents ? tangentFrame(found, tangent) : tangentFrame(found);
+            seen = liftAboveHorizon(mapped * normalize(-direction));
+        }
     }
     vec3 exact = vec3(0);
     if (kEstimate != kTermsAlone) {
-        const SpherePlaces at =
-            spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
-        if (kLook == kSingleLook)
-            exact = push.weight *
-                    unshadowedRadiance(push.firstSlot, kHarmonics, at);
-        else
-            for (uint i = 0; i < push.layers; i++)
-                exact += layerWeight(layers[i], paint, base) *
-                         unshadowedRadiance(layers[i].firstSlot,
-                                            min(layers[i].harmonics, kHarmonics), at);
+        // Mapped normals may face light below the surface's horizon, of which no visibility is known. They raise the
+        // radiance no more than by the concentration of its kernel, which is too little where a low sun is all.
+        exact = unshadowedAt(direction, mapped, seen, paint, base, false);
+        if (kLook == kSurfaceLook && detail.normalScale != 0)
+            exact = min(exact, unshadowedAt(direction, frame, local, paint, base, true));
         tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
         // At -Y tangentFrame() has no direction of its own, and takes that of the frames at this azimuth.
         if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
@@ -242,12 +267,14 @@ vec3 shade(uint triangle, vec3 direction) {
     }
     const float weight = kLook == kSingleLook ? push.weight : 1;
     // A truncated sum of products can be negative.
-    if (kEstimate == kTermsAlone) return max(weight * sumOf(sum), 0);
+    if (kEstimate == kTermsAlone) return max(weight * sumOf(sum), 0) + emitted;
     const bool isBounced = (kEstimate & kBounced) != 0;
     if ((kEstimate & kResidualRatio) != 0)
-        return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit), isBounced);
+        return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit), isBounced) +
+               emitted;
     return differenceEstimate(weight * sumOf(sum), litShare(sumOf(lit), sumOf(unlit)), exact, weight * sumOf(terms),
-                              isBounced);
+                              isBounced) +
+           emitted;
 }
 
 // Returns the ground's coverage where the pixel's ray meets a triangle's plane. C++ twin: groundCoverage() in

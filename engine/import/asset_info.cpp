@@ -49,6 +49,12 @@ Json describePart(const AssetPart& part) {
     if (part.baseColor) json["base_color"] = {part.baseColor->width, part.baseColor->height};
     if (part.materialMap) json["material_map"] = {part.materialMap->width, part.materialMap->height};
     if (part.paintedByColors) json["material_map"] = "colors";
+    if (part.tintedByColors) json["tinted_by_colors"] = true;
+    const SurfaceDetail& detail = part.detail;
+    if (detail.normalMap) json["normal_map"] = {detail.normalMap->width, detail.normalMap->height};
+    if (detail.emission != vec3(0))
+        json["emission"] = {detail.emission.x, detail.emission.y, detail.emission.z};
+    if (detail.emissionMap) json["emission_map"] = {detail.emissionMap->width, detail.emissionMap->height};
     if (!part.mesh.tangents.empty()) json["tangents"] = true;
     json["sets"] = Json::array();
     for (const MaterialSet& set : part.sets) json["sets"].push_back(describeSet(set));
@@ -158,6 +164,13 @@ Json describeApproximations(const Asset& asset) {
                 "when it is drawn",
                 part.name, set.brdf.terms, set.brdf.size, set.brdf.size,
                 set.brdf.layers > 1 ? ", light maps shared in a set" : ""));
+    for (const AssetPart& part : asset.parts)
+        if (part.detail.normalMap)
+            list.push_back(fmt::format("normal map of {}: {}", part.name,
+                                       part.sets[0].residual
+                                           ? "unshadowed light is of its normals, the share that reaches the "
+                                             "surface of the vertices'"
+                                           : "not drawn, since its terms are the whole BRDF"));
     if (asset.provenance.bakedShare)
         list.push_back(fmt::format("preview: {:.0f} % of the vertices are baked, the others interpolated",
                                    100 * *asset.provenance.bakedShare));

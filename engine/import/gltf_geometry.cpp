@@ -211,11 +211,21 @@ class SceneReader {
             for (const vec2& place : uvs) mesh.uvs.push_back(vec2(wish.uvTransform * vec3(place, 1)));
         }
         const auto color = primitive.attributes.find("COLOR_0");
-        if (wish.attributes.colors && color != primitive.attributes.end()) {
-            const std::vector<vec4> colors = readGltfFourVectors(mModel, color->second, mName);
-            checkCount("COLOR_0", colors.size(), count);
-            mesh.colors.insert(mesh.colors.end(), colors.begin(), colors.end());
+        const bool hasColors = color != primitive.attributes.end();
+        if (!wish.attributes.colors || (!hasColors && !wish.isTint)) return;
+        std::vector<vec4> colors(count, vec4(1));
+        try {
+            if (hasColors) {
+                colors = readGltfFourVectors(mModel, color->second, mName);
+                checkCount("COLOR_0", colors.size(), count);
+            }
+        } catch (const Error& unreadable) {
+            if (!wish.isTint) throw;
+            log(LogLevel::Warning,
+                fmt::format("{}; its vertex colors are taken for white", unreadable.what()));
+            colors.assign(count, vec4(1));
         }
+        mesh.colors.insert(mesh.colors.end(), colors.begin(), colors.end());
     }
 
     const tinygltf::Model& mModel;

@@ -13,7 +13,8 @@ namespace relume {
 // What to keep of the vertices of one material, besides positions and normals.
 struct GltfWish {
     MeshAttributes attributes;
-    int uvSet = 0;              // the N of TEXCOORD_N
+    bool isTint = false; // colors multiply others: where there are none that can be read, they are white
+    int uvSet = 0;       // the N of TEXCOORD_N
     mat3 uvTransform = mat3(1); // of (u, v, 1)
 };
 

@@ -6,6 +6,8 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/import/gltf_accessor.h"
+#include "engine/import/metal_roughness_map.h"
+#include "engine/scene/surface_detail.h"
 
 #include <algorithm>
 #include <array>
@@ -116,55 +118,99 @@ GltfMaterial GltfMaterials::read(int index) {
     if (material.name.empty())
         material.name = index < 0 ? "default material" : fmt::format("material {}", index);
 
-    const Json& surface = findObject(json, "pbrMetallicRoughness", place);
-    std::vector<double> base = numbers(surface, "baseColorFactor", {1, 1, 1, 1}, place);
-    double metallic = number(surface, "metallicFactor", 1, place);
-    double roughness = number(surface, "roughnessFactor", 1, place);
-    if (find(surface, "baseColorTexture", place))
-        readBaseColorTexture(findObject(surface, "baseColorTexture", place), place, material);
-    if (const auto texture =
-            relume::index(findObject(surface, "metallicRoughnessTexture", place), "index", place)) {
-        const vec4 mean = meanOf(readTexture(*texture, false));
-        roughness *= mean.y;
-        metallic *= mean.z;
-        ignore("the variation of metallicRoughnessTexture (its mean is used)");
-    }
-    base.pop_back(); // opacity
-    for (double* value : {&base[0], &base[1], &base[2], &metallic, &roughness})
-        *value = std::clamp(*value, 0.0, 1.0);
-    noteIgnored(json, place);
     std::string printable = material.name; // names are written on command lines
     for (char& letter : printable)
         if (uint8_t(letter) < 0x20 || letter == 0x7f) letter = ' ';
-    material.text = nlohmann::ordered_json{
-        {"name", printable},
-        {"model", "gltf"},
-        {"base_color", base},
-        {"metallic", metallic},
-        {"roughness",
-         roughness}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const Json& surface = findObject(json, "pbrMetallicRoughness", place);
+    material.baseColor = placedTexture(surface, "baseColorTexture", place, material);
+    readMetalRoughness(surface, place, printable, material);
+    readDetail(json, place, material);
+    noteIgnored(json, place);
     return material;
 }
 
-void GltfMaterials::readBaseColorTexture(const Json& info, const std::string& place, GltfMaterial& material) {
-    material.baseColor = index(info, "index", place);
-    material.uvSet = int(index(info, "texCoord", place).value_or(0));
+void GltfMaterials::readMetalRoughness(const Json& surface, const std::string& place, const std::string& name,
+                                       GltfMaterial& material) {
+    std::vector<double> base = numbers(surface, "baseColorFactor", {1, 1, 1, 1}, place);
+    base.pop_back(); // opacity
+    double metallic = number(surface, "metallicFactor", 1, place);
+    double roughness = number(surface, "roughnessFactor", 1, place);
+    for (double* value : {&base[0], &base[1], &base[2], &metallic, &roughness})
+        *value = std::clamp(*value, 0.0, 1.0);
+    const auto describe = [&](const std::string& called, double metallicness, double rough) {
+        return nlohmann::ordered_json{{"name", called},
+                                      {"model", "gltf"},
+                                      {"base_color", base},
+                                      {"metallic", metallicness},
+                                      {"roughness", rough}};
+    };
+    const auto print = [](const nlohmann::ordered_json& json) {
+        return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    };
+    const Json& info = findObject(surface, "metallicRoughnessTexture", place);
+    const std::optional<size_t> texture = index(info, "index", place);
+    if (!texture) {
+        material.text = print(describe(name, metallic, roughness));
+        return;
+    }
+    const Texture image = readTexture(*texture, false);
+    const vec4 mean = meanOf(image);
+    material.text = print(describe(name, metallic * double(mean.z), roughness * double(mean.y)));
+    std::optional<MetalRoughnessMap> map = blendMetalRoughness(image, float(metallic), float(roughness));
+    if (!map || !placedTexture(surface, "metallicRoughnessTexture", place, material)) return;
+    nlohmann::ordered_json set = nlohmann::ordered_json::array();
+    for (const MetalRoughness& node : map->nodes)
+        set.push_back(describe(
+            fmt::format("{} (metallic {:.2f}, roughness {:.2f})", name, node.metallic, node.roughness),
+            double(node.metallic), double(node.roughness)));
+    material.blend = print({{"set", set}});
+    material.blendWeights = std::move(map->weights);
+}
+
+void GltfMaterials::readDetail(const Json& json, const std::string& place, GltfMaterial& material) {
+    material.normalMap = placedTexture(json, "normalTexture", place, material);
+    if (material.normalMap)
+        material.normalScale =
+            float(std::clamp(number(findObject(json, "normalTexture", place), "scale", 1, place),
+                             -double(kLargestNormalScale), double(kLargestNormalScale)));
+    const double strength =
+        number(findObject(findObject(json, "extensions", place), "KHR_materials_emissive_strength", place),
+               "emissiveStrength", 1, place);
+    const std::vector<double> emission = numbers(json, "emissiveFactor", {0, 0, 0}, place);
+    for (int channel = 0; channel < 3; channel++)
+        material.emission[channel] =
+            float(std::clamp(strength * emission[size_t(channel)], 0.0, double(kLargestEmission)));
+    if (material.emission == vec3(0)) return;
+    material.emissionMap = placedTexture(json, "emissiveTexture", place, material);
+    if (!material.emissionMap && find(json, "emissiveTexture", place)) material.emission = vec3(0);
+}
+
+std::optional<size_t> GltfMaterials::placedTexture(const Json& json, const char* key,
+                                                   const std::string& place, GltfMaterial& material) {
+    if (!find(json, key, place)) return std::nullopt;
+    const Json& info = findObject(json, key, place);
+    const std::optional<size_t> texture = index(info, "index", place);
+    if (!texture) return std::nullopt;
+    GltfPlacement placement{int(index(info, "texCoord", place).value_or(0))};
     const Json& extensions = findObject(info, "extensions", place);
-    if (!find(extensions, "KHR_texture_transform", place)) return;
-    const Json& transform = findObject(extensions, "KHR_texture_transform", place);
-    material.uvTransform = textureTransform(transform, place);
-    material.uvSet = int(index(transform, "texCoord", place).value_or(size_t(material.uvSet)));
+    if (find(extensions, "KHR_texture_transform", place)) {
+        const Json& transform = findObject(extensions, "KHR_texture_transform", place);
+        placement.uvTransform = textureTransform(transform, place);
+        placement.uvSet = int(index(transform, "texCoord", place).value_or(size_t(placement.uvSet)));
+    }
+    if (!material.placement) material.placement = placement;
+    if (*material.placement == placement) return texture;
+    ignore(
+        fmt::format("{} where its texture coordinates are not those of the material's first texture", key));
+    return std::nullopt;
 }
 
 void GltfMaterials::noteIgnored(const Json& json, const std::string& place) {
-    for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-        if (find(json, key, place)) ignore(key);
-    for (const double factor : numbers(json, "emissiveFactor", {0, 0, 0}, place))
-        if (factor > 0) ignore("emissiveFactor");
+    if (find(json, "occlusionTexture", place)) ignore("occlusionTexture (visibility is baked)");
     const std::string alpha = text(json, "alphaMode", place);
     if (!alpha.empty() && alpha != "OPAQUE") ignore("alphaMode " + alpha.substr(0, 20));
     for (const auto& [extension, value] : findObject(json, "extensions", place).items())
-        ignore(extension.substr(0, 60));
+        if (extension != "KHR_materials_emissive_strength") ignore(extension.substr(0, 60));
 }
 
 void GltfMaterials::noteSampler(const Json& texture, const std::string& place) {

@@ -13,12 +13,25 @@
 
 namespace relume {
 
+// Where the texels of a texture lie on a mesh.
+struct GltfPlacement {
+    int uvSet = 0;              // the N of TEXCOORD_N
+    mat3 uvTransform = mat3(1); // KHR_texture_transform, of (u, v, 1)
+
+    bool operator==(const GltfPlacement&) const = default;
+};
+
 struct GltfMaterial {
     std::string name;
-    std::string text;                // {"model": "gltf", "base_color", "metallic", "roughness"}, linear
-    std::optional<size_t> baseColor; // number of the texture that multiplies base_color
-    int uvSet = 0;                   // of that texture
-    mat3 uvTransform = mat3(1);      // KHR_texture_transform, of (u, v, 1)
+    std::string text; // {"model": "gltf", "base_color", "metallic", "roughness"}, linear
+    std::optional<GltfPlacement> placement; // of all its textures; none: it has none
+    std::optional<size_t> baseColor;        // number of the texture that multiplies base_color
+    // Where metalness or roughness vary: a set of materials, and the texture of their weights.
+    std::string blend;
+    std::optional<Texture> blendWeights = std::nullopt;
+    std::optional<size_t> normalMap, emissionMap;
+    float normalScale = 1;
+    vec3 emission = vec3(0);
 };
 
 class GltfMaterials {
@@ -27,7 +40,7 @@ class GltfMaterials {
     GltfMaterials(const GltfDocument& document, const std::filesystem::path& folder, const std::string& name)
         : mDocument(document), mFolder(folder), mName(name) {}
 
-    // The material of this number, or glTF's default for -1. Its metallic-roughness texture is averaged.
+    // The material of this number, or glTF's default for -1.
     const GltfMaterial& at(int index);
 
     // The image of texture number `index`.
@@ -44,7 +57,13 @@ class GltfMaterials {
     using Json = nlohmann::json;
 
     GltfMaterial read(int index);
-    void readBaseColorTexture(const Json& info, const std::string& place, GltfMaterial& material);
+    // The number of a texture that lies where the material's others do; none, too, if it does not.
+    std::optional<size_t> placedTexture(const Json& json, const char* key, const std::string& place,
+                                        GltfMaterial& material);
+    void readDetail(const Json& json, const std::string& place, GltfMaterial& material);
+    // `name`: of the material, without control characters.
+    void readMetalRoughness(const Json& surface, const std::string& place, const std::string& name,
+                            GltfMaterial& material);
     void noteIgnored(const Json& json, const std::string& place);
     void noteSampler(const Json& texture, const std::string& place);
     std::vector<std::byte> readImageBytes(const Json& image, const std::string& place);

@@ -5,6 +5,7 @@
 
 #include "engine/import/input_file.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/surface_detail.h"
 #include "engine/scene/texture.h"
 
 #include <cstddef>
@@ -32,10 +33,13 @@ Mesh decodeGltf(std::span<const std::byte> bytes, const std::filesystem::path& f
 // The triangles of a glTF file that share a material.
 struct GltfPart {
     std::string name; // the material's, or "material N"; no two are equal
-    Mesh mesh;        // with uvs if there is a texture
-    std::string
-        material; // {"model": "gltf", "base_color": [r, g, b], "metallic", "roughness"}, linear, in [0, 1]
-    std::optional<Texture> baseColor; // sRGB, multiplies base_color
+    Mesh mesh;        // with uvs if there is a texture, with colors if it has any
+    // {"model": "gltf", "base_color": [r, g, b], "metallic", "roughness"}, linear, in [0, 1]; or a set of
+    // those that materialMap weighs.
+    std::string material;
+    std::optional<Texture> baseColor;   // sRGB, multiplies base_color, as mesh.colors do
+    std::optional<Texture> materialMap; // weights of the set
+    SurfaceDetail detail;
 };
 
 struct GltfParts {
@@ -43,8 +47,7 @@ struct GltfParts {
     std::vector<InputFile> images; // files that were read
 };
 
-// The same, in parts of one material each, cleaned up. A texture of metalness and roughness is averaged; what
-// else is not supported is ignored, and the log says so.
+// The same, in parts of one material each, cleaned up. What is not supported is ignored, and the log says so.
 GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                           const std::string& name);
 

@@ -42,7 +42,11 @@ std::vector<Part> loadOwnParts(const std::string& mesh, UpAxis up) {
     GltfParts file = decodeGltfParts(bytes, path.parent_path(), mesh);
     std::vector<Part> parts;
     for (GltfPart& own : file.parts) {
-        parts.push_back({own.name, std::move(own.mesh), own.material, mesh, hash, std::move(own.baseColor)});
+        const bool isTinted = !own.mesh.colors.empty();
+        parts.push_back({own.name, std::move(own.mesh), own.material, mesh, hash, std::move(own.baseColor),
+                         std::move(own.materialMap)});
+        parts.back().tintedByColors = isTinted;
+        parts.back().detail = std::move(own.detail);
         if (up == UpAxis::Z) turnZUp(parts.back().mesh);
     }
     parts.front().textureFiles = std::move(file.images);

@@ -4,6 +4,7 @@
 #include "engine/import/ground.h"
 #include "engine/import/input_file.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/surface_detail.h"
 #include "engine/scene/texture.h"
 
 #include <filesystem>
@@ -27,8 +28,10 @@ struct Part {
     std::string sourceHash; // hashText of that file's bytes; empty for built-in meshes.
     std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs; multiplies the material's base colour.
     std::optional<Texture> materialMap =
-        std::nullopt;                          // By mesh.uvs: weights of the set's first four materials.
-    bool paintedByColors = false;              // Whether mesh.colors are these weights instead.
+        std::nullopt;             // By mesh.uvs: weights of the set's first four materials.
+    bool paintedByColors = false; // Whether mesh.colors are these weights instead.
+    bool tintedByColors = false;  // Whether mesh.colors multiply the material's base colour.
+    SurfaceDetail detail = {};
     std::filesystem::path materialFolder = {}; // Where relative paths in `material` start.
     std::vector<InputFile> textureFiles = {};  // What the textures came from, unless `source` holds them.
     float brushRotation = 0;    // Degrees that tangents are turned by about the normals, counter-clockwise.

@@ -11,7 +11,8 @@ std::vector<vec3> layerWeights(const AssetPart& part, size_t set, std::span<cons
             const vec4 paint = part.materialMap ? sample(*part.materialMap, uv) : color;
             weight *= paintWeights(paint, part.sets[set].materials.size())[layer.channel];
         }
-        if (layer.textured) weight *= vec3(sample(*part.baseColor, uv));
+        if (layer.textured && part.baseColor) weight *= vec3(sample(*part.baseColor, uv));
+        if (layer.textured && part.tintedByColors) weight *= vec3(color);
         weights.push_back(weight);
     }
     return weights;

@@ -112,8 +112,13 @@ float medianAreaOf(const Asset& asset) {
     return *middle;
 }
 
-// The least of the shader's ways that serves these layers.
-uint32_t lookOf(const std::vector<shared::ViewLayer>& layers) {
+shared::ViewDetail detailOf(const AssetPart& part) {
+    return {part.detail.emission, part.detail.normalMap ? part.detail.normalScale : 0, part.tintedByColors};
+}
+
+// The least of the shader's ways that serves these layers, and what else there is to see.
+uint32_t lookOf(const std::vector<shared::ViewLayer>& layers, bool isDetailed) {
+    if (isDetailed) return shared::kSurfaceLook;
     for (const shared::ViewLayer& layer : layers)
         if (layer.channel >= 0 || layer.isTextured) return shared::kSurfaceLook;
     return layers.size() == 1 ? shared::kSingleLook : shared::kLayersLook;
@@ -216,6 +221,12 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
         makeSurfaceTexture(mDevice, source.baseColor.value_or(white), source.name + " base colour");
     part.materialMap =
         makeSurfaceTexture(mDevice, source.materialMap.value_or(white), source.name + " material map");
+    part.normalMap =
+        makeSurfaceTexture(mDevice, source.detail.normalMap.value_or(white), source.name + " normal map");
+    part.emissionMap =
+        makeSurfaceTexture(mDevice, source.detail.emissionMap.value_or(white), source.name + " emission map");
+    part.detail = detailOf(source);
+    part.isDetailed = source.detail.isAny();
     size_t mostLayers = 1;
     for (const MaterialSet& set : source.sets) {
         RELUME_CHECK_EQ(size_t(verticesOf(set.transport)), source.mesh.vertexCount());
@@ -223,8 +234,8 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
         part.sets.back().hasTangents = !source.mesh.tangents.empty();
         mostLayers = std::max(mostLayers, 2 * set.materials.size());
     }
-    part.layers = vk::Buffer(mDevice, mostLayers * sizeof(shared::ViewLayer), vk::BufferUse::Device,
-                             source.name + " worn layers");
+    part.layers = vk::Buffer(mDevice, sizeof(shared::ViewDetail) + mostLayers * sizeof(shared::ViewLayer),
+                             vk::BufferUse::Device, source.name + " worn layers");
     return part;
 }
 
@@ -253,7 +264,7 @@ void ViewPass::setAppearance(const Appearance& appearance) {
         for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
             part.wornLayers.push_back({uint32_t(layer.layer) * wornSet(part).viewMaps.imagesPerLayer,
                                        layer.channel, layer.textured, layer.weight, 0, 0});
-        part.look = lookOf(part.wornLayers);
+        part.look = lookOf(part.wornLayers, part.isDetailed);
     }
 }
 
@@ -422,6 +433,7 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
             const uint32_t kernel = relighter.spheres().kernel(residual->layers[number].get());
             layer.firstSlot = kernel * shared::kGridNodes;
             layer.harmonics = uint32_t(residual->layers[number]->harmonics);
+            layer.mostOfFlat = part.isDetailed ? concentrationOf(*residual->layers[number]) : 1;
             kernels.insert(kernel);
         }
     }
@@ -471,7 +483,9 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                    vk::Binding::texelsOf(spheres.slots(), VK_FORMAT_R32_UINT),
                    vk::Binding::texelsOf(spheres.grid(), VK_FORMAT_R32G32B32A32_SFLOAT),
                    {spheres.tuples(), mPolarSampler},
-                   vk::Binding::texelsOf(spheres.weights(), VK_FORMAT_R32G32B32A32_SFLOAT)},
+                   vk::Binding::texelsOf(spheres.weights(), VK_FORMAT_R32G32B32A32_SFLOAT),
+                   {part.normalMap, mSurfaceSampler},
+                   {part.emissionMap, mSurfaceSampler}},
                   push);
     commands.setStencil(pixels == Pixels::Edges ? kEdgeBit : stencilOf(part));
     commands.draw(6);
@@ -499,7 +513,13 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
     if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)
-        if (!part.wornLayers.empty()) commands.update(part.layers, std::as_bytes(std::span(part.wornLayers)));
+        if (!part.wornLayers.empty()) {
+            const auto detail = std::as_bytes(std::span(&part.detail, 1));
+            const auto layers = std::as_bytes(std::span(part.wornLayers));
+            std::vector<std::byte> bytes(detail.begin(), detail.end());
+            bytes.insert(bytes.end(), layers.begin(), layers.end());
+            commands.update(part.layers, bytes);
+        }
     commands.barrier(Stage::Transfer, Stage::Draw);
     commands.pass("view", [&] {
         if (mDrawn != frame) {

@@ -88,9 +88,11 @@ class ViewPass {
         TriangleClusters clusters;
         uint32_t firstSurface = 0, surfaces = 0; // triangles, numbered over all parts from 1 on
         uint32_t paint = 0;                      // how it is painted where it is
-        vk::Image baseColor, materialMap;
+        vk::Image baseColor, materialMap, normalMap, emissionMap;
+        shared::ViewDetail detail;
+        bool isDetailed; // by detail
         std::vector<Set> sets;
-        vk::Buffer layers; // shared::ViewLayer, as many as can be worn
+        vk::Buffer layers; // shared::ViewDetail, and shared::ViewLayer, as many as can be worn
         PartAppearance worn;
         uint32_t look = 0; // what that asks of the shader
         std::vector<shared::ViewLayer> wornLayers;

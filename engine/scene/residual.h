@@ -29,6 +29,11 @@ struct SphereKernel {
     size_t valueCount() const { return size_t(components()) * shared::kSphereRings * shared::kSphereRings; }
 };
 
+// Returns the largest value of the kernel of a surface that faces the eye, over the mean of all directions:
+// how much brighter one light can make it than even light of the same energy. 4 of a diffuse one, hundreds of
+// a polished one.
+float concentrationOf(const SphereKernel& kernel);
+
 // The residual of a set of materials.
 struct ResidualSet {
     // One kernel per layer of the set's view maps.

@@ -4,7 +4,7 @@
 #include "engine/scene/factored_brdf.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/residual.h"
-#include "engine/scene/texture.h"
+#include "engine/scene/surface_detail.h"
 #include "engine/transport/transport.h"
 
 #include <filesystem>
@@ -48,7 +48,11 @@ struct AssetPart {
     // themselves.
     std::optional<Texture> materialMap = std::nullopt;
     bool paintedByColors = false;
+    bool tintedByColors = false; // mesh.colors multiply materials' bases, and baseColor where there is one
+    SurfaceDetail detail = {};
 
+    // Whether something multiplies the base of materials.
+    bool hasBaseColor() const { return baseColor || tintedByColors; }
     bool isPainted() const { return materialMap || paintedByColors; }
 };
 

@@ -12,7 +12,8 @@ constexpr ChunkTag kMeta = chunkTag("META");
 constexpr ChunkTag kOccluderPositions = chunkTag("OPOS"), kOccluderTriangles = chunkTag("OTRI");
 constexpr ChunkTag kPositions = chunkTag("MPOS"), kNormals = chunkTag("MNRM"), kTriangles = chunkTag("MTRI"),
                    kUvs = chunkTag("MUVS"), kColors = chunkTag("MCOL"), kTangents = chunkTag("MTAN");
-constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP");
+constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP"),
+                   kNormalMap = chunkTag("TNRM"), kEmissionMap = chunkTag("TEMI");
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kResidualKernels = chunkTag("RKER"), kIrradianceWeights = chunkTag("RIRR");
@@ -38,6 +39,8 @@ void forEachArray(const Asset& asset, const Array& array, const Transport& trans
         array(kTangents, number, part.mesh.tangents);
         if (part.baseColor) array(kBaseColor, number, part.baseColor->texels);
         if (part.materialMap) array(kMaterialMap, number, part.materialMap->texels);
+        if (part.detail.normalMap) array(kNormalMap, number, part.detail.normalMap->texels);
+        if (part.detail.emissionMap) array(kEmissionMap, number, part.detail.emissionMap->texels);
         for (const MaterialSet& set : part.sets) {
             array(kLightMaps, setNumber, set.brdf.lightMaps);
             array(kViewMaps, setNumber, set.brdf.viewMaps);

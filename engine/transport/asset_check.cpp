@@ -109,6 +109,15 @@ void checkPaint(const AssetPart& part, const std::string& where) {
            where, "vertex colours in [0, 1]");
     if (part.baseColor) checkTexture(*part.baseColor, mesh, where);
     if (part.materialMap) checkTexture(*part.materialMap, mesh, where);
+    expect(!part.tintedByColors || (!mesh.colors.empty() && !part.paintedByColors), where,
+           "vertex colours that do not paint, where they tint");
+    const SurfaceDetail& detail = part.detail;
+    if (detail.normalMap) checkTexture(*detail.normalMap, mesh, where);
+    if (detail.emissionMap) checkTexture(*detail.emissionMap, mesh, where);
+    expect(std::abs(detail.normalScale) <= kLargestNormalScale, where, "a scale of normals of -100 to 100");
+    expect(glm::all(glm::greaterThanEqual(detail.emission, vec3(0))) &&
+               glm::all(glm::lessThanEqual(detail.emission, vec3(kLargestEmission))),
+           where, "an emission of 0 to 1e6");
     expect(!part.paintedByColors || (!mesh.colors.empty() && !part.materialMap), where,
            "vertex colours, and no material map, where colours paint");
 }
@@ -125,7 +134,7 @@ void checkMaterials(const AssetPart& part, const std::string& where) {
             layer += material.layers();
             expect(std::ranges::none_of(material.name, [](char c) { return uint8_t(c) < 0x20 || c == 0x7f; }),
                    where, "material names without control characters");
-            expect(!material.hasBase || part.baseColor, where, "a base colour texture for a material's base");
+            expect(!material.hasBase || part.hasBaseColor(), where, "a base colour for a material's base");
         }
         expectRange(set.brdf.layers, layer, layer, where, "layers of view maps");
     }

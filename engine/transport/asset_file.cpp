@@ -19,8 +19,8 @@ namespace relume {
 namespace {
 
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
-constexpr ChunkTag kPartTags[] = {kPositions, kNormals,  kTriangles, kUvs,
-                                  kColors,    kTangents, kBaseColor, kMaterialMap};
+constexpr ChunkTag kPartTags[] = {kPositions, kNormals,   kTriangles,   kUvs,       kColors,
+                                  kTangents,  kBaseColor, kMaterialMap, kNormalMap, kEmissionMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
 constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kResidualKernels, kIrradianceWeights};
 
@@ -75,6 +75,8 @@ void readPart(const ChunkFile& file, uint32_t number, const AssetPartSizes& size
     };
     if (part.baseColor) readTexels(kBaseColor, *part.baseColor);
     if (part.materialMap) readTexels(kMaterialMap, *part.materialMap);
+    if (part.detail.normalMap) readTexels(kNormalMap, *part.detail.normalMap);
+    if (part.detail.emissionMap) readTexels(kEmissionMap, *part.detail.emissionMap);
 }
 
 void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {

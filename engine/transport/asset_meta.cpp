@@ -4,6 +4,7 @@
 #include "engine/chunk/byte_stream.h"
 #include "engine/transport/asset_check.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
@@ -149,6 +150,17 @@ void writeTexture(FieldWriter& out, const std::optional<Texture>& texture) {
     out.flag(texture->srgb);
 }
 
+// Whether it has what came within version 3.
+bool isDetailed(const AssetPart& part) { return part.tintedByColors || part.detail.isAny(); }
+
+void writeDetail(FieldWriter& out, const AssetPart& part) {
+    out.flag(part.tintedByColors);
+    writeTexture(out, part.detail.normalMap);
+    if (part.detail.normalMap) out.real(part.detail.normalScale);
+    for (int channel = 0; channel < 3; channel++) out.real(part.detail.emission[channel]);
+    writeTexture(out, part.detail.emissionMap);
+}
+
 void writePart(FieldWriter& out, const AssetPart& part, const AssetPartSizes& sizes) {
     out.text(part.name);
     out.whole(sizes.vertices);
@@ -178,6 +190,14 @@ std::optional<Texture> readTexture(FieldReader& in, const char* field) {
     texture.height = in.integer(field, 1, kLongestTextureSide);
     texture.srgb = in.flag(field);
     return texture;
+}
+
+void readDetail(FieldReader& in, AssetPart& part) {
+    part.tintedByColors = in.flag("tintedByColors");
+    part.detail.normalMap = readTexture(in, "normalMap");
+    if (part.detail.normalMap) part.detail.normalScale = in.real("normalScale");
+    for (int channel = 0; channel < 3; channel++) part.detail.emission[channel] = in.real("emission");
+    part.detail.emissionMap = readTexture(in, "emissionMap");
 }
 
 // `before`: those of all sets that came before, of whatever part. Kernels have no values yet.
@@ -269,7 +289,10 @@ std::vector<std::byte> encodeMeta(const Asset& asset, const AssetSizes& sizes,
     out.flag(provenance.bakedShare.has_value());
     if (provenance.bakedShare) out.real(*provenance.bakedShare);
     out.text(visibilityKey);
-    if (asset.bounces > 0) out.whole(uint64_t(asset.bounces));
+    const bool hasDetails = std::ranges::any_of(asset.parts, isDetailed);
+    if (asset.bounces > 0 || hasDetails) out.whole(uint64_t(asset.bounces));
+    if (hasDetails)
+        for (const AssetPart& part : asset.parts) writeDetail(out, part);
     std::vector<std::byte> bytes = out.take();
     if (bytes.size() > kLargestMeta)
         throw Error(fmt::format(
@@ -330,7 +353,15 @@ AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name) 
         (meta.visibilityKey.size() != kVisibilityKeyDigits ||
          meta.visibilityKey.find_first_not_of("0123456789abcdef") != std::string::npos))
         in.fail("visibilityKey", fmt::format("{} hexadecimal digits", kVisibilityKeyDigits));
-    if (in.left() > 0) asset.bounces = in.integer("bounces", 1, kMostBounces);
+    if (in.left() > 0) {
+        asset.bounces = in.integer("bounces", 0, kMostBounces);
+        if (in.left() > 0) {
+            for (AssetPart& part : asset.parts) readDetail(in, part);
+            if (std::ranges::none_of(asset.parts, isDetailed)) in.fail("details", "some of a part, or none");
+        } else if (asset.bounces == 0) {
+            in.fail("bounces", "more than 0, or details");
+        }
+    }
     if (in.left() > 0) in.fail("end", "no more bytes");
     return meta;
 }

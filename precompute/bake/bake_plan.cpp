@@ -119,10 +119,10 @@ void makeParts(std::vector<Part> parts, BakePlan& plan, BakeObserver& observer) 
     MaterialFactory materials(options.factorization, options.mapSize, options.mapping);
     for (Part& part : parts) {
         std::vector<MaterialSet> sets =
-            materials.make(part.material, part.materialFolder, part.baseColor.has_value());
+            materials.make(part.material, part.materialFolder, part.baseColor || part.tintedByColors);
         plan.asset.parts.push_back({part.name, std::move(part.mesh), std::move(sets),
                                     std::move(part.baseColor), std::move(part.materialMap),
-                                    part.paintedByColors});
+                                    part.paintedByColors, part.tintedByColors, std::move(part.detail)});
         checkPaint(plan.asset.parts.back());
         setTangents(plan.asset.parts.back(), part.brushRotation, brushed, observer);
     }
@@ -286,7 +286,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
         AssetPart& part = plan.asset.parts[number];
         if (materials[number].empty() && isFactoredSo) continue;
         const std::string text = materials[number].empty() ? materialsOf(part) : materials[number];
-        part.sets = factory.make(text, {}, part.baseColor.has_value());
+        part.sets = factory.make(text, {}, part.hasBaseColor());
         checkPaint(part);
         if (part.mesh.tangents.empty() || !brushed.has(part)) setTangents(part, 0, brushed, observer);
     }

@@ -108,7 +108,7 @@ void compareArrays(const ShardFile& first, const ShardFile& other, std::vector<s
         return checksums(first) != checksums(other);
     };
     if (differ({kPositions, kNormals, kTriangles, kUvs, kColors, kTangents})) found.push_back("the meshes");
-    if (differ({kBaseColor, kMaterialMap})) found.push_back("the textures");
+    if (differ({kBaseColor, kMaterialMap, kNormalMap, kEmissionMap})) found.push_back("the textures");
     if (differ({kOccluderPositions, kOccluderTriangles})) found.push_back("the occluder");
     if (differ({kLightMaps, kViewMaps, kEigenvalues})) found.push_back("the materials' factors");
 }

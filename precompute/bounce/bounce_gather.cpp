@@ -68,6 +68,17 @@ vec3 sourceGain(vec3 reflectedShare) {
     return gain;
 }
 
+std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound) {
+    std::vector<std::vector<vec3>> gains;
+    for (size_t part = 0; part < asset.parts.size(); part++) {
+        gains.emplace_back();
+        for (const WornLayer& worn : wornLayers(asset.parts[part], bound[part]))
+            gains.back().push_back(
+                sourceGain(reflectedShare(asset.parts[part].sets[bound[part].set].brdf, worn.layer)));
+    }
+    return gains;
+}
+
 // A surface that a ray meets: the vertex whose rows stand for it, and how much of each is seen.
 struct BounceGather::Hit {
     size_t part;
@@ -92,15 +103,13 @@ struct BounceGather::Room {
 };
 
 BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
-    : mAsset(asset), mBound(bound), mTracer(meshesOf(asset)) {
+    : mAsset(asset), mBound(bound), mGains(sourceGains(asset, bound)), mTracer(meshesOf(asset)) {
     for (size_t part = 0; part < asset.parts.size(); part++) {
         mLayers.push_back(wornLayers(asset.parts[part], bound[part]));
-        std::vector<vec3>& gains = mGains.emplace_back();
-        for (const WornLayer& worn : mLayers.back()) {
-            const vec3 share = reflectedShare(asset.parts[part].sets[bound[part].set].brdf, worn.layer);
-            gains.push_back(sourceGain(share));
-            if (gains.back() != vec3(1))
-                mHeld.push_back({part, worn.layer, std::max({share.x, share.y, share.z})});
+        for (size_t i = 0; i < mLayers[part].size(); i++) {
+            const vec3 gain = mGains[part][i];
+            if (gain != vec3(1))
+                mHeld.push_back({part, mLayers[part][i].layer, 1 / std::min({gain.x, gain.y, gain.z})});
         }
     }
 }

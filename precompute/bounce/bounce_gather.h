@@ -37,6 +37,9 @@ vec3 reflectedShare(const FactoredBrdf& brdf, int layer);
 // to 1, so that bounces die out.
 vec3 sourceGain(vec3 reflectedShare);
 
+// Returns those of the layers that parts wear in `bound`, per part.
+std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound);
+
 class BounceGather {
   public:
     // Every part lights others as it looks in `bound`, times its sourceGain(). Refers to `asset`, of whose
@@ -68,8 +71,8 @@ class BounceGather {
 
     const Asset& mAsset;
     Appearance mBound;
+    std::vector<std::vector<vec3>> mGains;       // sourceGains()
     std::vector<std::vector<WornLayer>> mLayers; // per part: what lights others
-    std::vector<std::vector<vec3>> mGains;       // per part and layer: what its view maps are multiplied by
     std::vector<HeldLayer> mHeld;
     RayTracer mTracer; // one mesh per part
 };

@@ -178,7 +178,7 @@ std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance
     tbb::parallel_for(size_t(0), list.size(), [&](size_t i) {
         const SurfacePoint point = dressed.pointAt(*list[i].hit, list[i].eye);
         std::vector<uint64_t> bits(visibility.texels() / 64);
-        visibility.trace(point.position + offset * point.frame.n, point.frame.n, bits);
+        visibility.trace(point.position + offset * point.normal, point.normal, bits);
         glm::dvec3 sum(0);
         for (size_t cell = 0; cell < cells.count(); cell++) {
             if (!(bits[cell / 64] >> (cell % 64) & 1)) continue;
@@ -235,12 +235,16 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
     for (size_t i = 0; i < list.size(); i++) {
         const RayHit& hit = *list[i].hit;
         const SurfacePoint point = dressed.pointAt(hit, list[i].eye);
-        const std::vector<vec3> views = viewsAt(asset, appearance, hit.mesh, point);
+        const SurfacePoint baked = dressed.bakedPointAt(hit, list[i].eye);
+        const std::vector<vec3> views = viewsAt(asset, appearance, hit.mesh, baked);
         const std::vector<ResidualSet>& ofPrefixes = prefixes[hit.mesh];
         UnshadowedLight unshadowed;
         if (!ofPrefixes.empty())
             unshadowed =
-                sumUnshadowed(transport, point, wornFactors(asset, appearance, hit.mesh), {&cube, 1}).front();
+                sumUnshadowed(transport, point, baked,
+                              point.frame.n == baked.frame.n ? baked : dressed.limitPointAt(hit, list[i].eye),
+                              wornFactors(asset, appearance, hit.mesh), {&cube, 1})
+                    .front();
         std::array<std::vector<vec3>, kRungs> tuples;
         for (size_t rung = 0; rung < kRungs; rung++)
             tuples[rung] = tupleAt(vertices, asset, hit, rung, views.size());

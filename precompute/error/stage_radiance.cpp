@@ -146,22 +146,23 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
     return tuples;
 }
 
-StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& point) const {
+StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& baked) const {
     const AssetPart& part = mAsset.parts[number];
     const MaterialSet& set = part.sets[mAppearance[number].set];
     const FactoredBrdf& brdf = set.brdf;
     const ResidualSet* residual = mOptions.addsResidual ? set.residual.get() : nullptr;
-    Wear wear{&brdf, wornLayers(part, mAppearance[number]), point.layerWeights(), {}, residual};
-    wear.views = pointViews(brdf, wear.layers, wear.weights, point.outgoing);
+    Wear wear{&brdf, wornLayers(part, mAppearance[number]), baked.layerWeights(), {}, residual};
+    wear.views = pointViews(brdf, wear.layers, wear.weights, baked.outgoing);
     return wear;
 }
 
-std::vector<UnshadowedLight> StageTracer::unshadowedAt(const SurfacePoint& point, const Wear& wear,
+std::vector<UnshadowedLight> StageTracer::unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
+                                                       const SurfacePoint& limit, const Wear& wear,
                                                        std::span<const Light> lights) const {
     if (!wear.residual) return std::vector<UnshadowedLight>(lights.size());
     std::vector<std::span<const vec3>> cubes;
     for (const Light& light : lights) cubes.emplace_back(light.coarse);
-    return sumUnshadowed(mBaked, point, *wear.brdf, cubes);
+    return sumUnshadowed(mBaked, point, baked, limit, *wear.brdf, cubes);
 }
 
 void StageTracer::traceVertices(const RayHit& hit, const Wear& wear,
@@ -182,14 +183,18 @@ void StageTracer::traceVertices(const RayHit& hit, const Wear& wear,
 // The point's own direct transport: of the K terms, then of the whole table, then of the BRDF itself. Bounced
 // light is the vertices' still.
 std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const SurfacePoint& point,
-                                                 const Wear& wear,
+                                                 const SurfacePoint& own, const Wear& wear,
                                                  std::span<const UnshadowedLight> unshadowed,
                                                  const Vertices& vertices, std::span<const uint64_t> baked,
                                                  std::span<const Light> lights,
                                                  std::span<StageRadiance> result) const {
     const FactoredBrdf& brdf = *wear.brdf;
-    const std::vector<LitCell> lit = mBaked.lit(baked, point.frame);
-    const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping);
+    const std::vector<LitCell> lit = mBaked.lit(baked, own.frame),
+                               seen = point.frame.n == own.frame.n ? lit : mBaked.lit(baked, point.frame);
+    const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping),
+                                seenPlaces = point.frame.n == own.frame.n
+                                                 ? places
+                                                 : placesOf(seen, brdf.size, brdf.mapping);
     const std::vector<vec3> table = mTables[hit.mesh].lightMap(wear.layers, wear.weights, point.outgoing);
 
     constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 2;
@@ -202,12 +207,14 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
             for (size_t light = 0; light < lights.size(); light++)
                 tuples[light * terms + term] += glm::dvec3(map * lights[light].coarse[lit[i].texel]);
         }
-        const std::array<vec3, kStages> reflected = {lookupMap(table.data(), places[i]),
-                                                     point.reflected(lit[i].local)};
+    }
+    for (size_t i = 0; i < seen.size(); i++) {
+        const std::array<vec3, kStages> reflected = {lookupMap(table.data(), seenPlaces[i]),
+                                                     point.reflected(seen[i].local)};
         for (size_t light = 0; light < lights.size(); light++)
             for (size_t stage = 0; stage < kStages; stage++)
                 sums[light][stage] +=
-                    glm::dvec3(lit[i].weight * reflected[stage] * lights[light].coarse[lit[i].texel]);
+                    glm::dvec3(seen[i].weight * reflected[stage] * lights[light].coarse[seen[i].texel]);
     }
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
     std::vector<vec3> added;
@@ -232,9 +239,9 @@ void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t
                              std::span<const Light> lights, std::span<const vec3> bounced,
                              std::span<StageRadiance> result) const {
     std::vector<uint64_t> whole(mFull.texels() / 64), fine(mFullFine.texels() / 64);
-    const vec3 origin = point.position + mFullOffset * point.frame.n;
-    mFull.trace(origin, point.frame.n, whole);
-    mFullFine.trace(origin, point.frame.n, fine);
+    const vec3 origin = point.position + mFullOffset * point.normal;
+    mFull.trace(origin, point.normal, whole);
+    mFullFine.trace(origin, point.normal, fine);
 
     // Four stages: evaluated finely, then fine light too, then the full mesh, then more rays.
     constexpr size_t kFirst = size_t(ErrorSource::Evaluation) + 1, kStages = 4;
@@ -308,14 +315,19 @@ StageTracer::trace(std::span<const RayHit> points, vec3 eye, std::span<const Sta
         const RayHit& hit = points[i];
         const SurfacePoint point = mDressed.pointAt(hit, eye);
         std::vector<StageRadiance> stages(lights.size());
-        const std::vector<uint64_t> baked = mBaked.visibility(point.position, point.frame.n);
-        const Wear wear = wearAt(hit.mesh, point);
-        const std::vector<UnshadowedLight> unshadowed = unshadowedAt(point, wear, lights);
+        const SurfacePoint own = mDressed.bakedPointAt(hit, eye);
+        const bool isMapped = point.frame.n != own.frame.n;
+        const std::vector<uint64_t> baked = mBaked.visibility(point.position, point.normal);
+        const Wear wear = wearAt(hit.mesh, own);
+        const std::vector<UnshadowedLight> unshadowed =
+            unshadowedAt(point, own, isMapped ? mDressed.limitPointAt(hit, eye) : own, wear, lights);
         traceVertices(hit, wear, unshadowed, vertices, stages);
         const std::vector<vec3> bounced =
-            traceOwnTransport(hit, point, wear, unshadowed, vertices, baked, lights, stages);
+            traceOwnTransport(hit, point, own, wear, unshadowed, vertices, baked, lights, stages);
         traceTruth(point, baked, lights, bounced, stages);
         tracePaths(point, uint32_t(i), lights, bounced, stages);
+        for (StageRadiance& ofLight : stages)
+            for (vec3& radiance : ofLight) radiance += point.emitted;
         for (size_t light = 0; light < lights.size(); light++) result[light][i] = stages[light];
         pointProgress.add();
     });

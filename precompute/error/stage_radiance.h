@@ -63,17 +63,19 @@ class StageTracer {
 
     Light prepare(const StageLight& light) const;
     Tuples vertexTuples(size_t part, uint32_t vertex, std::span<const Light> lights) const;
-    Wear wearAt(size_t part, const SurfacePoint& point) const;
+    // `baked`: the point in the frame of its transport.
+    Wear wearAt(size_t part, const SurfacePoint& baked) const;
     // Per light; of nothing where terms are drawn alone.
-    std::vector<UnshadowedLight> unshadowedAt(const SurfacePoint& point, const Wear& wear,
+    std::vector<UnshadowedLight> unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
+                                              const SurfacePoint& limit, const Wear& wear,
                                               std::span<const Light> lights) const;
     void traceVertices(const RayHit& hit, const Wear& wear, std::span<const UnshadowedLight> unshadowed,
                        const Vertices& vertices, std::span<StageRadiance> result) const;
     // Returns, per light, what baked bounces add to the estimate.
-    std::vector<vec3> traceOwnTransport(const RayHit& hit, const SurfacePoint& point, const Wear& wear,
-                                        std::span<const UnshadowedLight> unshadowed, const Vertices& vertices,
-                                        std::span<const uint64_t> baked, std::span<const Light> lights,
-                                        std::span<StageRadiance> result) const;
+    std::vector<vec3> traceOwnTransport(const RayHit& hit, const SurfacePoint& point, const SurfacePoint& own,
+                                        const Wear& wear, std::span<const UnshadowedLight> unshadowed,
+                                        const Vertices& vertices, std::span<const uint64_t> baked,
+                                        std::span<const Light> lights, std::span<StageRadiance> result) const;
     void traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked, std::span<const Light> lights,
                     std::span<const vec3> bounced, std::span<StageRadiance> result) const;
     // `number` tells the paths of one point from another's.

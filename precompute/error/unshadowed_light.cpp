@@ -4,18 +4,40 @@
 
 namespace relume {
 
+namespace {
+
+// The unshadowed radiance of a point, per light.
+std::vector<glm::dvec3> sumExact(std::span<const LitCell> lit, const SurfacePoint& point,
+                                 std::span<const std::span<const vec3>> lights) {
+    std::vector<glm::dvec3> exact(lights.size(), glm::dvec3(0));
+    for (const LitCell& cell : lit) {
+        const vec3 reflected = cell.weight * point.reflected(cell.local);
+        for (size_t light = 0; light < lights.size(); light++)
+            exact[light] += glm::dvec3(reflected * lights[light][cell.texel]);
+    }
+    return exact;
+}
+
+} // namespace
+
 std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, const SurfacePoint& point,
+                                           const SurfacePoint& baked, const SurfacePoint& limit,
                                            const FactoredBrdf& factors,
                                            std::span<const std::span<const vec3>> lights) {
     const std::vector<uint64_t> free(transport.visibilityWords(), ~uint64_t(0));
-    const std::vector<LitCell> lit = transport.lit(free, point.frame);
+    const std::vector<LitCell> lit = transport.lit(free, baked.frame);
     const std::vector<MapPlace> places = placesOf(lit, factors.size, factors.mapping);
     const auto terms = size_t(factors.terms);
-    std::vector<glm::dvec3> exact(lights.size()), tuples(lights.size() * terms);
-    for (size_t i = 0; i < lit.size(); i++) {
-        const vec3 reflected = lit[i].weight * point.reflected(lit[i].local);
+    std::vector<glm::dvec3> tuples(lights.size() * terms);
+    const bool isMapped = point.frame.n != baked.frame.n;
+    std::vector<glm::dvec3> exact =
+        sumExact(isMapped ? transport.lit(free, point.frame) : lit, point, lights);
+    if (isMapped) {
+        const std::vector<glm::dvec3> most = sumExact(lit, limit, lights);
         for (size_t light = 0; light < lights.size(); light++)
-            exact[light] += glm::dvec3(reflected * lights[light][lit[i].texel]);
+            exact[light] = glm::min(exact[light], most[light]);
+    }
+    for (size_t i = 0; i < lit.size(); i++) {
         for (size_t term = 0; term < terms; term++) {
             const vec3 map = lit[i].weight * lookupMap(factors.lightMap(int(term)), places[i]);
             for (size_t light = 0; light < lights.size(); light++)

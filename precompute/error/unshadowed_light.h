@@ -14,8 +14,11 @@ struct UnshadowedLight {
     std::vector<vec3> tuple; // per term of the factors
 };
 
-// Returns the sums for each light, which is 6 F² texels row by row.
+// Returns the sums for each light, which is 6 F² texels row by row. `baked`: the point in the
+// frame that the factors are of; `limit`: what limits it where a normal map gives another
+// (DressedAsset::limitPointAt).
 std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, const SurfacePoint& point,
+                                           const SurfacePoint& baked, const SurfacePoint& limit,
                                            const FactoredBrdf& factors,
                                            std::span<const std::span<const vec3>> lights);
 

@@ -18,8 +18,9 @@ void addRow(const SparseTransport& rows, uint32_t vertex, uint32_t term, vec3 fa
 }
 
 // The outgoing radiance of a hit against `direction`, in coefficients, times `factor`.
-void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const SparseTransport> from,
-                 const RayHit& hit, vec3 direction, vec3 factor, std::vector<vec3>& sum) {
+void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const std::vector<vec3>> gains,
+                 std::span<const SparseTransport> from, const RayHit& hit, vec3 direction, vec3 factor,
+                 std::vector<vec3>& sum) {
     const AssetPart& part = asset.parts[hit.mesh];
     const Mesh& mesh = part.mesh;
     const uvec3 corners = mesh.triangles[hit.triangle];
@@ -40,10 +41,9 @@ void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const Sp
     const std::vector<WornLayer> layers = wornLayers(part, bound[hit.mesh]);
     const std::vector<vec3> shares = layerWeights(part, set, layers, uv, color);
     for (size_t i = 0; i < layers.size(); i++) {
-        const vec3 gain = sourceGain(reflectedShare(brdf, layers[i].layer));
         for (int term = 0; term < brdf.terms; term++) {
             const vec3 view =
-                gain * shares[i] *
+                gains[hit.mesh][i] * shares[i] *
                 lookupMap(brdf.viewMap(layers[i].layer, term), brdf.size, brdf.mapping, outgoing);
             for (int corner = 0; corner < 3; corner++)
                 addRow(from[hit.mesh], corners[corner], uint32_t(term), factor * hit.weights[corner] * view,
@@ -54,7 +54,8 @@ void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const Sp
 
 } // namespace
 
-std::vector<vec3> bouncedVector(const Asset& asset, const Appearance& bound, const RayTracer& tracer,
+std::vector<vec3> bouncedVector(const Asset& asset, const Appearance& bound,
+                                std::span<const std::vector<vec3>> gains, const RayTracer& tracer,
                                 std::span<const SparseTransport> from, size_t part, uint32_t vertex,
                                 size_t set, int term, int size) {
     const Mesh& mesh = asset.parts[part].mesh;
@@ -71,7 +72,7 @@ std::vector<vec3> bouncedVector(const Asset& asset, const Appearance& bound, con
         if (!hit || !meetsFront(asset.parts[hit->mesh].mesh, *hit, direction)) continue;
         const vec3 light = lookupMap(brdf.lightMap(term), brdf.size, brdf.mapping, incoming) * incoming.z *
                            cubeTexelSolidAngle(x, y, size);
-        addOutgoing(asset, bound, from, *hit, direction, light, sum);
+        addOutgoing(asset, bound, gains, from, *hit, direction, light, sum);
     }
     return sum;
 }

@@ -9,8 +9,10 @@ namespace relume {
 
 // Returns the coefficients, kBounceCoefficients, of what BounceGather gives a vertex's term in a set, before
 // any are dropped: a sum over the centers of 6 · size² texels of directions, of the rows of all three corners
-// of what each meets. `from`: as for BounceGather::gather(). `tracer`: of the asset's partMeshes().
-std::vector<vec3> bouncedVector(const Asset& asset, const Appearance& bound, const RayTracer& tracer,
+// of what each meets. `from`: as for BounceGather::gather(). `gains`: sourceGains(). `tracer`: of the asset's
+// partMeshes().
+std::vector<vec3> bouncedVector(const Asset& asset, const Appearance& bound,
+                                std::span<const std::vector<vec3>> gains, const RayTracer& tracer,
                                 std::span<const SparseTransport> from, size_t part, uint32_t vertex,
                                 size_t set, int term, int size);
 

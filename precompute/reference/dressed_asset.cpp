@@ -3,6 +3,8 @@
 #include "engine/base/check.h"
 #include "engine/render/layer_weights.h"
 
+#include <algorithm>
+
 namespace relume {
 
 std::vector<const Mesh*> partMeshes(const Asset& asset) {
@@ -31,7 +33,7 @@ std::vector<vec3> SurfacePoint::layerWeights() const {
 
 DressedAsset::DressedAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind,
                            MaterialBrdfs& brdfs)
-    : mAsset(&asset) {
+    : mAsset(&asset), mIsExact(kind == ReferenceBrdf::Exact) {
     RELUME_CHECK_EQ(appearance.size(), asset.parts.size());
     for (size_t i = 0; i < asset.parts.size(); i++) {
         const size_t worn = appearance[i].set;
@@ -44,7 +46,14 @@ DressedAsset::DressedAsset(const Asset& asset, const Appearance& appearance, Ref
     }
 }
 
-SurfacePoint DressedAsset::pointAt(const RayHit& hit, vec3 eye) const {
+// Returns a mapped normal, turned towards the eye where it would look away from it. GLSL twin:
+// shaders/lib/normal_map.glsl.
+static vec3 facingNormal(vec3 normal, vec3 view) {
+    constexpr float kLeastCosine = 0.05f;
+    return glm::normalize(normal + std::max(kLeastCosine - glm::dot(normal, view), 0.0f) * view);
+}
+
+SurfacePoint DressedAsset::pointAt(const RayHit& hit, vec3 eye, bool isMapped) const {
     const AssetPart& source = mAsset->parts[hit.mesh];
     const Mesh& mesh = source.mesh;
     const uvec3 corners = mesh.triangles[hit.triangle];
@@ -53,22 +62,34 @@ SurfacePoint DressedAsset::pointAt(const RayHit& hit, vec3 eye) const {
                hit.weights.z * values[corners.z];
     };
     const vec3 position = interpolate(mesh.positions);
-    const vec3 normal = interpolate(mesh.normals);
+    const vec3 sum = interpolate(mesh.normals);
     // Opposite normals can cancel out on a fold.
-    const bool isCancelled = glm::dot(normal, normal) < 1e-12f;
+    const vec3 normal = glm::dot(sum, sum) < 1e-12f ? mesh.normals[corners.x] : glm::normalize(sum);
     const vec3 tangent = mesh.tangents.empty() ? vec3(0) : interpolate(mesh.tangents);
-    const TangentFrame frame =
-        tangentFrame(isCancelled ? mesh.normals[corners.x] : glm::normalize(normal), tangent);
-    const vec3 outgoing = liftAboveHorizon(frame.toLocal(glm::normalize(eye - position)));
     const vec2 uv = mesh.uvs.empty() ? vec2(0) : interpolate(mesh.uvs);
     const vec4 color = mesh.colors.empty() ? vec4(0) : interpolate(mesh.colors);
+    const vec3 view = glm::normalize(eye - position);
+    const bool hasMap = isMapped && source.detail.normalMap && source.detail.normalScale != 0;
+    const vec3 seen =
+        hasMap ? facingNormal(detailedNormal(source.detail, normal, mesh, corners, uv), view) : normal;
+    const TangentFrame frame = tangentFrame(seen, tangent);
+    const vec3 outgoing = liftAboveHorizon(frame.toLocal(view));
 
-    SurfacePoint point{position, frame, outgoing, {}};
+    SurfacePoint point{position, normal, frame, outgoing, {}, emittedRadiance(source.detail, uv)};
     const Part& part = mParts[hit.mesh];
     const std::vector<vec3> weights = layerWeights(source, part.set, part.layers, uv, color);
     point.layers.reserve(weights.size());
     for (size_t i = 0; i < weights.size(); i++)
         point.layers.push_back({weights[i], part.brdfs[i].seenFrom(outgoing)});
+    return point;
+}
+
+SurfacePoint DressedAsset::limitPointAt(const RayHit& hit, vec3 eye) const {
+    SurfacePoint point = bakedPointAt(hit, eye);
+    const Part& part = mParts[hit.mesh];
+    const ResidualSet* residual = mAsset->parts[hit.mesh].sets[part.set].residual.get();
+    for (size_t i = 0; residual && i < point.layers.size(); i++)
+        point.layers[i].weight *= concentrationOf(*residual->layers[size_t(part.layers[i].layer)]);
     return point;
 }
 

@@ -16,7 +16,7 @@ void sampleBounces(const PathScene& scene, const SurfacePoint& point, std::span<
         if (throughput == vec3(0)) break;
         const vec3 direction = at.frame.toWorld(incoming);
         const std::optional<RayHit> hit =
-            scene.surfaces.intersect(at.position + scene.shadowOffset * at.frame.n, direction);
+            scene.surfaces.intersect(at.position + scene.shadowOffset * at.normal, direction);
         if (!hit || !meetsFront(*scene.meshes[hit->mesh], *hit, direction)) break;
         at = scene.asset.pointAt(*hit, at.position);
         sum += throughput * sampleReflection(at, scene.light, scene.occluder, scene.shadowOffset, random);

@@ -74,7 +74,7 @@ void ProgressiveReference::sampleRow(int y) {
         if (!hit) continue;
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
         const SurfacePoint point = mDressed->pointAt(*hit, mCamera.eye);
-        mSample[pixel] = sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
+        mSample[pixel] = point.emitted + sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
         if (mKind != ReferenceBrdf::Exact) continue;
         std::array<vec3, kMostBounces> byBounces{};
         sampleBounces({*mDressed, mTracer, mTracer, mMeshes, *mLight, mShadowOffset}, point,

@@ -93,7 +93,8 @@ vec4 Renderer::pixelAt(int x, int y) const {
         if (!(share > 0)) continue;
         vec3 radiance = radianceAt(**hit);
         if (bounced) radiance += bouncedRadiance(**hit, uint32_t(y * options.width + x));
-        sum += share * vec4(glm::max(radiance, vec3(0)), 1);
+        const vec3 emitted = asset.pointAt(**hit, camera.eye).emitted;
+        sum += share * vec4(glm::max(radiance, vec3(0)) + emitted, 1);
     }
     return sum;
 }
@@ -104,7 +105,7 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
     std::array<vec3, kBatch> directions;
     std::array<const LightSample*, kBatch> batch;
     std::array<uint8_t, kBatch> blocked;
-    const vec3 origin = point.position + shadowOffset * point.frame.n;
+    const vec3 origin = point.position + shadowOffset * point.normal;
     glm::dvec3 sum(0);
     for (auto next = lights.begin(); next != lights.end();) {
         size_t count = 0;
@@ -126,20 +127,25 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
 // The sums that a residual's estimate is made of, each exact.
 vec3 Renderer::estimateRadiance(const RayHit& hit) const {
     const SurfacePoint point = asset.pointAt(hit, camera.eye), ofTerms = terms->pointAt(hit, camera.eye);
-    glm::dvec3 exact(0), unshadowed(0), shadowed(0), irradiance(0), lit(0);
-    const vec3 origin = point.position + shadowOffset * point.frame.n;
+    const bool isMapped = point.frame.n != ofTerms.frame.n;
+    const SurfacePoint limit = isMapped ? asset.limitPointAt(hit, camera.eye) : point;
+    glm::dvec3 exact(0), most(0), unshadowed(0), shadowed(0), irradiance(0), lit(0);
+    const vec3 origin = point.position + shadowOffset * point.normal;
     for (const LightSample& light : lights) {
-        const vec3 incoming = point.frame.toLocal(light.direction);
+        const vec3 seen = point.frame.toLocal(light.direction),
+                   incoming = ofTerms.frame.toLocal(light.direction);
+        if (seen.z > 0) exact += light.energy * seen.z * point.reflected(seen);
         if (!(incoming.z > 0)) continue;
+        if (isMapped) most += light.energy * incoming.z * limit.reflected(incoming);
         const vec3 energy = light.energy * incoming.z, f = ofTerms.reflected(incoming);
-        exact += energy * point.reflected(incoming);
         unshadowed += energy * f;
         irradiance += energy;
         if (occluder.occluded(origin, light.direction)) continue;
         shadowed += energy * f;
         lit += energy;
     }
-    const ResidualSums sums{vec3(shadowed), vec3(exact), vec3(unshadowed)};
+    const ResidualSums sums{vec3(shadowed), isMapped ? glm::min(vec3(exact), vec3(most)) : vec3(exact),
+                            vec3(unshadowed)};
     return hasNonnegativeTerms[hit.mesh] ? ratioEstimate(sums, vec3(lit), vec3(irradiance))
                                          : differenceEstimate(sums, litShare(vec3(lit), vec3(irradiance)));
 }

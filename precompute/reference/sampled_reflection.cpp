@@ -93,7 +93,7 @@ vec3 sampleReflection(const SurfacePoint& point, const LightDistribution& light,
     if (light.isBlack()) return vec3(0);
     Resampling resampling(point, light);
     resampling.drawCandidates(random);
-    const vec3 origin = point.position + shadowOffset * point.frame.n;
+    const vec3 origin = point.position + shadowOffset * point.normal;
     vec3 sum(0);
     const Candidate* last = nullptr;
     bool isBlocked = false;

@@ -7,6 +7,7 @@
 #include "precompute/bake/batch_plan.h"
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/transport_pass.h"
+#include "precompute/bounce/bounce_gather.h"
 #include "precompute/brdf/factorization_error.h"
 #include "precompute/reference/bounce_twin.h"
 #include "precompute/reference/dressed_asset.h"
@@ -120,7 +121,8 @@ class DeviceStages {
 class Bounces {
   public:
     Bounces(const vk::Device& device, const Asset& asset)
-        : mAsset(asset), mBound(defaultAppearance(asset)), mTracer(partMeshes(asset)) {
+        : mAsset(asset), mBound(defaultAppearance(asset)), mGains(sourceGains(asset, mBound)),
+          mTracer(partMeshes(asset)) {
         BakeObserver silent;
         mBounced = bouncedTransportOf(device, asset, silent, &mFrom);
     }
@@ -133,7 +135,7 @@ class Bounces {
     void check(size_t part, size_t set, uint32_t vertex, int term, ErrorSum& sum) const {
         constexpr int kDirections = 64; // a side of a face of their cube
         const std::vector<vec3> expected =
-            bouncedVector(mAsset, mBound, mTracer, mFrom, part, vertex, set, term, kDirections);
+            bouncedVector(mAsset, mBound, mGains, mTracer, mFrom, part, vertex, set, term, kDirections);
         const SparseTransport& rows = mBounced->rows(part, set);
         std::vector<vec3> found(expected.size(), vec3(0));
         rows.addCoefficients(size_t(vertex) * rows.terms + size_t(term), found);
@@ -143,6 +145,7 @@ class Bounces {
   private:
     const Asset& mAsset;
     Appearance mBound;
+    std::vector<std::vector<vec3>> mGains;
     RayTracer mTracer;
     std::vector<SparseTransport> mFrom;
     std::shared_ptr<const BouncedTransport> mBounced;

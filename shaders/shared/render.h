@@ -122,15 +122,24 @@ struct ViewLayer {
     int channel;     // of the paint that multiplies it; -1: none
     uint isTextured; // 1: the base colour texture multiplies it
     float weight;
-    uint firstSlot; // of its lit spheres, by node
-    uint harmonics; // of their view's azimuth
+    uint firstSlot;   // of its lit spheres, by node
+    uint harmonics;   // of their view's azimuth
+    float mostOfFlat; // times the surface's unshadowed radiance: what normal maps may raise it to
 };
-RELUME_SHARED_SIZE(ViewLayer, 24)
+RELUME_SHARED_SIZE(ViewLayer, 28)
+
+// What a part shows besides: engine/scene/surface_detail.h. It comes before the layers.
+struct ViewDetail {
+    vec3 emission;     // radiance, times the emission map
+    float normalScale; // of the normal map's x and y; 0: there is none
+    uint isTinted;     // 1: vertex colours multiply the base colour
+};
+RELUME_SHARED_SIZE(ViewDetail, 20)
 
 // What a draw's fragments look at, the least that serves what a part wears.
 const uint kSingleLook = 0;  // one layer and a constant
 const uint kLayersLook = 1;  // several layers and constants
-const uint kSurfaceLook = 2; // paint or a texture as well
+const uint kSurfaceLook = 2; // paint, a texture or a detail as well
 
 // How a draw's fragments estimate radiance: shaders/lib/unshadowed.glsl.
 const uint kTermsAlone = 0, kResidualDifference = 1, kResidualRatio = 2;

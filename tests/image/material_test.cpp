@@ -10,7 +10,9 @@
 #include "tests/support/test_device.h"
 #include "tests/support/textured_glb.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
+#include <glm/gtc/packing.hpp>
 #include <nlohmann/json.hpp>
 
 using namespace relume;
@@ -25,7 +27,8 @@ class MaterialTest {
     MaterialTest(Scene scene, int terms, const Camera& camera)
         : mAsset(bake(mDevice, std::move(scene), optionsOf(terms))), mCamera(camera),
           mSky(sampleEnvironment(prepareForSampling(makeSky()), 64, 0)), mLight(mDevice, 64),
-          mRelighter(mDevice, mAsset), mView(mDevice, mAsset, {.width = kWidth, .height = kHeight}) {
+          mRelighter(mDevice, mAsset),
+          mView(mDevice, mAsset, {.width = kWidth, .height = kHeight, .samples = 1}) {
         mLight.setCube(mSky);
     }
 
@@ -42,8 +45,9 @@ class MaterialTest {
         return mView.read();
     }
 
-    double error(const Appearance& appearance) {
-        ReferenceOptions options{.width = kWidth, .height = kHeight};
+    double error(const Appearance& appearance, ReferenceBrdf brdf = ReferenceBrdf::Exact) {
+        ReferenceOptions options{.width = kWidth, .height = kHeight, .samples = 1};
+        options.brdf = brdf;
         options.raysPerTexelSide = 1;
         options.appearance = appearance;
         return compareImages(draw(appearance), renderReference(mAsset, mCamera, mSky, options)).relativeRmse;
@@ -100,6 +104,64 @@ TEST_CASE("image: a glTF file's two textured materials are its reference") {
     const double error = test.error(defaultAppearance(test.asset()));
     MESSAGE("textured squares: relative RMSE ", error);
     CHECK_LE(error, 0.06);
+}
+
+// A sphere with waves in its normals, lit from all sides.
+Scene wavySphere(const std::string& material) {
+    Scene scene;
+    scene.parts.push_back({"sphere", makeSphere(4, true), material, "", ""});
+    Texture waves{64, 64, {}};
+    for (int i = 0; i < 64 * 64; i++) {
+        const float x = 0.5f * std::sin(2 * kPi * float(i % 64) / 16),
+                    y = 0.5f * std::sin(2 * kPi * float(i / 64) / 32);
+        const vec3 normal = glm::normalize(vec3(x, y, 1)) * 0.5f + 0.5f;
+        waves.texels.push_back(glm::packUnorm4x8(vec4(normal, 1)));
+    }
+    scene.parts[0].detail.normalMap = std::move(waves);
+    return scene;
+}
+
+TEST_CASE("image: normal maps are drawn as the reference and its estimate have them") {
+    for (const std::string material : {"red-plastic", "gold"}) {
+        MaterialTest test(wavySphere(material), 8, kBeforeSphere);
+        const Appearance appearance = defaultAppearance(test.asset());
+        const double error = test.error(appearance),
+                     ofEstimate = test.error(appearance, ReferenceBrdf::Residual);
+        MaterialTest plain(sphereScene(material), 8, kBeforeSphere);
+        const double without = compareImages(plain.draw(appearance), test.draw(appearance)).relativeRmse;
+        MESSAGE(material, ": normal-mapped sphere: relative RMSE ", error, ", of the estimate ", ofEstimate,
+                ", without its map ", without);
+        CHECK_LE(error, 0.2);
+        CHECK_LE(ofEstimate, 0.06);
+        CHECK_GE(without, 3 * ofEstimate);
+    }
+}
+
+TEST_CASE("image: emission is added, and vertex colors tint") {
+    Scene scene = sphereScene("white-diffuse");
+    scene.parts[0].detail.emission = {0.5f, 0, 2};
+    MaterialTest emitting(std::move(scene), 1, kBeforeSphere);
+    MaterialTest plain(sphereScene("white-diffuse"), 1, kBeforeSphere);
+    const Appearance appearance = defaultAppearance(plain.asset());
+    const Image lit = emitting.draw(appearance), without = plain.draw(appearance);
+    double largest = 0;
+    for (size_t i = 0; i < lit.pixels.size(); i++) {
+        const vec4 expected = without.pixels[i] + without.pixels[i].w * vec4(0.5f, 0, 2, 0);
+        largest = std::max(largest, double(glm::distance(lit.pixels[i], expected)));
+    }
+    CHECK(largest < 1e-4);
+    CHECK_LE(emitting.error(appearance), 0.06);
+
+    Scene colored = sphereScene("white-diffuse");
+    colored.parts[0].mesh.colors.assign(colored.parts[0].mesh.vertexCount(), vec4(0.5f, 0.25f, 1, 1));
+    colored.parts[0].tintedByColors = true;
+    MaterialTest tinted(std::move(colored), 1, kBeforeSphere);
+    CHECK_LE(tinted.error(appearance), 0.06);
+    const Image image = tinted.draw(appearance);
+    for (size_t i = 0; i < image.pixels.size(); i++) {
+        const vec3 expected = vec3(without.pixels[i]) * vec3(0.5f, 0.25f, 1);
+        CHECK(glm::distance(vec3(image.pixels[i]), expected) <= 0.02f * glm::length(expected) + 1e-4f);
+    }
 }
 
 TEST_CASE("image: every material of a set, and a blend, is its reference") {

@@ -123,8 +123,8 @@ TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
     for (size_t part = 0; part < 2; part++)
         for (uint32_t vertex = 0; vertex < bounced[part][0].vertices; vertex += 7)
             for (int term = 0; term < int(bounced[part][0].terms); term++) {
-                const std::vector<vec3> expected =
-                    bouncedVector(asset, bound, tracer, from, part, vertex, 0, term, 64);
+                const std::vector<vec3> expected = bouncedVector(asset, bound, sourceGains(asset, bound),
+                                                                 tracer, from, part, vertex, 0, term, 64);
                 const std::vector<vec3> found =
                     denseRow(bounced[part][0], size_t(vertex) * bounced[part][0].terms + size_t(term));
                 for (size_t i = 0; i < expected.size(); i++) {

@@ -6,7 +6,9 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 #include <random>
 
 using namespace relume;
@@ -121,7 +123,7 @@ TEST_CASE("glTF parts: metalness and roughness are averaged, texture coordinates
 TEST_CASE("glTF parts: what is not supported is ignored, factors are clamped") {
     TexturedGlb glb;
     glb.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[2,-1,0.5,0.25],"metallicFactor":7},
-        "normalTexture":{"index":77},"emissiveFactor":[1,0,0],"alphaMode":"BLEND",
+        "occlusionTexture":{"index":77},"alphaMode":"BLEND",
         "extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":[[[]]]}},"extras":[[[]]]},
         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":3}}}])";
     const GltfParts file = decode(glb.bytes());
@@ -134,6 +136,70 @@ TEST_CASE("glTF parts: what is not supported is ignored, factors are clamped") {
     const GltfParts bare = decode(glb.bytes());
     REQUIRE(bare.parts.size() == 1);
     CHECK(bare.parts[0].name == "default material");
+}
+
+TEST_CASE("glTF parts: metalness and roughness that vary become a set and its weights") {
+    TexturedGlb glb;
+    // The red image: G of 0 and 255, B of 0; so two roughnesses.
+    glb.materials = R"([{"name":"tin","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],
+        "roughnessFactor":0.8,"metallicRoughnessTexture":{"index":0},"baseColorTexture":{"index":1}}},{}])";
+    const GltfPart part = decode(glb.bytes()).parts[0];
+    const nlohmann::json set = nlohmann::json::parse(part.material)["set"];
+    REQUIRE(set.size() == 4);
+    CHECK(set[0]["name"] == "tin (metallic 0.00, roughness 0.14)");
+    CHECK(set[3]["roughness"].get<double>() == doctest::Approx(0.8));
+    CHECK(set[3]["base_color"] == nlohmann::json({0.5, 0.5, 0.5}));
+    REQUIRE(part.materialMap);
+    CHECK(part.materialMap->texels == std::vector<uint32_t>{0xff, 0xff000000});
+    CHECK(part.baseColor.has_value());
+    // Without texture coordinates its mean is all there is.
+    glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":3,"material":0}])";
+    const GltfPart bare = decode(glb.bytes()).parts[0];
+    CHECK(!bare.materialMap);
+    CHECK(says(bare.material, "\"metallic\":0.0,\"roughness\":0.4"));
+}
+
+TEST_CASE("glTF parts: normal maps, emission and vertex colors") {
+    TexturedGlb glb;
+    glb.materials = R"([{"normalTexture":{"index":1,"scale":0.5},"emissiveFactor":[1,0.5,0],
+        "emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}},
+        {"normalTexture":{"index":1,"texCoord":1},"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},
+        "emissiveFactor":[0,0,3]}])";
+    const GltfParts file = decode(glb.bytes());
+    const SurfaceDetail &first = file.parts[0].detail, &second = file.parts[1].detail;
+    REQUIRE(first.normalMap);
+    CHECK(!first.normalMap->srgb);
+    CHECK(first.normalMap->texels == TexturedGlb::kBlue.texels);
+    CHECK(first.normalScale == 0.5f);
+    CHECK(first.emission == vec3(4, 2, 0));
+    REQUIRE(first.emissionMap);
+    CHECK(first.emissionMap->srgb);
+    CHECK(!second.normalMap); // it lies elsewhere than the base color
+    CHECK(second.emission == vec3(0, 0, 3));
+    CHECK(!second.emissionMap);
+    CHECK(file.parts[0].mesh.colors.empty());
+    // Normals as colors: (0, 0, 1) at every corner.
+    glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1},"indices":3,"material":0}])";
+    const GltfPart tinted = decode(glb.bytes()).parts[0];
+    REQUIRE(tinted.mesh.colors.size() == tinted.mesh.vertexCount());
+    CHECK(vec3(tinted.mesh.colors[0]) == vec3(0, 0, 1));
+    CHECK(!tinted.detail.normalMap); // no texture coordinates
+    CHECK(tinted.detail.emission == vec3(0));
+    // A primitive of the same material without colors is white, and so is one whose colors cannot be read.
+    glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1},"indices":3,"material":0},
+        {"attributes":{"POSITION":0,"NORMAL":1},"indices":4,"material":0},
+        {"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":77},"indices":4,"material":1}])";
+    const GltfParts mixed = decode(glb.bytes());
+    const std::vector<vec4>& colors = mixed.parts[0].mesh.colors;
+    REQUIRE(colors.size() == mixed.parts[0].mesh.vertexCount());
+    CHECK(std::ranges::count(colors, vec4(1)) == std::ptrdiff_t(colors.size() / 2));
+    CHECK(mixed.parts[1].mesh.colors.empty());
+}
+
+TEST_CASE("glTF parts: scales of normals are bounded") {
+    TexturedGlb glb;
+    glb.materials = R"([{"normalTexture":{"index":1,"scale":1e300}},{}])";
+    CHECK(decode(glb.bytes()).parts[0].detail.normalScale == kLargestNormalScale);
 }
 
 TEST_CASE("glTF parts: materials that lie") {
