@@ -92,7 +92,8 @@ BakeOptions optionsFrom(const py::kwargs& kwargs) {
         options.factorization.method =
             known(factorizationFromName(name.cast<std::string>()), "factorization", name.cast<std::string>());
     takeLayout(given, options);
-    given.take("bounces", options.bounces);
+    if (const py::object bounces = given.pop("bounces"); !bounces.is_none())
+        options.bounces = bounces.cast<int>(), options.areBouncesAuto = false;
     given.take("map_size", options.mapSize);
     given.take("face_size", options.faceSize);
     given.take("visibility_size", options.visibilitySize);

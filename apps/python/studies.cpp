@@ -148,6 +148,7 @@ py::object advice(const SceneBuilder& scene, const Light& light, double error, s
     const std::shared_ptr<const vk::Device> on = device();
     AdviceRequest request{scene.build(false), {}, error};
     request.options.bounces = presetOptions(BakePreset::Default).bounces;
+    request.options.areBouncesAuto = true;
     request.points = points;
     if (!asIs) request.refinable = scene.build(true);
     std::string text;

@@ -55,6 +55,7 @@ void run(Arguments& arguments) {
     const StudiedLight light = arguments.light.studied();
     AdviceRequest request{arguments.scene.load(false), {}, arguments.error};
     request.options.bounces = presetOptions(BakePreset::Default).bounces;
+    request.options.areBouncesAuto = true;
     request.points = size_t(arguments.points);
     if (!arguments.asIs) request.refinable = arguments.scene.load(true);
     const std::unique_ptr<vk::Device> device = arguments.device.open();

@@ -220,7 +220,7 @@ void BakeArguments::resolve() {
     options.mapSize = mMapSize.value_or(options.mapSize);
     options.faceSize = mFaceSize.value_or(options.faceSize);
     options.visibilitySize = mVisibilitySize.value_or(options.visibilitySize);
-    options.bounces = mBounces.value_or(options.bounces);
+    if (mBounces) options.bounces = *mBounces, options.areBouncesAuto = false;
     options.transportSamples =
         mTransportSamples.value_or(std::min(options.transportSamples, options.mostTransportSamples()));
     if (mVisibility) {

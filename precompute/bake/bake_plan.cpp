@@ -202,6 +202,22 @@ void describeTo(const vk::Device& device, const BakeOptions& options, Asset& ass
     asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
 }
 
+// Whether a set has several materials.
+bool sharesTerms(const Asset& asset) {
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            if (set.materials.size() > 1) return true;
+    return false;
+}
+
+void leaveOutBounces(BakePlan& plan) {
+    if (plan.options.bounces > 0)
+        log(LogLevel::Info,
+            "direct light alone: the terms that materials of a set share are too few for light that "
+            "bounces; --bounces asks for it all the same");
+    plan.options.bounces = plan.asset.bounces = 0;
+}
+
 void finish(BakePlan& plan) {
     prepareTransport(plan);
     checkSkeleton(plan.asset, "the bake");
@@ -259,6 +275,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     observer.stage(BakeStage::Factorisation, "");
     makeParts(std::move(scene.parts), plan, observer);
     plan.factorisationSeconds = secondsSince(stage);
+    if (plan.options.areBouncesAuto && sharesTerms(asset)) leaveOutBounces(plan);
 
     if (plan.options.refinement) refineMeshes(goal, plan, observer);
     finish(plan);

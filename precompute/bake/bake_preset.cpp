@@ -31,6 +31,7 @@ BakeOptions presetOptions(BakePreset preset) {
     BakeOptions options;
     options.refinement = RefinementRecord{.wanted = kAutoRefinementError, .isAuto = true};
     options.bounces = kDefaultBounces;
+    options.areBouncesAuto = true;
     return options;
 }
 

@@ -26,7 +26,7 @@ Outcome succeed(const CornerFolder& folder, const std::string& command) {
 
 } // namespace
 
-TEST_CASE("bounces: two are the default, and the same bytes; none are told of, too") {
+TEST_CASE("bounces: two are the default, with the same bytes, and none are told of") {
     const CornerFolder folder;
     succeed(folder, kBake + "-o plain.relume");
     succeed(folder, kBake + "--bounces 0 -o none.relume");
@@ -43,6 +43,14 @@ TEST_CASE("bounces: two are the default, and the same bytes; none are told of, t
     CHECK(says(many.err, "--bounces: expected 0 to 8, found 9"));
     succeed(folder, "convert two.relume --layout bases -o bases.relume");
     CHECK(says(succeed(folder, "info bases.relume").out, "by up to 2 reflections between surfaces"));
+}
+
+TEST_CASE("bounces: none by default where materials share terms, but where they are asked for") {
+    const CornerFolder folder;
+    succeed(folder, kBake + "-m clay -o set.relume");
+    CHECK(says(succeed(folder, "info set.relume").out, "direct alone"));
+    succeed(folder, kBake + "-m clay --bounces 1 -o asked.relume");
+    CHECK(says(succeed(folder, "info asked.relume").out, "by one reflection between surfaces"));
 }
 
 TEST_CASE("bounces: any threads, shards and kills give the same bytes") {

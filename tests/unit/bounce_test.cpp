@@ -136,7 +136,7 @@ TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
     CHECK(std::sqrt(difference / all) < 0.03); // of 1,024 rays
 }
 
-TEST_CASE("bounce: the same rows from any number of threads; none when stopped") {
+TEST_CASE("bounce: the same rows from any number of threads, and none when stopped") {
     const Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
     const BounceGather gather(asset, defaultAppearance(asset));
     const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(1))};
