@@ -149,7 +149,8 @@ Quad unshadowedTuple(TuplePlace at, uint quad) {
     return Quad(mix(a.a, b.a, share), mix(a.b, b.b, share), mix(a.c, b.c, share));
 }
 
-// Returns the unshadowed radiance towards `local`, the view direction in a frame; or what normal maps may raise it to.
+// Returns the unshadowed radiance towards the eye, which `local` is the direction of in the frame; or, as a limit, what
+// normal maps may raise it to.
 vec3 unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
     const SpherePlaces at = spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
     if (kLook == kSingleLook) return push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at);

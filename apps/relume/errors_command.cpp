@@ -119,9 +119,9 @@ void addErrorsCommand(CLI::App& program) {
         ->default_str("on");
     command
         ->add_option("--bounces", arguments->bounces,
-                     "Reflections between surfaces that the exact image has, at least the bake's, up to 8 "
-                     "(default: the bake's)")
-        ->type_name("B");
+                     "Reflections between surfaces that the exact image has, at least the bake's, up to 8")
+        ->type_name("B")
+        ->default_str("the bake's");
     command
         ->add_option("--images", arguments->images,
                      "Also write the images and a heat map of every source into this folder")

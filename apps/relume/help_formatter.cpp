@@ -9,7 +9,8 @@ namespace {
 
 constexpr size_t kColumns = 100, kTextColumn = 30;
 
-// What an option takes: its type's name, or the words of a set, without ranges, which errors tell of.
+// Returns what an option takes: the words of a set, or its type's name, without the range, which errors tell
+// of.
 std::string valueOf(const CLI::Option& option) {
     if (option.get_type_size() == 0) return ""; // a flag
     std::string type = option.get_type_name();
@@ -26,7 +27,7 @@ std::string valueOf(const CLI::Option& option) {
            (option.get_expected_max() == CLI::detail::expected_max_vector_size ? " ..." : "");
 }
 
-// Flags have what they stand for behind their names, in braces.
+// Returns the names of an option, without the values that CLI11 writes in braces behind those of flags.
 std::string nameOf(const CLI::Option& option, bool isPositional) {
     std::string name = option.get_name(isPositional, !isPositional);
     for (size_t open; (open = name.find('{')) != std::string::npos;)
@@ -36,6 +37,7 @@ std::string nameOf(const CLI::Option& option, bool isPositional) {
     return name;
 }
 
+// Returns the description, with whether it is required and what holds without it.
 std::string textOf(const CLI::Option& option) {
     std::string text = option.get_description();
     const std::string standard = option.get_default_str();

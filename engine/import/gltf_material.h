@@ -13,7 +13,7 @@
 
 namespace relume {
 
-// Where the texels of a texture lie on a mesh.
+// The placement of a texture's texels on a mesh.
 struct GltfPlacement {
     int uvSet = 0;              // the N of TEXCOORD_N
     mat3 uvTransform = mat3(1); // KHR_texture_transform, of (u, v, 1)
@@ -26,7 +26,7 @@ struct GltfMaterial {
     std::string text; // {"model": "gltf", "base_color", "metallic", "roughness"}, linear
     std::optional<GltfPlacement> placement; // of all its textures; none: it has none
     std::optional<size_t> baseColor;        // number of the texture that multiplies base_color
-    // Where metalness or roughness vary: a set of materials, and the texture of their weights.
+    // The set of materials that blend where metalness or roughness vary, and the texture of their weights.
     std::string blend;
     std::optional<Texture> blendWeights = std::nullopt;
     std::optional<size_t> normalMap, emissionMap;

@@ -74,7 +74,7 @@ std::optional<MetalRoughnessMap> blendMetalRoughness(const Texture& texture, flo
     for (size_t i = 0; i < texture.texelCount(); i++) metallic.add(at(i).metallic);
     float low = metallic.quantile(kLow), high = metallic.quantile(kHigh);
     if (high - low < kEvenMetalness) low = high = metallic.mean();
-    // What is not metal, or all; and what is.
+    // The first holds texels that are no metal, or all; the second those that are.
     std::array<Histogram, 2> roughness;
     const auto isMetal = [&](const MetalRoughness& texel) {
         return low < high && texel.metallic > 0.5f * (low + high);

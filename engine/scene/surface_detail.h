@@ -1,4 +1,4 @@
-// What is drawn of a surface, pixel by pixel, that its transport does not know.
+// Details of a surface that are drawn pixel by pixel, and of which its transport knows nothing.
 #pragma once
 
 #include "engine/scene/mesh.h"

@@ -51,7 +51,7 @@ struct AssetPart {
     bool tintedByColors = false; // mesh.colors multiply materials' bases, and baseColor where there is one
     SurfaceDetail detail = {};
 
-    // Whether something multiplies the base of materials.
+    // Returns whether something multiplies the base of materials.
     bool hasBaseColor() const { return baseColor || tintedByColors; }
     bool isPainted() const { return materialMap || paintedByColors; }
 };

@@ -150,7 +150,7 @@ void writeTexture(FieldWriter& out, const std::optional<Texture>& texture) {
     out.flag(texture->srgb);
 }
 
-// Whether it has what came within version 3.
+// Returns whether a part has fields that came within version 3.
 bool isDetailed(const AssetPart& part) { return part.tintedByColors || part.detail.isAny(); }
 
 void writeDetail(FieldWriter& out, const AssetPart& part) {

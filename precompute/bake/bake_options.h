@@ -31,8 +31,8 @@ struct BakeOptions {
     int transportSamples = 1; // 1, 4 or 16 light-map evaluations per lighting texel
     // Reflections between surfaces, besides the last towards the eye: 0, direct light alone, to kMostBounces.
     int bounces = 0;
-    // Whether there are none after all where several materials share terms in a set (docs/bounces.md). The
-    // plan decides it, and it is not recorded.
+    // The plan leaves bounces out where several materials share terms in a set (docs/bounces.md). This is not
+    // recorded: an asset's bounces are those that it has.
     bool areBouncesAuto = false;
     // Triangles that cast shadows, 0: all; the rest are simplified away.
     size_t occluderTriangles = 0;

@@ -202,7 +202,7 @@ void describeTo(const vk::Device& device, const BakeOptions& options, Asset& ass
     asset.provenance.device = fmt::format("{}, {}", device.info().name, device.info().driver);
 }
 
-// Whether a set has several materials.
+// Returns whether a set has several materials.
 bool sharesTerms(const Asset& asset) {
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)

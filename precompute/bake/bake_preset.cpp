@@ -9,7 +9,7 @@ namespace {
 // Triangles. The paper tells of a simplified occluder and of no number.
 constexpr size_t kPaperOccluder = 5000;
 
-// The second is seen in corners of bright parts; a third hardly anywhere (docs/bounces.md).
+// Two take two fifths of a bake's time more (docs/bounces.md).
 constexpr int kDefaultBounces = 2;
 
 BakeOptions paperOptions() {

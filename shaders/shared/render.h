@@ -128,7 +128,7 @@ struct ViewLayer {
 };
 RELUME_SHARED_SIZE(ViewLayer, 28)
 
-// What a part shows besides: engine/scene/surface_detail.h. It comes before the layers.
+// The details of a part (engine/scene/surface_detail.h), which come before its layers in their buffer.
 struct ViewDetail {
     vec3 emission;     // radiance, times the emission map
     float normalScale; // of the normal map's x and y; 0: there is none
