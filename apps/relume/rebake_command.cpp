@@ -88,6 +88,7 @@ BakeOptions optionsFor(const Asset& asset, Arguments& arguments) {
     options.faceSize = arguments.faceSize.value_or(options.faceSize);
     options.transportSamples = arguments.transportSamples.value_or(options.transportSamples);
     options.bounces = arguments.bounces.value_or(options.bounces);
+    options.areBouncesAuto = !arguments.bounces;
     options.keepVisibility = arguments.job.keepVisibility;
     options.validate();
     return options;

@@ -294,6 +294,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     plan.asset = std::move(skeleton);
     describeTo(device, options, plan.asset);
     plan.asset.truncationError = plan.asset.quantisationError = 0;
+    const bool didShareTerms = sharesTerms(plan.asset); // with bounces that were asked for, if any
 
     const Clock::time_point stage = Clock::now();
     observer.stage(BakeStage::Factorisation, "");
@@ -309,6 +310,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     }
     makeResiduals(plan.asset);
     plan.factorisationSeconds = secondsSince(stage);
+    if (options.areBouncesAuto && !didShareTerms && sharesTerms(plan.asset)) leaveOutBounces(plan);
     finish(plan);
     return plan;
 }

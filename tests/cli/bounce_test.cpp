@@ -51,6 +51,12 @@ TEST_CASE("bounces: none by default where materials share terms, but where they 
     CHECK(says(succeed(folder, "info set.relume").out, "direct alone"));
     succeed(folder, kBake + "-m clay --bounces 1 -o asked.relume");
     CHECK(says(succeed(folder, "info asked.relume").out, "by one reflection between surfaces"));
+
+    succeed(folder, kBake + "--keep-visibility -o gold.relume");
+    succeed(folder, "rebake gold.relume -m gold -m clay -q -o rebaked.relume");
+    CHECK(folder.read("rebaked.relume") == folder.read("set.relume"));
+    succeed(folder, "rebake gold.relume -m gold -m clay --bounces 2 -q -o both.relume");
+    CHECK(says(succeed(folder, "info both.relume").out, "by up to 2 reflections between surfaces"));
 }
 
 TEST_CASE("bounces: any threads, shards and kills give the same bytes") {
