@@ -225,6 +225,7 @@ vec3 shade(uint triangle, vec3 direction) {
         exact = unshadowedAt(direction, mapped, seen, paint, base, false);
         if (kLook == kSurfaceLook && detail.normalScale != 0)
             exact = min(exact, unshadowedAt(direction, frame, local, paint, base, true));
+        if (kEstimate == kUnshadowed) return exact + emitted;
         tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
         // At -Y tangentFrame() has no direction of its own, and takes that of the frames at this azimuth.
         if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;

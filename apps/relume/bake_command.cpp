@@ -59,7 +59,7 @@ void addBakeCommand(CLI::App& program) {
         ->add_flag(
             "--preview", arguments->preview,
             "Write a preview first, of a twelfth of the vertices and others interpolated from these, and "
-            "refine it as the bake goes")
+            "again as the bake goes")
         ->excludes(shard)
         ->excludes(command->get_option("--keep-visibility"));
     command->footer(

@@ -14,9 +14,6 @@
 
 namespace relume {
 
-// What a mesh without materials of its own is made of, where none is named.
-constexpr const char* kDefaultMaterial = "gold";
-
 // Of one material or several, as options name them: the text that readMaterials() takes.
 std::string joinMaterials(const std::vector<std::string>& materials, bool separate);
 

@@ -44,7 +44,7 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
                          const std::vector<std::string>& options)
     : mInput(input), mOutput(output) {
     std::vector<std::string> words{findProgram(), "bake"};
-    if (!input.empty()) words.push_back(std::filesystem::absolute(input));
+    words.push_back(std::filesystem::absolute(input));
     words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), {"--preview", "--json", "-o", output});
     std::vector<char*> arguments;
@@ -123,7 +123,7 @@ bool BakeProcess::take(const std::string& line) {
     const nlohmann::json event = nlohmann::json::parse(line, nullptr, false);
     if (!event.is_object()) return false;
     const std::string kind = event.value("event", "");
-    if (kind == "stage") mProgress.stage = event.value("stage", "");
+    if (kind == "stage") mProgress = {.stage = event.value("stage", "")};
     if (kind == "progress") {
         mProgress.fraction = event.value("fraction", 0.0);
         mProgress.secondsLeft = event.value("seconds_left", -1.0);

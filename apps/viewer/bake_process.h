@@ -20,7 +20,7 @@ struct BakeProgress {
 
 class BakeProcess {
   public:
-    // Begins a bake of `input` (empty: the built-in scene) to `output`, previews first. `options` are
+    // Begins a bake of `input` to `output`, previews first. `options` are
     // `relume bake`'s. Throws Error when the program `relume` is not beside this one.
     BakeProcess(const std::filesystem::path& input, const std::filesystem::path& output,
                 const std::vector<std::string>& options);

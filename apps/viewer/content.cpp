@@ -1,9 +1,13 @@
 #include "apps/viewer/content.h"
-#include "engine/import/environment_file.h"
 
 #include "apps/viewer/opened_file.h"
 #include "engine/base/error.h"
+#include "engine/base/log.h"
+#include "engine/import/environment_file.h"
+#include "engine/import/ground.h"
 #include "engine/import/light_file.h"
+#include "engine/import/scene.h"
+#include "precompute/bake/sketch.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,6 +17,17 @@ namespace relume {
 namespace {
 
 constexpr size_t kMostRecent = 12;
+
+bool isSceneFile(const std::filesystem::path& input) { return extensionOf(input) == ".json"; }
+
+// What `relume bake` reads with the options of beginBake().
+Scene readInput(const std::filesystem::path& input) {
+    if (isSceneFile(input)) return readScene(input);
+    const bool isDressed = hasOwnMaterials(input);
+    Scene scene{loadParts(input, UpAxis::Y, isDressed ? std::nullopt : std::optional(kDefaultMaterial))};
+    addGround(scene, {});
+    return scene;
+}
 
 } // namespace
 
@@ -28,8 +43,8 @@ void Content::open(const std::filesystem::path& file) {
     const FileKind kind = kindOf(file);
     // The built-in scene is for want of another.
     if (kind == FileKind::Bake || kind == FileKind::Bakeable) {
-        std::erase_if(mNextBakes, [](const Bake& bake) { return bake.input.empty(); });
-        if (mBake && mBake->input().empty()) cancelBake();
+        std::erase_if(mNextBakes, [](const Bake& bake) { return bake.input.stem() == kBuiltInScene; });
+        if (mBake && mBake->input().stem() == kBuiltInScene) cancelBake();
     }
     switch (kind) {
     case FileKind::Bake:
@@ -49,7 +64,7 @@ void Content::open(const std::filesystem::path& file) {
     remember(file);
 }
 
-void Content::openBuiltIn() { bake(""); }
+void Content::openBuiltIn() { bake(writeBuiltInScene()); }
 
 void Content::remember(const std::filesystem::path& file) {
     const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
@@ -123,13 +138,25 @@ void Content::bake(const std::filesystem::path& input) {
     const bool isThere = std::filesystem::exists(bake.output, failure);
     if (!isThere || std::filesystem::exists(bake.output.string() + ".checkpoint", failure))
         mNextBakes.push_front(bake);
-    if (!isThere) return;
+    if (!isThere) return sketch(bake);
     load(bake.output, [this, bake](const std::string& why) {
         mTell(why + "; it is baked again", false);
         std::error_code ignored;
         std::filesystem::remove(bake.output, ignored);
         mNextBakes.push_front(bake);
     });
+}
+
+// The bake tells what is wrong with the file.
+void Content::sketch(const Bake& bake) {
+    mWorker.post(
+        "reading " + bake.input.filename().string(),
+        [this, bake]() -> Worker::Result {
+            auto model =
+                std::make_shared<Model>(mDevice, bake.output, makeSketch(mDevice, readInput(bake.input)));
+            return [this, model] { take(model); };
+        },
+        [](const std::string& why) { log(LogLevel::Debug, "no sketch: " + why); });
 }
 
 void Content::cancelBake() {
@@ -141,7 +168,7 @@ void Content::cancelBake() {
 
 void Content::beginBake(const Bake& bake) {
     std::vector<std::string> options;
-    if (extensionOf(bake.input) != ".json") options = {"--ground"};
+    if (!isSceneFile(bake.input)) options = {"--ground"};
     if (!mDeviceSelect.empty()) options.insert(options.end(), {"--device", mDeviceSelect});
     try {
         mBake = std::make_unique<BakeProcess>(bake.input, bake.output, options);
@@ -238,9 +265,7 @@ void Content::openLight(const std::filesystem::path& file) {
 
 Task Content::task() const {
     if (!mBake) return {.title = !mNextBakes.empty() ? "waiting for the bake before" : mWorker.title()};
-    const std::filesystem::path& input = mBake->input();
-    return {.title = (input.empty() ? "baking the built-in scene" : "baking " + input.filename().string()) +
-                     ": " + mBake->progress().stage,
+    return {.title = "baking " + mBake->input().filename().string() + ": " + mBake->progress().stage,
             .fraction = mBake->progress().fraction,
             .secondsLeft = mBake->progress().secondsLeft,
             .canCancel = true};

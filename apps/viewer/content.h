@@ -60,7 +60,7 @@ class Content {
 
   private:
     struct Bake {
-        std::filesystem::path input; // empty: the built-in scene
+        std::filesystem::path input;
         std::filesystem::path output;
     };
     void bake(const std::filesystem::path& input);
@@ -68,6 +68,8 @@ class Content {
     void load(const std::filesystem::path& bake, OnError onError);
     void load(const std::filesystem::path& bake);
     void beginBake(const Bake& bake);
+    // Shows the scene unshadowed until its bake has a preview.
+    void sketch(const Bake& bake);
     void take(std::shared_ptr<Model> model);
     void openLight(const std::filesystem::path& file);
     void readEnvironment(size_t number);

@@ -3,6 +3,7 @@
 #include "precompute/reference/dressed_asset.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace relume {
 
@@ -16,9 +17,16 @@ RayTracer occluderOf(const Asset& asset) {
 } // namespace
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
-    : file(path), asset(readAsset(path)), bounds(objectBounds(asset)), groundFade(makeGroundFade(asset)),
-      appearance(defaultAppearance(asset)), light(device, asset.faceSize), relighter(device, asset, {}),
-      view(device, asset), surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
+    : Model(device, path, readAsset(path), false) {}
+
+Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset sketch)
+    : Model(device, path, std::move(sketch), true) {}
+
+Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset whole, bool isUnshadowed)
+    : file(path), isSketch(isUnshadowed), asset(std::move(whole)), bounds(objectBounds(asset)),
+      groundFade(makeGroundFade(asset)), appearance(defaultAppearance(asset)), light(device, asset.faceSize),
+      relighter(device, asset, {}), view(device, asset, {.isUnshadowed = isUnshadowed}),
+      surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

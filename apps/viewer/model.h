@@ -11,10 +11,13 @@ namespace relume {
 struct Model {
     // Reads and uploads; takes a while. Throws Error.
     Model(const vk::Device& device, const std::filesystem::path& path);
+    // Of a sketch (precompute/bake/sketch.h): what the bake at this path will be, unshadowed.
+    Model(const vk::Device& device, const std::filesystem::path& path, Asset sketch);
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 
     std::filesystem::path file;
+    bool isSketch;
     Asset asset;
     Bounds bounds; // of the object
     std::optional<GroundFade> groundFade;
@@ -24,6 +27,9 @@ struct Model {
     ViewPass view;
     RayTracer surfaces; // one mesh per part
     RayTracer occluder; // what cast the shadows of the bake
+
+  private:
+    Model(const vk::Device& device, const std::filesystem::path& path, Asset asset, bool isSketch);
 };
 
 // The largest K of its parts' first sets.

@@ -29,8 +29,11 @@ void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
             for (const MaterialSet& set : part.sets) bytes += bytesOf(set.transport);
         }
         text(fmt::format("{} vertices, {} triangles", vertices, triangles));
-        text(fmt::format("transport: {:.1f} MB, {:.0f} bytes a vertex", double(bytes) * 1e-6,
-                         double(bytes) / double(std::max<uint64_t>(1, vertices))));
+        if (shown->isSketch)
+            text("not baked yet: without shadows");
+        else
+            text(fmt::format("transport: {:.1f} MB, {:.0f} bytes a vertex", double(bytes) * 1e-6,
+                             double(bytes) / double(std::max<uint64_t>(1, vertices))));
         if (const std::optional<float> share = shown->asset.provenance.bakedShare)
             text(fmt::format("a preview: {:.0f} % is baked", 100 * *share));
     }

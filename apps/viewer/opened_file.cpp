@@ -15,6 +15,18 @@ namespace {
 
 using nlohmann::json;
 
+// Three materials that light looks different on, near enough to be seen in each other.
+constexpr std::string_view kSceneText = R"({
+  "parts": [
+    {"name": "knot", "mesh": "knot", "material": "gold", "rotate": [75, 20, 0], "translate": [0, 0.93, 0]},
+    {"name": "ball", "mesh": "sphere", "material": "red-plastic", "scale": 0.4, "translate": [-0.75, 0.4, 1]},
+    {"name": "ring", "mesh": "torus", "material": "brushed-steel", "scale": 0.45,
+     "translate": [1.05, 0.135, 0.35]}
+  ],
+  "ground": true
+}
+)";
+
 json parse(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = readFile(file, 16 << 20);
     const char* const text = reinterpret_cast<const char*>(bytes.data());
@@ -63,12 +75,21 @@ FileKind kindOf(const std::filesystem::path& file) {
         file.string()));
 }
 
+std::filesystem::path writeBuiltInScene() {
+    const std::filesystem::path file = cacheFolder() / fmt::format("{}.json", kBuiltInScene);
+    const auto scene = std::as_bytes(std::span(kSceneText));
+    std::error_code failure;
+    // Its date decides whether its bake is still its own.
+    if (!std::filesystem::exists(file, failure) || !std::ranges::equal(readFile(file), scene))
+        writeFileAtomically(file, scene);
+    return file;
+}
+
 std::filesystem::path bakePath(const std::filesystem::path& input) {
     std::error_code failure;
     const std::filesystem::path folder = cacheFolder() / "bakes";
     std::filesystem::create_directories(folder, failure);
     if (failure) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
-    if (input.empty()) return folder / "built-in.relume";
     const std::filesystem::path whole = std::filesystem::absolute(input);
     const auto changed = std::filesystem::last_write_time(whole, failure);
     if (failure) throw Error(fmt::format("{}: cannot be read: {}", input.string(), failure.message()));

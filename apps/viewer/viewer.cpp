@@ -415,8 +415,8 @@ void Viewer::poll() {
     if (mPictures.poll()) wantFrames(1);
     if (!mContent.shown() || mContent.shown()->file == mTitled) return;
     mTitled = mContent.shown()->file;
-    mWindow.setTitle((mTitled == bakePath("") ? std::string("built-in scene") : mTitled.filename().string()) +
-                     " - Relume");
+    const std::string name = mTitled.filename().string();
+    mWindow.setTitle((name.starts_with(kBuiltInScene) ? kBuiltInScene : name) + " - Relume");
 }
 
 // Nobody is there to open something else.

@@ -17,6 +17,9 @@ namespace relume {
 
 enum class UpAxis { Y, Z };
 
+// What a mesh without materials of its own is made of, where none is named.
+constexpr const char* kDefaultMaterial = "gold";
+
 constexpr float kLargestBrushRotation = 36000; // degrees, either way
 
 // One surface. Its transform is already applied to the mesh.

@@ -65,12 +65,6 @@ uint32_t mostHarmonics(const ResidualSet* residual) {
     return uint32_t(most);
 }
 
-uint32_t estimateOf(const ResidualSet* residual) {
-    if (!residual) return shared::kTermsAlone;
-    return (residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference) +
-           (residual->isBounced ? shared::kBounced : 0);
-}
-
 template <typename T>
 vk::Buffer uploadBindable(const vk::Device& device, const std::vector<T>& values, const std::string& name) {
     const uint64_t bytes = std::span(values).size_bytes();
@@ -127,7 +121,8 @@ uint32_t lookOf(const std::vector<shared::ViewLayer>& layers, bool isDetailed) {
 } // namespace
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
-    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(viewDepthFormat(device)) {
+    : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(viewDepthFormat(device)),
+      mIsUnshadowed(options.isUnshadowed) {
     constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     mPixelSampler = {device, kClamp, kClamp, "view surfaces", VK_FILTER_NEAREST};
     mDiskSampler = {device, kClamp, kClamp, "view maps"};
@@ -413,6 +408,13 @@ void ViewPass::markEdges(vk::Commands& commands, const Frame& frame) const {
     if (any != mParts.end()) mark(*any, mBounds, 0);
 }
 
+uint32_t ViewPass::estimateOf(const ResidualSet* residual) const {
+    if (!residual) return shared::kTermsAlone;
+    if (mIsUnshadowed) return shared::kUnshadowed;
+    return (residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference) +
+           (residual->isBounced ? shared::kBounced : 0);
+}
+
 const ResidualSet* ViewPass::residualOf(size_t part, size_t set, const Relighter& relighter) const {
     return mAddsResidual ? relighter.spheres().set(part, set) : nullptr;
 }
@@ -509,7 +511,8 @@ void ViewPass::recordSurfaces(vk::Commands& commands, const Frame& frame) const 
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const Frame frame = frameOf(camera);
-    if (!std::exchange(mHasShadePrograms, true)) makeShadePrograms(relighter);
+    // What is unshadowed is soon replaced: its first picture must not wait for programs that it may not need.
+    if (!mIsUnshadowed && !std::exchange(mHasShadePrograms, true)) makeShadePrograms(relighter);
     if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)

@@ -19,6 +19,8 @@ namespace relume {
 struct ViewOptions {
     int width = 640, height = 480;
     int samples = kDefaultSamples; // as setSamples()
+    // Whether parts with a residual are drawn as if nothing shadowed them, whatever their transport is.
+    bool isUnshadowed = false;
 };
 
 // What an image shows instead of radiance: triangles' edges; normals, as normal maps are coloured; how much
@@ -134,6 +136,8 @@ class ViewPass {
     void markEdges(vk::Commands& commands, const Frame& frame) const;
     void shade(vk::Commands& commands, const Frame& frame, size_t part, const Relighter& relighter,
                Pixels pixels);
+    // Returns shared::kTermsAlone and so on.
+    uint32_t estimateOf(const ResidualSet* residual) const;
     // Null if the part shows the K terms alone with this set bound.
     const ResidualSet* residualOf(size_t part, size_t set, const Relighter& relighter) const;
     // Makes the lit spheres that the worn layers of all parts need.
@@ -161,6 +165,7 @@ class ViewPass {
     vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
     std::vector<Part> mParts;
     int mTerms = 0;
+    bool mIsUnshadowed;
     bool mAddsResidual = true, mHasShadePrograms = false;
     std::optional<GroundFade> mGroundFade;
     Inspect mInspect = Inspect::Off;

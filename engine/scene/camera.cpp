@@ -52,7 +52,21 @@ Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float d
 }
 
 Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect) {
-    return orbitCamera(bounds, glm::radians(30.0f), glm::radians(20.0f), 1.02f, verticalFov, aspect);
+    constexpr float kFilled = 0.94f; // of the image, by the box's projection
+    Camera camera = orbitCamera(bounds, glm::radians(30.0f), glm::radians(12.0f), 1, verticalFov, aspect);
+    const View view = viewOf(camera);
+    const float tangent = kFilled * std::tan(0.5f * verticalFov);
+    float reach = 0; // from which every corner is seen
+    for (int corner = 0; corner < 8; corner++) {
+        const vec3 place = glm::mix(bounds.low, bounds.high, vec3(corner & 1, corner >> 1 & 1, corner >> 2)) -
+                           bounds.centre();
+        reach = std::max(
+            {reach,
+             std::abs(glm::dot(place, view.right)) / (tangent * aspect) - glm::dot(place, view.forward),
+             std::abs(glm::dot(place, view.up)) / tangent - glm::dot(place, view.forward)});
+    }
+    camera.eye = camera.target - reach * view.forward;
+    return camera;
 }
 
 } // namespace relume

@@ -28,7 +28,8 @@ struct Camera {
 Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float distance, float verticalFov,
                    float aspect);
 
-// The default view: the whole object from slightly above, three quarters.
+// The default view: the whole object from slightly above, three quarters. The bounding box fills the image as
+// far as its shape lets it, with a margin of 3 % on either side.
 Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect);
 
 } // namespace relume

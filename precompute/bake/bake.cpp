@@ -6,6 +6,7 @@
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/checkpoint.h"
 #include "precompute/bake/layout_sample.h"
+#include "precompute/bake/memory_blocks.h"
 #include "precompute/bake/preview.h"
 #include "precompute/bake/shard_file.h"
 #include "precompute/bake/storing_sink.h"
@@ -13,7 +14,6 @@
 
 #include <chrono>
 #include <fmt/format.h>
-#include <map>
 #include <numeric>
 
 namespace relume {
@@ -28,29 +28,6 @@ BakeTimes timesOf(const BakePlan& plan) {
     times.occluder = plan.occluderSeconds;
     return times;
 }
-
-// Stored blocks in memory.
-class MemoryBlocks : public StoredBlocks {
-  public:
-    void keep(uint32_t block, StoredBlock stored) {
-        std::vector<ChunkEntry>& entries = mEntries[block];
-        for (size_t i = 0; i < stored.chunks.size(); i++) {
-            entries.push_back(stored.chunks[i].entry);
-            entries.back().offset = i; // there
-        }
-        mBlocks[block] = std::move(stored);
-    }
-
-    const std::vector<ChunkEntry>& chunks(uint32_t block) const override { return mEntries.at(block); }
-    const TransportLosses& losses(uint32_t block) const override { return mBlocks.at(block).losses; }
-    std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override {
-        return mBlocks.at(block).chunks[entry.offset].bytes;
-    }
-
-  private:
-    std::map<uint32_t, StoredBlock> mBlocks;
-    std::map<uint32_t, std::vector<ChunkEntry>> mEntries;
-};
 
 bool needsScale(const BakePlan& plan) { return isCompressed(plan.options.layout.layout); }
 
@@ -139,6 +116,11 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     };
     StoringSink sink(plan, StoringSink::bytesInHand(limits),
                      [&](uint32_t block, StoredBlock stored) { checkpoint.append(block, stored); });
+    std::optional<Previews> previews;
+    if (outputOptions.previews && !missing.empty()) {
+        previews.emplace(device, plan, missing, limits, checkpoint, *interpolated, writeWhole, observer);
+        if (plan.options.bounces > 0 || (needsScale(plan) && !plan.scale)) previews->writeDraft();
+    }
     if (plan.options.bounces > 0 && !missing.empty())
         plan.bounced = bounceTransport(device, plan, limits, observer, summary.times);
     if (needsScale(plan) && !plan.scale && !missing.empty()) {
@@ -153,11 +135,8 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
             observer.progress({.vertices = summary.vertices, .done = summary.vertices, .fraction = 1});
         }
     }
-    if (outputOptions.previews && !missing.empty()) {
-        interpolated->resume(plan);
-        if (plan.scale && !interpolated->scale()) interpolated->append(*plan.scale);
-        bakeWithPreviews(device, plan, missing, limits, checkpoint, *interpolated, sink, writeWhole, observer,
-                         summary.times, kept);
+    if (previews && !missing.empty()) {
+        previews->bake(missing, limits, sink, kept, summary.times);
     } else
         bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times, kept);
     observer.stage(BakeStage::Writing, "");

@@ -65,20 +65,6 @@ nlohmann::json describeInputs(const Scene& scene) {
     return inputs;
 }
 
-// Transport that is yet to be baked, in the layout that it will have.
-void prepareTransport(BakePlan& plan) {
-    const LayoutOptions& options = plan.options.layout;
-    plan.asset.layout.reset();
-    if (isCompressed(options.layout)) plan.asset.layout = recordOf(options, 0);
-    for (AssetPart& part : plan.asset.parts)
-        for (MaterialSet& set : part.sets) {
-            set.transport =
-                emptyTransport(options.layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
-            std::visit([&](auto& layout) { prepareLayout(layout, set.brdf, plan.asset.bounces > 0); },
-                       set.transport);
-        }
-}
-
 // Tells brushed parts from others. Each BRDF is made once: that of measured data reads a file.
 class BrushedParts {
   public:
@@ -237,6 +223,19 @@ BakePlan planOf(Asset asset, const std::string& visibilityKey) {
     cutBlocks(plan);
     plan.identity = identityOf(plan);
     return plan;
+}
+
+void prepareTransport(BakePlan& plan) {
+    const LayoutOptions& options = plan.options.layout;
+    plan.asset.layout.reset();
+    if (isCompressed(options.layout)) plan.asset.layout = recordOf(options, 0);
+    for (AssetPart& part : plan.asset.parts)
+        for (MaterialSet& set : part.sets) {
+            set.transport =
+                emptyTransport(options.layout, uint32_t(part.mesh.vertexCount()), uint32_t(set.brdf.terms));
+            std::visit([&](auto& layout) { prepareLayout(layout, set.brdf, plan.asset.bounces > 0); },
+                       set.transport);
+        }
 }
 
 void setVisibility(BakePlan& plan, VisibilityMethod method) {

@@ -56,6 +56,9 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
 // kept visibility; empty for none.
 BakePlan planOf(Asset asset, const std::string& visibilityKey = {});
 
+// Makes the transport of every set empty, in the layout that the plan's options name.
+void prepareTransport(BakePlan& plan);
+
 // Decides how visibility is found, and the identity with it.
 void setVisibility(BakePlan& plan, VisibilityMethod method);
 

@@ -1,11 +1,13 @@
 #include "precompute/bake/preview.h"
 
-#include "precompute/bake/interpolated_blocks.h"
+#include "precompute/bake/baked_options.h"
+#include "precompute/bake/memory_blocks.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <numeric>
+#include <utility>
 
 namespace relume {
 
@@ -19,6 +21,21 @@ double secondsSince(Clock::time_point start) {
 
 // Writing a preview again takes at most such a share of the time since the last.
 constexpr double kWritingShare = 0.1;
+
+constexpr uint64_t kMostDraftBytes = uint64_t(512) << 20;
+
+std::vector<uint32_t> allBlocks(const BakePlan& plan) {
+    std::vector<uint32_t> all(plan.blocks.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+// Writes a preview of which such a share is baked.
+void writeShare(BakePlan& plan, float share, const StoredBlocks& blocks, const PreviewWriter& write) {
+    plan.asset.provenance.bakedShare = share;
+    write(blocks);
+    plan.asset.provenance.bakedShare.reset();
+}
 
 // Baked blocks, and interpolated ones in place of the others.
 class MixedBlocks : public StoredBlocks {
@@ -63,14 +80,12 @@ class PreviewSink : public BakeSink {
         uint64_t baked = 0;
         for (uint32_t block = 0; block < mPlan.blocks.size(); block++)
             if (mCheckpoint.has(block)) baked += mPlan.blocks[block].count();
-        std::optional<float>& share = mPlan.asset.provenance.bakedShare;
-        share = float(double(baked) / double(mPlan.vertices()));
-        mWrite(MixedBlocks(mCheckpoint, mInterpolated));
+        const auto share = float(double(baked) / double(mPlan.vertices()));
+        writeShare(mPlan, share, MixedBlocks(mCheckpoint, mInterpolated), mWrite);
         mWritten = Clock::now();
         mWriteSeconds = secondsSince(start);
         mSeconds += mWriteSeconds;
-        mObserver.preview(double(*share));
-        share.reset();
+        mObserver.preview(double(share));
     }
 
     double seconds() const { return mSeconds; }
@@ -102,24 +117,68 @@ std::vector<std::vector<uint32_t>> previewPortions(const BakePlan& plan, std::sp
     return portions;
 }
 
-void bakeWithPreviews(const vk::Device& device, BakePlan& plan, std::span<const uint32_t> missing,
-                      const BakeLimits& limits, const Checkpoint& checkpoint, Checkpoint& interpolated,
-                      BakeSink& sink, const PreviewWriter& write, BakeObserver& observer, BakeTimes& times,
-                      KeptVisibility* kept) {
+Previews::Previews(const vk::Device& device, BakePlan& plan, std::span<const uint32_t> missing,
+                   const BakeLimits& limits, const Checkpoint& checkpoint, Checkpoint& interpolated,
+                   PreviewWriter write, BakeObserver& observer)
+    : mDevice(device), mPlan(plan), mCheckpoint(checkpoint), mInterpolated(interpolated),
+      mWrite(std::move(write)), mObserver(observer) {
     const Clock::time_point start = Clock::now();
     observer.stage(BakeStage::Preview, "");
-    interpolateBlocks(device, plan, missing, limits, interpolated, observer);
-    const double interpolating = secondsSince(start);
-    const std::vector<std::vector<uint32_t>> portions = previewPortions(plan, missing);
+    mInterpolated.resume(plan);
+    if (std::ranges::all_of(missing, [&](uint32_t block) { return mInterpolated.has(block); })) return;
+    mCoarse.emplace(device, plan, missing, limits, observer);
+    mSeconds = secondsSince(start);
+}
+
+void Previews::writeDraft() {
+    const std::vector<uint32_t> all = allBlocks(mPlan);
+    const auto isBaked = [&](uint32_t block) { return mCheckpoint.has(block); };
+    if (!mCoarse || std::ranges::any_of(all, isBaked) ||
+        CoarseRows::interpolatedBytes(mPlan) > kMostDraftBytes)
+        return;
+    const Clock::time_point start = Clock::now();
+    const LayoutOptions layout =
+        std::exchange(mPlan.options.layout, LayoutOptions{.layout = TransportLayout::Rows});
+    const int bounces = std::exchange(mPlan.asset.bounces, 0);
+    const std::string described =
+        std::exchange(mPlan.asset.provenance.options, describeOptions(mPlan.options));
+    prepareTransport(mPlan);
+    MemoryBlocks blocks;
+    mCoarse->interpolate(
+        mPlan, all, [&](uint32_t block, StoredBlock stored) { blocks.keep(block, std::move(stored)); },
+        mObserver);
+    writeShare(mPlan, 0, blocks, mWrite);
+    mObserver.preview(0);
+    mPlan.options.layout = layout;
+    mPlan.asset.bounces = bounces;
+    mPlan.asset.provenance.options = described;
+    prepareTransport(mPlan);
+    mSeconds += secondsSince(start);
+}
+
+void Previews::bake(std::span<const uint32_t> missing, const BakeLimits& limits, BakeSink& sink,
+                    KeptVisibility* kept, BakeTimes& times) {
+    const Clock::time_point start = Clock::now();
+    mObserver.stage(BakeStage::Preview, "");
+    if (mPlan.scale && !mInterpolated.scale()) mInterpolated.append(*mPlan.scale);
+    std::vector<uint32_t> lacking;
+    std::ranges::copy_if(missing, std::back_inserter(lacking),
+                         [&](uint32_t block) { return !mInterpolated.has(block); });
+    if (mCoarse)
+        mCoarse->interpolate(
+            mPlan, lacking,
+            [&](uint32_t block, const StoredBlock& stored) { mInterpolated.append(block, stored); },
+            mObserver);
+    mCoarse.reset();
+    mSeconds += secondsSince(start);
+    const std::vector<std::vector<uint32_t>> portions = previewPortions(mPlan, missing);
     std::vector<uint32_t> order;
     for (const std::vector<uint32_t>& portion : portions)
         order.insert(order.end(), portion.begin(), portion.end());
-    PreviewSink previews(plan, checkpoint, interpolated, sink, portions, write, observer);
+    PreviewSink previews(mPlan, mCheckpoint, mInterpolated, sink, portions, mWrite, mObserver);
     previews.writePreview();
-    std::vector<uint32_t> all(plan.blocks.size());
-    std::iota(all.begin(), all.end(), 0u);
-    bakeBlocks(device, plan, order, all, limits, previews, observer, times, kept);
-    times.previews = interpolating + previews.seconds();
+    bakeBlocks(mDevice, mPlan, order, allBlocks(mPlan), limits, previews, mObserver, times, kept);
+    times.previews = mSeconds + previews.seconds();
 }
 
 } // namespace relume

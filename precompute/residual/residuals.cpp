@@ -67,9 +67,9 @@ bool isExact(const Reflectance& exact, const FactoredBrdf& factors, int layer) {
     return difference <= kExactTerms * all;
 }
 
-std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, MaterialBrdfs& brdfs) {
+std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, bool isOfAll, MaterialBrdfs& brdfs) {
     const std::vector<Layer> layers = layersOf(set, brdfs);
-    bool allExact = true;
+    bool allExact = !isOfAll;
     for (size_t layer = 0; layer < layers.size(); layer++)
         allExact &= isExact(layers[layer].exact, set.brdf, int(layer));
     if (allExact) return nullptr;
@@ -93,7 +93,7 @@ bool isSame(const MaterialSet& a, const MaterialSet& b) {
 
 } // namespace
 
-void makeResiduals(Asset& asset) {
+void makeResiduals(Asset& asset, bool isOfAll) {
     MaterialBrdfs brdfs;
     std::vector<const MaterialSet*> ofTangents, ofNormals; // made, of parts whose frames follow these
     const auto knownOf = [&](const AssetPart& part) -> auto& {
@@ -114,7 +114,7 @@ void makeResiduals(Asset& asset) {
             }
             known.push_back(&set);
             try {
-                set.residual = makeSet(set, brdfs);
+                set.residual = makeSet(set, isOfAll, brdfs);
             } catch (const Error& error) {
                 log(LogLevel::Warning, fmt::format("{}: drawn without the residual, by its K terms alone: {}",
                                                    part.name, error.what()));

@@ -143,7 +143,8 @@ const uint kSurfaceLook = 2; // paint, a texture or a detail as well
 
 // How a draw's fragments estimate radiance: shaders/lib/unshadowed.glsl.
 const uint kTermsAlone = 0, kResidualDifference = 1, kResidualRatio = 2;
-const uint kBounced = 4; // added to the latter two: light of other surfaces is in the tuples
+const uint kBounced = 4;    // added to the latter two: light of other surfaces is in the tuples
+const uint kUnshadowed = 8; // alone: what nothing shadows is all that is known
 
 // Where a part's paint comes from.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;

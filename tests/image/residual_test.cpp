@@ -6,6 +6,7 @@
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "precompute/bake/bake.h"
+#include "precompute/bake/sketch.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization.h"
 #include "precompute/reference/reference_image.h"
@@ -34,11 +35,12 @@ Camera viewOf(const Asset& asset) {
 }
 
 Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
-            const RelighterOptions& options = {}, bool isAdded = true) {
+            const RelighterOptions& options = {}, bool isAdded = true, bool isUnshadowed = false) {
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
     Relighter relighter(device, asset, options);
-    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
+    ViewPass view(device, asset,
+                  {.width = kWidth, .height = kHeight, .samples = 1, .isUnshadowed = isUnshadowed});
     view.setResidual(isAdded);
     vk::Commands commands(device, "residual test");
     commands.begin();
@@ -81,6 +83,21 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         CHECK_LE(ofEstimate, 0.06 + silhouetteError(device));
         // Switched off, not a bit of it is left.
         CHECK(relit(device, asset, sky, {}, false).pixels == terms.pixels);
+    }
+}
+
+TEST_CASE("image: a sketch of what shadows nothing is its reference") {
+    const TestDevice device;
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    for (const char* material : {"gold", "red-plastic", "white-diffuse"}) {
+        Scene scene;
+        scene.parts.push_back({"sphere", makeSphere(4), material, "built-in sphere", ""});
+        const Asset sketch = makeSketch(device, std::move(scene));
+        const double error = compareImages(relit(device, sketch, sky, {}, true, true),
+                                           reference(sketch, sky, ReferenceBrdf::Exact))
+                                 .relativeRmse;
+        MESSAGE(std::string(material), ": relative error ", error);
+        CHECK_LE(error, 0.02 + silhouetteError(device));
     }
 }
 

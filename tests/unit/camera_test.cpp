@@ -1,5 +1,6 @@
 #include "engine/scene/camera.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace relume;
@@ -74,6 +75,21 @@ TEST_CASE("camera: the bounding sphere just fits, in wide and in tall images") {
               doctest::Approx(std::sin(limit)));
         const Camera standard = defaultCamera(bounds, 0.6f, aspect);
         CHECK(standard.eye.y > bounds.centre().y);
-        CHECK(bounds.radius() / glm::distance(standard.eye, bounds.centre()) < std::sin(limit));
     }
+}
+
+TEST_CASE("camera: the default view is filled by the bounding box, and holds all of it") {
+    for (const Bounds& bounds :
+         {box({-2, 0, -1}, {2, 3, 1}), box({5, 5, 5}, {6, 15, 6}), box(vec3(0), vec3(1))})
+        for (float aspect : {0.5f, 1.0f, 16.0f / 9}) {
+            const mat4 clip = defaultCamera(bounds, 0.6f, aspect).clipFromWorld(aspect, bounds);
+            float furthest = 0;
+            for (int corner = 0; corner < 8; corner++) {
+                const vec3 place =
+                    glm::mix(bounds.low, bounds.high, vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+                const vec3 seen = glm::abs(project(clip, place));
+                furthest = std::max({furthest, seen.x, seen.y});
+            }
+            CHECK(furthest == doctest::Approx(0.94f));
+        }
 }
