@@ -145,8 +145,9 @@ void LightArguments::add(CLI::App& command) {
             ->excludes(distant);
     command
         .add_option("--light", mFile,
-                    "A light file instead: environments, day sky, strokes, lamps, still or moving (.json)")
-        ->type_name("FILE")
+                    "A light file instead (.json), or its content: environments, day sky, strokes, lamps, "
+                    "still or moving")
+        ->type_name("FILE|JSON")
         ->excludes(environment)
         ->excludes(blend)
         ->excludes(distant)
@@ -179,8 +180,12 @@ MovingLight LightArguments::moving(bool withPictures) const {
     return light;
 }
 
+// Whether --light is a light file's content instead of its name.
+static bool isInline(const std::string& light) { return light.starts_with('{'); }
+
 void LightArguments::addInputs(CommandFiles& files) const {
-    for (const std::string& file : {mEnvironment, mBlend, mFile}) files.addInput(file);
+    for (const std::string& file : {mEnvironment, mBlend}) files.addInput(file);
+    if (!isInline(mFile)) files.addInput(mFile);
 }
 
 // `file`: empty for the built-in sky.
@@ -199,6 +204,7 @@ Light stillLight(const std::string& file, bool withPictures) {
 }
 
 MovingLight LightArguments::source(bool withPictures) const {
+    if (isInline(mFile)) return {mFile, "--light", ""};
     if (!mFile.empty()) return readLight(mFile);
     if (!mDistant.empty())
         return MovingLight({.distant = {{directionAt(mDistant[0], mDistant[1]), vec3(kPi)}}});

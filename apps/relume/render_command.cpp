@@ -3,6 +3,7 @@
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"
 #include "apps/relume/selection_arguments.h"
+#include "apps/relume/session_file.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
 #include "engine/import/timing_file.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct Arguments {
     std::string file;
+    std::filesystem::path session;
     CameraArguments camera;
     LightArguments light;
     ImageArguments image;
@@ -57,6 +59,7 @@ std::filesystem::path framePath(const Arguments& arguments, int frame) {
 void checkFiles(const Arguments& arguments, const MovingLight& light) {
     CommandFiles files;
     files.addInput(arguments.file);
+    files.addInput(arguments.session);
     files.addInputs(light.files());
     arguments.light.addInputs(files);
     for (int frame = 0; frame < arguments.frames; frame++)
@@ -186,7 +189,12 @@ void addRelightMode(CLI::App& command, RelightMode& mode) {
 void addRenderCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("render", "Relight and draw a bake into images");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
+    command->add_option("FILE,--bake", arguments->file, "Bake (.relume)");
+    command
+        ->add_option("--session", arguments->session,
+                     "A session of the viewer (.json): its bake, view, light and materials; options that are "
+                     "given win")
+        ->type_name("FILE");
     arguments->image.add(*command);
     arguments->appearance.add(*command);
     arguments->light.add(*command);
@@ -221,7 +229,11 @@ void addRenderCommand(CLI::App& program) {
         ->add_option("--timings", arguments->timings,
                      "Write what each frame spends its time on: .json for trace viewers, .csv a table")
         ->type_name("FILE");
-    command->callback([arguments] { run(*arguments); });
+    command->callback([arguments, command] {
+        if (!arguments->session.empty()) applySession(arguments->session, *command);
+        if (arguments->file.empty()) throw UsageError("FILE: expected a bake (.relume), or --session");
+        run(*arguments);
+    });
 }
 
 } // namespace relume

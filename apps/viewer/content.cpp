@@ -1,6 +1,7 @@
 #include "apps/viewer/content.h"
 
 #include "apps/viewer/opened_file.h"
+#include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/import/environment_file.h"
@@ -54,12 +55,14 @@ void Content::open(const std::filesystem::path& file) {
         bake(file);
         break;
     case FileKind::Environment:
-        mLight.environment = addEnvironment(file);
+        mLight.environment = addEnvironment(mLight, file);
         mLight.file.reset();
         break;
     case FileKind::Light:
         openLight(file);
         break;
+    case FileKind::Session:
+        RELUME_CHECK(false); // of the viewer as a whole
     }
     remember(file);
 }
@@ -128,6 +131,7 @@ void Content::close(size_t model) {
 
 void Content::bake(const std::filesystem::path& input) {
     const Bake bake{input, bakePath(input)};
+    mInputs[bake.output] = std::filesystem::absolute(input);
     if (mBake && mBake->output() == bake.output) return;
     if (mBake) { // it goes on where it was, later
         mNextBakes.push_back({mBake->input(), mBake->output()});
@@ -157,6 +161,11 @@ void Content::sketch(const Bake& bake) {
             return [this, model] { take(model); };
         },
         [](const std::string& why) { log(LogLevel::Debug, "no sketch: " + why); });
+}
+
+std::filesystem::path Content::inputOf(const std::filesystem::path& bake) const {
+    const auto known = mInputs.find(bake);
+    return known == mInputs.end() ? std::filesystem::path() : known->second;
 }
 
 void Content::cancelBake() {
@@ -200,16 +209,6 @@ void Content::pollBake() {
 }
 
 // Light
-
-size_t Content::addEnvironment(const std::filesystem::path& file) {
-    std::vector<EnvironmentChoice>& choices = mLight.environments;
-    const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
-    const auto known = std::ranges::find(choices, whole, &EnvironmentChoice::file);
-    const auto number = size_t(known - choices.begin());
-    if (known == choices.end())
-        choices.push_back({EnvironmentChoice::Kind::File, file.stem().string(), whole});
-    return number;
-}
 
 // The chosen one first.
 void Content::readNextEnvironment() {

@@ -8,6 +8,7 @@
 #include "apps/viewer/worker.h"
 
 #include <deque>
+#include <map>
 
 namespace relume {
 
@@ -53,10 +54,11 @@ class Content {
     bool isSettled() const { return mWorker.isIdle() && !mBake && mNextBakes.empty(); }
 
     // Files that were opened, the newest first.
+    void remember(const std::filesystem::path& file);
     const std::vector<std::filesystem::path>& recent() const { return mRecent; }
     void setRecent(std::vector<std::filesystem::path> files) { mRecent = std::move(files); }
-    // An environment to choose from, added if it is not there; its number.
-    size_t addEnvironment(const std::filesystem::path& file);
+    // Returns the mesh or scene that a bake was made of in view; empty: none was.
+    std::filesystem::path inputOf(const std::filesystem::path& bake) const;
 
   private:
     struct Bake {
@@ -75,7 +77,6 @@ class Content {
     void readEnvironment(size_t number);
     void readNextEnvironment();
     void pollBake();
-    void remember(const std::filesystem::path& file);
 
     const vk::Device& mDevice;
     std::string mDeviceSelect;
@@ -89,7 +90,8 @@ class Content {
     bool mMustReload = false;                            // the bake in hand has written since it was read
     bool mHasChanged = false;
     std::vector<std::filesystem::path> mRecent;
-    Worker mWorker; // last: its work uses all of the above
+    std::map<std::filesystem::path, std::filesystem::path> mInputs; // of bakes
+    Worker mWorker;                                                 // last: its work uses all of the above
 };
 
 } // namespace relume

@@ -39,9 +39,10 @@ std::vector<KeyHelp> keyHelp() {
         {"F9", "start and stop a timing capture"},
         {"F11", "full screen"},
         {"F12", "screenshot: .png as it is seen, .exr of linear radiance"},
+        {"Ctrl + S", "save the session: view, light and materials"},
         {"Ctrl + F12", "start and stop recording images"},
         {"Ctrl + Q", "quit"},
-        {"Drop files", ".relume, meshes, scenes; environments and lights (.exr, .hdr, .json)"},
+        {"Drop files", ".relume, meshes, scenes; environments, lights and sessions (.exr, .hdr, .json)"},
     };
 }
 
@@ -162,6 +163,8 @@ Command Controls::takeKey(const InputEvent& event, SceneState& state) {
         return Command::FullScreen;
     case GLFW_KEY_F12:
         return withControl ? Command::Record : Command::Screenshot;
+    case GLFW_KEY_S:
+        return withControl ? Command::SaveSession : Command::None;
     case GLFW_KEY_Q:
         return withControl ? Command::Quit : Command::None;
     default:

@@ -14,6 +14,7 @@ enum class Command {
     Focus, // on what is under the cursor
     Why,   // explain what is under the cursor
     Screenshot,
+    SaveSession,
     Record,
     Capture,
     ReloadShaders,

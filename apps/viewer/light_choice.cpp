@@ -1,8 +1,11 @@
 #include "apps/viewer/light_choice.h"
 
+#include "engine/import/json_object.h"
 #include "engine/light/sun_position.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace relume {
 
@@ -16,16 +19,24 @@ vec3 radianceOf(const LampChoice& lamp) {
     return lamp.brightness / (sine * sine) * lamp.color;
 }
 
+constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+
+// As a light file has it, to the second.
+std::string timeOf(const DaySkyChoice& choice) {
+    int month = 1, day = choice.dayOfYear;
+    while (month < 12 && day > kDays[month - 1]) day -= kDays[month++ - 1];
+    const int second = std::clamp(int(std::lround(3600 * double(choice.hour))), 0, 24 * 3600 - 1);
+    return fmt::format("2026-{:02}-{:02}T{:02}:{:02}:{:02}Z", month, day, second / 3600, second / 60 % 60,
+                       second % 60);
+}
+
 nlohmann::json listOf(vec3 v) { return {v.x, v.y, v.z}; }
 
 } // namespace
 
 SunPlace sunPlaceOf(const DaySkyChoice& choice) {
     constexpr float kNorth = 180; // the default of light files
-    constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    int month = 1, day = choice.dayOfYear;
-    while (month < 12 && day > kDays[month - 1]) day -= kDays[month++ - 1];
-    const SunPosition sun = sunPosition({2026, month, day, double(choice.hour)}, double(choice.latitude), 0);
+    const SunPosition sun = sunPosition(parseMoment(timeOf(choice)), double(choice.latitude), 0);
     return {kNorth - float(sun.azimuth), float(sun.elevation)};
 }
 
@@ -57,17 +68,20 @@ Light lightOf(const LightState& state) {
     return light;
 }
 
-std::optional<nlohmann::json> lightFileOf(const LightState& state) {
+nlohmann::json lightFileOf(const LightState& state) {
     nlohmann::json light = nlohmann::json::object();
     if (state.isDay()) {
-        const SunPlace sun = sunPlaceOf(state.sky);
-        light["sky"] = {{"sun", {{"azimuth", sun.azimuth}, {"elevation", sun.elevation}}},
+        light["sky"] = {{"time", timeOf(state.sky)},
+                        {"latitude", state.sky.latitude},
+                        {"longitude", 0},
                         {"turbidity", state.sky.turbidity},
                         {"gain", state.environmentGain}};
     } else if (state.environmentGain > 0) {
-        if (state.chosen().file.empty()) return std::nullopt;
-        light["environment"] = {{"file", std::filesystem::absolute(state.chosen().file).string()},
-                                {"gain", state.environmentGain}};
+        light["environment"] = {{"gain", state.environmentGain}};
+        if (state.chosen().file.empty())
+            light["environment"]["built_in"] = true;
+        else
+            light["environment"]["file"] = std::filesystem::absolute(state.chosen().file).string();
     }
     for (const StrokeChoice& stroke : state.strokes)
         light["strokes"].push_back({{"azimuth", stroke.azimuth},
@@ -81,6 +95,85 @@ std::optional<nlohmann::json> lightFileOf(const LightState& state) {
                                   {"radius", lamp.radius},
                                   {"radiance", listOf(radianceOf(lamp))}});
     return light;
+}
+
+size_t addEnvironment(LightState& state, const std::filesystem::path& file) {
+    std::vector<EnvironmentChoice>& choices = state.environments;
+    const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+    const auto known = std::ranges::find(choices, whole, &EnvironmentChoice::file);
+    const auto number = size_t(known - choices.begin());
+    if (known == choices.end())
+        choices.push_back({EnvironmentChoice::Kind::File, file.stem().string(), whole});
+    return number;
+}
+
+void setLight(LightState& state, const nlohmann::json& light, const std::string& place,
+              const std::filesystem::path& folder) {
+    static constexpr std::string_view kKeys[] = {"environment", "sky", "strokes", "lamps"},
+                                      kEnvironmentKeys[] = {"file", "built_in", "gain"},
+                                      kSkyKeys[] = {"time", "latitude", "longitude", "turbidity", "gain"},
+                                      kStrokeKeys[] = {"azimuth", "elevation", "radius", "radiance",
+                                                       "opacity"},
+                                      kLampKeys[] = {"azimuth", "elevation", "radius", "radiance"};
+    const JsonObject root(light, place, kKeys);
+    LightState set = state;
+    set.file.reset();
+    set.strokes.clear();
+    set.lamps.clear();
+    set.environment = 0;
+    set.environmentGain = 0;
+    using Kind = EnvironmentChoice::Kind;
+    if (root.find("environment") && root.find("sky")) root.fail("sky", "no such key beside \"environment\"");
+    if (const nlohmann::json* json = root.find("environment")) {
+        const JsonObject environment(*json, place + ": environment", kEnvironmentKeys);
+        if (!environment.flag("built_in", false))
+            set.environment =
+                addEnvironment(set, folder / environment.requiredText("file", "an .exr or .hdr file"));
+        set.environmentGain = environment.number("gain", 1, 0, 1e6f);
+    }
+    if (const nlohmann::json* json = root.find("sky")) {
+        const JsonObject sky(*json, place + ": sky", kSkyKeys);
+        const auto isDay = [](const EnvironmentChoice& choice) { return choice.kind == Kind::DaySky; };
+        set.environment = size_t(std::ranges::find_if(set.environments, isDay) - set.environments.begin());
+        set.environmentGain = sky.number("gain", 1, 0, 1e6f);
+        set.sky.latitude = sky.requiredNumber("latitude", -90, 90);
+        set.sky.turbidity = sky.number("turbidity", 2.5f, 2, 10);
+        // The viewer's clock shows solar time, which is an hour later every 15 degrees to the east.
+        const float longitude = sky.requiredNumber("longitude", -180, 180);
+        const Moment moment = parseMoment(sky.requiredText("time", "a moment"));
+        set.sky.hour = float(moment.hours) + longitude / 15;
+        set.sky.dayOfYear = moment.day;
+        for (int month = 1; month < moment.month; month++) set.sky.dayOfYear += kDays[month - 1];
+        if (!(set.sky.hour >= 0 && set.sky.hour <= 24)) {
+            set.sky.dayOfYear += set.sky.hour < 0 ? -1 : 1;
+            set.sky.hour += set.sky.hour < 0 ? 24 : -24;
+        }
+        set.sky.dayOfYear = std::clamp(set.sky.dayOfYear, 1, 365);
+    }
+    const auto forEach = [&](const char* key, std::span<const std::string_view> keys, const auto& add) {
+        const nlohmann::json* list = root.find(key);
+        if (list && (!list->is_array() || list->size() > kMostSources))
+            root.fail(key, fmt::format("a list of at most {} objects", kMostSources));
+        for (size_t i = 0; list && i < list->size(); i++)
+            add(JsonObject((*list)[i], fmt::format("{}: {}[{}]", place, key, i), keys));
+    };
+    forEach("strokes", kStrokeKeys, [&](const JsonObject& object) {
+        set.strokes.push_back(
+            {object.requiredNumber("azimuth", -360, 360), object.requiredNumber("elevation", -90, 90),
+             object.requiredNumber("radius", 0.5f, 180), object.requiredVector("radiance", 0, 1e6f),
+             object.number("opacity", 1, 0, 1)});
+    });
+    forEach("lamps", kLampKeys, [&](const JsonObject& object) {
+        LampChoice lamp{object.requiredNumber("azimuth", -360, 360),
+                        object.requiredNumber("elevation", -90, 90),
+                        object.requiredNumber("radius", 0.5f, 60), vec3(1), 0};
+        const float sine = std::sin(glm::radians(lamp.radius));
+        const vec3 lit = sine * sine * object.requiredVector("radiance", 0, 1e9f);
+        lamp.brightness = std::max({lit.x, lit.y, lit.z});
+        if (lamp.brightness > 0) lamp.color = lit / lamp.brightness;
+        set.lamps.push_back(lamp);
+    });
+    state = std::move(set);
 }
 
 void play(LightState& state, double seconds) {

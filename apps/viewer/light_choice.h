@@ -85,9 +85,17 @@ bool lightsAlike(const LightState& a, const LightState& b);
 // The light, not of a light file, and not turned.
 Light lightOf(const LightState& state);
 
-// The same as a light file has it (docs/light_format.md); none for the built-in environment, which has no
-// file.
-std::optional<nlohmann::json> lightFileOf(const LightState& state);
+// The same as a light file has it (docs/light_format.md).
+nlohmann::json lightFileOf(const LightState& state);
+
+// Sets what a light file's content says, whose relative paths start at `folder`: one environment or day sky,
+// strokes and lamps, as lightFileOf() gives them. `place` names it in errors. Throws Error, for other light
+// too, which can be shown but not be edited.
+void setLight(LightState& state, const nlohmann::json& light, const std::string& place,
+              const std::filesystem::path& folder);
+
+// Returns the number of a file among the environments to choose from, and adds it if it is not there.
+size_t addEnvironment(LightState& state, const std::filesystem::path& file);
 
 // Some of the light moves on by so many seconds: a light file's time, the day (an hour in two seconds), or
 // else all of it turns.

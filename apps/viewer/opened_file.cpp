@@ -46,11 +46,12 @@ std::string datesOf(const json& value, const std::filesystem::path& folder) {
     return dates;
 }
 
-bool isScene(const std::filesystem::path& file) {
+FileKind kindOfJson(const std::filesystem::path& file) {
     const json content = parse(file);
     if (!content.is_object())
-        throw Error(fmt::format("{}: expected a JSON object: a scene or a light", file.string()));
-    return content.contains("parts");
+        throw Error(fmt::format("{}: expected a JSON object: a scene, a light or a session", file.string()));
+    if (content.contains("session")) return FileKind::Session;
+    return content.contains("parts") ? FileKind::Bakeable : FileKind::Light;
 }
 
 } // namespace
@@ -66,13 +67,13 @@ FileKind kindOf(const std::filesystem::path& file) {
     const std::string extension = extensionOf(file);
     if (extension == ".relume") return FileKind::Bake;
     if (extension == ".exr" || extension == ".hdr") return FileKind::Environment;
-    if (extension == ".json") return isScene(file) ? FileKind::Bakeable : FileKind::Light;
+    if (extension == ".json") return kindOfJson(file);
     for (const char* mesh : {".obj", ".ply", ".gltf", ".glb"})
         if (extension == mesh) return FileKind::Bakeable;
-    throw Error(fmt::format(
-        "{}: expected a bake (.relume), a mesh (.obj, .ply, .gltf, .glb), a scene or light (.json) or an "
-        "environment (.exr, .hdr)",
-        file.string()));
+    throw Error(fmt::format("{}: expected a bake (.relume), a mesh (.obj, .ply, .gltf, .glb), a scene, light "
+                            "or session (.json) or an "
+                            "environment (.exr, .hdr)",
+                            file.string()));
 }
 
 std::filesystem::path writeBuiltInScene() {

@@ -6,12 +6,13 @@
 
 namespace relume {
 
-enum class FileKind { Bake, Bakeable, Environment, Light };
+enum class FileKind { Bake, Bakeable, Environment, Light, Session };
 
 // In small letters: ".obj".
 std::string extensionOf(const std::filesystem::path& file);
 
-// By its name; of a .json by whether it has "parts", as scenes do. Throws Error for other files.
+// By its name; of a .json by whether it has "parts", as scenes do, or "session". Throws Error for other
+// files.
 FileKind kindOf(const std::filesystem::path& file);
 
 // Returns the scene that is shown for want of another, which it puts into the user's cache. Throws Error.

@@ -56,11 +56,15 @@ std::optional<vec2> pixelOf(vec3 point, const Camera& camera, ivec2 size) {
     return 0.5f * vec2(size) + perUnit * vec2(glm::dot(arm, right), -glm::dot(arm, up));
 }
 
-Orbit defaultOrbit(const Bounds& bounds, float verticalFov, float aspect) {
-    const Camera camera = defaultCamera(bounds, verticalFov, aspect);
+Orbit orbitOf(const Camera& camera) {
     const vec3 arm = camera.eye - camera.target;
     const float distance = glm::length(arm);
-    return {camera.target, std::atan2(arm.x, arm.z), std::asin(arm.y / distance), distance, verticalFov};
+    return {camera.target, std::atan2(arm.x, arm.z), std::asin(arm.y / distance), distance,
+            camera.verticalFov};
+}
+
+Orbit defaultOrbit(const Bounds& bounds, float verticalFov, float aspect) {
+    return orbitOf(defaultCamera(bounds, verticalFov, aspect));
 }
 
 } // namespace relume

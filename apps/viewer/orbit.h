@@ -28,6 +28,9 @@ struct Orbit {
 // Where a point is seen in an image of this size, in pixels from the upper left; none: behind the eye.
 std::optional<vec2> pixelOf(vec3 point, const Camera& camera, ivec2 size);
 
+// What a camera shows.
+Orbit orbitOf(const Camera& camera);
+
 // What defaultCamera() shows.
 Orbit defaultOrbit(const Bounds& bounds, float verticalFov, float aspect);
 

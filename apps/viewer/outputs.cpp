@@ -102,13 +102,12 @@ void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& scr
     std::filesystem::path light = file;
     light.replace_extension(".light.json");
     if (needsLightFile(state.light)) {
-        const std::optional<nlohmann::json> values = lightFileOf(state.light);
-        if (!values) return; // no file says it
-        writeLightFile(light, *values);
+        writeLightFile(light, lightFileOf(state.light));
     }
     const auto command = [&](Drawn drawn) {
-        return renderCommand(state, fadesGround, model->file, int(mWindow.width), int(mWindow.height), light,
-                             drawn);
+        nlohmann::ordered_json options = renderOptions(state, fadesGround, drawn);
+        if (needsLightFile(state.light)) options["light"] = light.string();
+        return renderCommand(options, model->file, int(mWindow.width), int(mWindow.height), drawn);
     };
     spdlog::info("as a picture: {}", command(Drawn::Picture));
     spdlog::info("the same: {}", command(Drawn::Radiance));

@@ -36,7 +36,8 @@ struct PanelFacts {
 // What was pressed.
 struct PanelWishes {
     bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, togglesRecording = false,
-         resetsView = false, dismissesNotice = false, savesLight = false, reloadsShaders = false;
+         resetsView = false, dismissesNotice = false, savesLight = false, savesSession = false,
+         reloadsShaders = false;
     std::optional<std::filesystem::path> opens;
     std::optional<size_t> shows, closes; // models
 };

@@ -24,6 +24,7 @@ struct Brush {
 
 struct SceneState {
     std::optional<Orbit> orbit; // none: the model's default view
+    bool keepsOrbit = false;    // also for the model that is shown next, whatever it is
     float fovDegrees = 35;
     LightState light;
     Brush brush;

@@ -50,6 +50,7 @@ bool SceneView::poll() {
 void SceneView::record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model,
                        ivec2 size, bool isFinal) {
     if (model != mModel) begin(model, state);
+    state.keepsOrbit = false;
     if (!state.orbit)
         state.orbit =
             defaultOrbit(mModel->bounds, glm::radians(state.fovDegrees), float(size.x) / float(size.y));
@@ -70,7 +71,7 @@ void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
     const float slack = 1e-3f * model->bounds.radius();
     const bool isSame = mModel && glm::distance(mModel->bounds.low, model->bounds.low) < slack &&
                         glm::distance(mModel->bounds.high, model->bounds.high) < slack;
-    if (mModel && !isSame) state.orbit.reset();
+    if (mModel && !isSame && !state.keepsOrbit) state.orbit.reset();
     mModel = model;
     mLit.reset();
     mSeen.reset();

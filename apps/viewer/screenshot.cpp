@@ -1,10 +1,18 @@
 #include "apps/viewer/screenshot.h"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace relume {
 
 namespace {
+
+constexpr std::array kToneNames = {"none", "aces", "agx"};
+
+// Returns the double with the shortest text that is read as this float.
+double shortest(float value) { return std::stod(fmt::format("{}", value)); }
+
+nlohmann::json listOf(vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 
 // For a shell.
 std::string quoted(const std::string& text) {
@@ -30,40 +38,62 @@ bool needsLightFile(const LightState& light) {
            (light.isDay() || !light.lamps.empty() || !light.strokes.empty() || light.environmentGain != 1);
 }
 
-std::string renderCommand(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
-                          int width, int height, const std::filesystem::path& lightFile, Drawn drawn) {
+nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, Drawn drawn) {
     const LightState& light = state.light;
     const Camera camera = state.orbit->camera();
-    std::string command = fmt::format(
-        "relume render {} -o image.{} --size {}x{} --eye={},{},{} --target={},{},{} --fov {} --rotate={}",
-        quoted(bake.string()), drawn == Drawn::Picture ? "png" : "exr", width, height, camera.eye.x,
-        camera.eye.y, camera.eye.z, camera.target.x, camera.target.y, camera.target.z, state.fovDegrees,
-        light.rotation);
-    if (!light.selection.threshold)
-        command += fmt::format(" --coefficients {}", light.selection.count);
+    nlohmann::ordered_json options{{"eye", listOf(camera.eye)},
+                                   {"target", listOf(camera.target)},
+                                   {"fov", shortest(state.fovDegrees)},
+                                   {"rotate", shortest(light.rotation)}};
+    if (light.selection.threshold)
+        options["threshold"] = *light.selection.threshold;
     else
-        command += fmt::format(" --threshold {}", *light.selection.threshold);
-    if (light.file)
-        command += fmt::format(" --light {} --time {}", quoted(light.fileName.string()), light.seconds);
-    else if (needsLightFile(light))
-        command += fmt::format(" --light {}", quoted(lightFile.string()));
-    else if (!light.chosen().file.empty())
-        command += fmt::format(" -e {}", quoted(light.chosen().file.string()));
+        options["coefficients"] = light.selection.count;
+    if (light.file) {
+        options["light"] = light.fileName.string();
+        options["time"] = light.seconds;
+    } else if (!needsLightFile(light) && !light.chosen().file.empty())
+        options["environment"] = light.chosen().file.string();
     for (const WeightedMaterial& worn : state.material)
-        command += state.material.size() == 1
-                       ? fmt::format(" -m {}", quoted(worn.name))
-                       : fmt::format(" -m {}", quoted(fmt::format("{}={}", worn.name, worn.weight)));
-    if (state.samples != kDefaultSamples) command += fmt::format(" --samples {}", state.samples);
-    if (state.terms > 0) command += fmt::format(" --terms {}", state.terms);
-    if (!state.addsResidual) command += " --residual off";
-    const bool isSeen = state.background == Behind::Environment; // what .png has if nothing is said
-    if (drawn == Drawn::Radiance) return command + (fadesGround ? " --ground-fade" : "");
-    constexpr const char* kCurves[] = {"none", "aces", "agx"};
-    command += fmt::format(" --exposure={} --tone {}", state.exposure, kCurves[size_t(state.tone)]);
-    if (!isSeen) command += " --background none";
-    if (isSeen && state.backgroundBlur > 0)
-        command += fmt::format(" --background-blur {}", state.backgroundBlur);
-    if (isSeen && !fadesGround) command += " --no-ground-fade";
+        options["material"].push_back(
+            state.material.size() == 1 ? worn.name : fmt::format("{}={}", worn.name, worn.weight));
+    if (state.samples != kDefaultSamples) options["samples"] = state.samples;
+    if (state.terms > 0) options["terms"] = state.terms;
+    if (!state.addsResidual) options["residual"] = "off";
+    if (drawn == Drawn::Radiance) {
+        if (fadesGround) options["ground-fade"] = true;
+        return options;
+    }
+    const bool isSeen = state.background == Behind::Environment; // the default of .png
+    options["exposure"] = shortest(state.exposure);
+    options["tone"] = kToneNames[size_t(state.tone)];
+    if (!isSeen) options["background"] = "none";
+    if (isSeen && state.backgroundBlur > 0) options["background-blur"] = shortest(state.backgroundBlur);
+    if (isSeen && !fadesGround) options["ground-fade"] = false;
+    return options;
+}
+
+std::string renderCommand(const nlohmann::ordered_json& options, const std::filesystem::path& bake, int width,
+                          int height, Drawn drawn) {
+    std::string command = fmt::format("relume render {} -o image.{} --size {}x{}", quoted(bake.string()),
+                                      drawn == Drawn::Picture ? "png" : "exr", width, height);
+    // Numbers follow a =, as they may begin with a minus.
+    const auto textOf = [](const nlohmann::json& value) {
+        return value.is_string() ? ' ' + quoted(value.get<std::string>())
+                                 : fmt::format("={}", value.get<double>());
+    };
+    for (const auto& [name, value] : options.items()) {
+        if (value.is_boolean()) {
+            command += (value ? " --" : " --no-") + name;
+        } else if (!value.is_array()) {
+            command += " --" + name + textOf(value);
+        } else if (value[0].is_string()) {
+            for (const auto& each : value) command += " --" + name + textOf(each);
+        } else {
+            command += fmt::format(" --{}={},{},{}", name, value[0].get<double>(), value[1].get<double>(),
+                                   value[2].get<double>());
+        }
+    }
     return command;
 }
 

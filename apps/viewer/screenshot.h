@@ -15,11 +15,15 @@ Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkForm
 // Whether lightFileOf() must be written for a command to say what lights the object.
 bool needsLightFile(const LightState& light);
 
-// The command line that draws the same view of `bake` as linear radiance without a background, bit for bit;
-// or as a picture, as it is seen without panels. `state` has its orbit; `fadesGround`:
-// SceneView::fadesGround(); `light` is where lightFileOf() was written, if it was needed.
+// What is drawn: linear radiance without a background, or a picture as it is seen without panels.
 enum class Drawn { Radiance, Picture };
-std::string renderCommand(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
-                          int width, int height, const std::filesystem::path& light, Drawn drawn);
+
+// Returns the options of `relume render`, by name, that draw the same view bit for bit; without a light that
+// needsLightFile(). `state` has its orbit; `fadesGround`: SceneView::fadesGround().
+nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, Drawn drawn);
+
+// Returns the command line with these options.
+std::string renderCommand(const nlohmann::ordered_json& options, const std::filesystem::path& bake, int width,
+                          int height, Drawn drawn);
 
 } // namespace relume

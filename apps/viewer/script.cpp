@@ -73,10 +73,11 @@ void checkWait(const json& wait) {
     const bool isPasses = wait.is_object() && wait.size() == 1 && wait.contains("passes");
     if (isPasses)
         wholeOf(wait["passes"], "passes", 0, Comparison::kPasses);
-    else if (wait != "settled" && !(wait.is_number() && wait >= 0 && wait <= kMostSeconds))
-        throw Error(fmt::format("\"wait\": expected \"settled\", 0 to {} seconds, or {{\"passes\": N}} of a "
-                                "comparison, found {}",
-                                kMostSeconds, wait.dump()));
+    else if (wait != "settled" && wait != "shown" && !(wait.is_number() && wait >= 0 && wait <= kMostSeconds))
+        throw Error(fmt::format(
+            "\"wait\": expected \"settled\", \"shown\", 0 to {} seconds, or {{\"passes\": N}} of a "
+            "comparison, found {}",
+            kMostSeconds, wait.dump()));
 }
 
 // Throws unless a step is one action with what belongs to it, in numbers that there are.
@@ -183,6 +184,7 @@ bool Script::run(ScriptTarget& target, const json& step) {
 bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
     if (mFrame == 1) mWaitsSince = std::chrono::steady_clock::now();
     if (wait == "settled") return target.isSettled();
+    if (wait == "shown") return target.isShown();
     if (wait.is_number())
         return std::chrono::steady_clock::now() - mWaitsSince >=
                std::chrono::duration<double>(wait.get<double>());

@@ -19,6 +19,8 @@ class ScriptTarget {
     virtual void set(const std::string& name, const nlohmann::json& value) = 0;
     // Nothing is being read or baked, and the newest of it is shown.
     virtual bool isSettled() const = 0;
+    // A model is shown: a sketch, a preview or a bake.
+    virtual bool isShown() const = 0;
     // Of the reference that is shown. Throws Error when there will be none.
     virtual int comparedPasses() const = 0;
     virtual void quit() = 0;

@@ -9,12 +9,14 @@
 #include "apps/viewer/overlay.h"
 #include "apps/viewer/panel_pictures.h"
 #include "apps/viewer/script.h"
+#include "apps/viewer/session.h"
 #include "apps/viewer/settings.h"
 #include "apps/viewer/shader_compiler.h"
 #include "apps/viewer/surface.h"
 #include "apps/viewer/ui.h"
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/interrupt.h"
 #include "engine/render/display_pass.h"
 
@@ -71,6 +73,7 @@ class Viewer : public ScriptTarget {
     void screenshot(const std::filesystem::path& file) override;
     void set(const std::string& name, const nlohmann::json& value) override;
     bool isSettled() const override;
+    bool isShown() const override { return hasView() && mView.image(); }
     int comparedPasses() const override;
     void quit() override { mWindow.close(); }
 
@@ -78,12 +81,15 @@ class Viewer : public ScriptTarget {
     void takeEvents();
     void take(const InputEvent& event, UiWants wants);
     void open(const std::filesystem::path& file);
+    void openFile(const std::filesystem::path& file);
+    void resumeSession();
     void obey(Command command);
     void obey(const PanelWishes& wishes);
     void focus();
     void askWhy();
     void reloadShaders();
     void saveLight();
+    void saveSession();
 
     void poll();
     void expectSomething() const;
@@ -131,7 +137,8 @@ class Viewer : public ScriptTarget {
 
     FrameTimes mTimes;
     Outputs mOutputs;
-    std::filesystem::path mTitled; // the bake that the window's title names
+    std::optional<Session> mSession; // that waits for its model
+    std::filesystem::path mTitled;   // the bake that the window's title names
     std::string mNotice;
     Clock::time_point mNoticeTime;
     bool mIsFailure = false;
@@ -167,7 +174,7 @@ Viewer::Viewer(const ViewerOptions& options)
     }
     mState.waitsForDisplay &= options.waitsForDisplay;
     mContent.setRecent(mHabits.recent);
-    for (const std::filesystem::path& file : mHabits.environments) mContent.addEnvironment(file);
+    for (const std::filesystem::path& file : mHabits.environments) addEnvironment(mState.light, file);
     if (!options.script.empty()) mScript.emplace(options.script);
     if (!options.timings.empty()) mOutputs.beginCapture(options.timings);
     bool hasModel = false;
@@ -175,8 +182,8 @@ Viewer::Viewer(const ViewerOptions& options)
         if (!std::filesystem::exists(file))
             throw Error(fmt::format("{}: there is no such file", file.string()));
         const FileKind kind = kindOf(file);
-        hasModel |= kind == FileKind::Bake || kind == FileKind::Bakeable;
-        mContent.open(file);
+        hasModel |= kind != FileKind::Environment && kind != FileKind::Light;
+        openFile(file);
     }
     if (!hasModel) mContent.openBuiltIn();
 }
@@ -250,7 +257,28 @@ void Viewer::take(const InputEvent& event, UiWants wants) {
 }
 
 void Viewer::open(const std::filesystem::path& file) {
-    attempt([&] { mContent.open(file); });
+    attempt([&] { openFile(file); });
+}
+
+void Viewer::openFile(const std::filesystem::path& file) {
+    if (kindOf(file) != FileKind::Session) {
+        mSession.reset();
+        return mContent.open(file);
+    }
+    const Session session = readSession(file, mState);
+    mContent.open(session.opened);
+    mSession = session;
+    mContent.remember(file);
+}
+
+// The model that a session waits for is there.
+void Viewer::resumeSession() {
+    const bool isBaked = kindOf(mSession->opened) == FileKind::Bakeable;
+    if (mContent.shown()->file != (isBaked ? bakePath(mSession->opened) : mSession->opened)) return;
+    mState.orbit = orbitOf(mSession->camera);
+    mState.keepsOrbit = true;
+    mState.material = mSession->material;
+    mSession.reset();
 }
 
 void Viewer::obey(Command command) {
@@ -265,6 +293,8 @@ void Viewer::obey(Command command) {
     case Command::Screenshot:
         for (const char* extension : {".png", ".exr"}) mOutputs.wantScreenshot(outputName(extension));
         return;
+    case Command::SaveSession:
+        return saveSession();
     case Command::Record:
         return toggleRecording();
     case Command::Capture:
@@ -306,6 +336,7 @@ void Viewer::obey(const PanelWishes& wishes) {
     if (wishes.dismissesNotice) mNotice.clear();
     if (wishes.reloadsShaders) reloadShaders();
     if (wishes.savesLight) saveLight();
+    if (wishes.savesSession) saveSession();
     if (wishes.opens) open(*wishes.opens);
     if (wishes.shows) mContent.show(*wishes.shows);
     if (wishes.closes) mContent.close(*wishes.closes);
@@ -357,18 +388,31 @@ void Viewer::reloadShaders() {
 
 void Viewer::saveLight() {
     attempt([&] {
-        const std::optional<nlohmann::json> light = lightFileOf(mState.light);
-        if (!light) throw Error("the built-in sky has no file; choose another environment to save a light");
         const std::string file = outputName(".light.json");
-        writeLightFile(file, *light);
+        writeLightFile(file, lightFileOf(mState.light));
         tell(fmt::format("{} is written; its turn is --rotate={}", file, mState.light.rotation));
+    });
+}
+
+void Viewer::saveSession() {
+    attempt([&] {
+        if (!hasView()) throw Error("nothing is shown yet that a session could keep");
+        const SceneState drawn = mView.drawn(mState);
+        const std::filesystem::path& bake = mContent.shown()->file;
+        const std::string file = outputName(".session.json");
+        writeFileAtomically(
+            file, sessionOf(drawn, mView.fadesGround(mState), bake, mContent.inputOf(bake), mWindow.size())
+                          .dump(2) +
+                      "\n");
+        tell(fmt::format("{0} is written; relume render --session {0} -o IMAGE draws it", file));
     });
 }
 
 void Viewer::set(const std::string& name, const nlohmann::json& value) {
     wantFrames(kFramesAfterInput);
     if (name == "environment") {
-        mState.light.environment = value == "sky" ? 0 : mContent.addEnvironment(value.get<std::string>());
+        mState.light.environment =
+            value == "sky" ? 0 : addEnvironment(mState.light, value.get<std::string>());
         mState.light.file.reset();
     } else
         applySetting(mState, name, value, hasView() ? &mContent.shown()->bounds : nullptr);
@@ -413,6 +457,7 @@ void Viewer::poll() {
     if (mContent.poll()) wantFrames(kFramesAfterInput);
     if (mView.poll()) wantFrames(1);
     if (mPictures.poll()) wantFrames(1);
+    if (mSession && mContent.shown()) attempt([&] { resumeSession(); });
     if (!mContent.shown() || mContent.shown()->file == mTitled) return;
     mTitled = mContent.shown()->file;
     const std::string name = mTitled.filename().string();

@@ -62,8 +62,12 @@ std::vector<std::filesystem::path> sequenceFiles(const std::filesystem::path& pa
 } // namespace
 
 std::shared_ptr<const Environment> EnvironmentFiles::map(const std::filesystem::path& file) {
-    mNamed.insert(file);
+    if (!file.empty()) mNamed.insert(file);
     if (const auto known = find(mMaps, file)) return known;
+    if (file.empty()) {
+        keep(mMaps, kMostMaps, file, std::make_shared<const Environment>(prepareForSampling(makeSky())));
+        return mMaps.front().second;
+    }
     Environment whole = readEnvironment(file);
     auto map = std::make_shared<const Environment>(prepareForSampling(whole));
     keep(mMaps, kMostMaps, file, map);
@@ -74,7 +78,8 @@ std::shared_ptr<const Environment> EnvironmentFiles::map(const std::filesystem::
 std::shared_ptr<const Environment> EnvironmentFiles::picture(const std::filesystem::path& file) {
     if (!mKeepsPictures) return nullptr;
     if (const auto known = find(mPictures, file)) return known;
-    keep(mPictures, kMostPictures, file, makePicture(readEnvironment(file)));
+    keep(mPictures, kMostPictures, file,
+         makePicture(file.empty() ? makeSky(kSkyPictureColumns) : readEnvironment(file)));
     return mPictures.front().second;
 }
 

@@ -13,7 +13,7 @@ namespace relume {
 
 class EnvironmentFiles {
   public:
-    // Prepared for sampling. Throws Error.
+    // Prepared for sampling; of an empty path the built-in sky. Throws Error.
     std::shared_ptr<const Environment> map(const std::filesystem::path& file);
 
     // As it is looked at, of a few files at a time; null unless keepPictures() was called. Throws Error.

@@ -40,9 +40,16 @@ void addEnvironment(const JsonObject& object, const LightMoment& moment, float s
     };
     if (object.find("sequence") && object.find("file"))
         object.fail("sequence", "no such key beside \"file\"");
+    if (object.flag("built_in", false)) {
+        for (const char* key : {"file", "sequence", "rate"})
+            if (object.find(key)) object.fail(key, "no such key beside \"built_in\"");
+        return add({}, 1);
+    }
     if (!object.find("sequence")) {
         if (object.find("rate")) object.fail("rate", "no such key without \"sequence\"");
-        add(moment.folder / object.requiredText("file", "an .exr or .hdr file, or \"sequence\""), 1);
+        add(moment.folder /
+                object.requiredText("file", "an .exr or .hdr file; or \"sequence\", or \"built_in\""),
+            1);
         return;
     }
     const std::string pattern = object.requiredText("sequence", "file names with # for their number");
@@ -56,8 +63,9 @@ void addEnvironment(const JsonObject& object, const LightMoment& moment, float s
 }
 
 void readEnvironments(const JsonObject& root, const LightMoment& moment, Light& light) {
-    static constexpr std::string_view kKeys[] = {"file", "sequence", "rate", "rotate", "gain"},
-                                      kBlendKeys[] = {"file", "sequence", "rate", "rotate", "gain", "weight"};
+    static constexpr std::string_view kKeys[] = {"file", "sequence", "rate", "built_in", "rotate", "gain"},
+                                      kBlendKeys[] = {"file",   "sequence", "rate",  "built_in",
+                                                      "rotate", "gain",     "weight"};
     const Json* first = root.find("environment");
     const Json* second = root.find("blend");
     if (second && !first) root.fail("environment", "one that \"blend\" is mixed into");

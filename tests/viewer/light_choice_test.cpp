@@ -36,10 +36,9 @@ struct Choices {
 
     // What the file gives, and what is shown, have the same bits.
     void check() const {
-        const auto values = lightFileOf(state);
-        REQUIRE(values);
-        CAPTURE(values->dump());
-        const Light read = readLight(folder.write("chosen.light.json", values->dump(2))).at(0);
+        const nlohmann::json values = lightFileOf(state);
+        CAPTURE(values.dump());
+        const Light read = readLight(folder.write("chosen.light.json", values.dump(2))).at(0);
         const LightCube fromFile = sampleLight(read, 32), shown = sampleLight(lightOf(state), 32);
         CHECK(fromFile.radiance == shown.radiance);
         CHECK(std::ranges::any_of(shown.radiance, [](vec3 v) { return v.x + v.y + v.z > 0; }));
@@ -73,12 +72,45 @@ TEST_CASE("light choice: its file is the same light, bit for bit") {
     choices.check();
 }
 
-TEST_CASE("light choice: no file says what the built-in sky is") {
+TEST_CASE("light choice: what a file says can be chosen again") {
     Choices choices;
-    choices.state.environment = 0;
-    CHECK_FALSE(lightFileOf(choices.state));
-    choices.state.lamps = {{}};
-    CHECK_FALSE(lightFileOf(choices.state));
+    LightState& state = choices.state;
+    const auto checkAgain = [&] {
+        const nlohmann::json written = lightFileOf(state);
+        CAPTURE(written.dump());
+        LightState again;
+        again.environments = {state.environments[0],
+                              {.kind = EnvironmentChoice::Kind::DaySky, .name = "day sky"}};
+        setLight(again, written, "test", choices.folder.path());
+        CHECK_EQ(again.chosen().kind, state.chosen().kind);
+        CHECK_EQ(again.chosen().file, state.chosen().file);
+        CHECK_EQ(again.environmentGain, state.environmentGain);
+        CHECK(again.strokes == state.strokes);
+        CHECK(again.sky.dayOfYear == state.sky.dayOfYear);
+        CHECK(again.sky.hour == doctest::Approx(state.sky.hour).epsilon(1e-5));
+        REQUIRE_EQ(again.lamps.size(), state.lamps.size());
+        for (size_t i = 0; i < state.lamps.size(); i++) {
+            CHECK(again.lamps[i].brightness == doctest::Approx(state.lamps[i].brightness));
+            CHECK(glm::distance(again.lamps[i].color, state.lamps[i].color) < 1e-6f);
+        }
+    };
+    checkAgain();
+    state.environment = 0; // the built-in sky
+    state.lamps = {
+        {.azimuth = -33.3f, .elevation = 12.7f, .radius = 3.1f, .color = {1, 0.5f, 0}, .brightness = 2}};
+    state.strokes = {{.azimuth = 1.1f, .elevation = 5, .radius = 33, .radiance = {2, 0, 1}, .opacity = 0.7f}};
+    checkAgain();
+    state.environment = 1;
+    state.sky = {.dayOfYear = 366 - 31, .hour = 8.1f, .latitude = -12.3f, .turbidity = 3.3f};
+    REQUIRE(state.isDay());
+    checkAgain();
+    LightState before = state;
+    for (const char* wrong :
+         {R"({"lamps": [{"azimuth": 1, "elevation": 2, "radius": 0, "radiance": [1, 1, 1]}]})",
+          R"({"distant": []})", R"({"sky": {"time": "noon", "latitude": 0, "longitude": 0}})"}) {
+        CHECK_THROWS(setLight(state, nlohmann::json::parse(wrong), "test", ""));
+        CHECK(lightsAlike(state, before));
+    }
 }
 
 TEST_CASE("light choice: a lamp lights white that faces it to its brightness") {

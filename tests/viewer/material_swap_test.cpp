@@ -58,7 +58,7 @@ TEST_CASE("viewer: a frame with another material of the set draws the view, and 
     CHECK(session.bytes("before.exr") != session.bytes("clay.exr"));
     const Outcome drawn = session.relume(renderCommand(outcome.err, "clay.exr"));
     REQUIRE_MESSAGE(drawn.exitCode == 0, drawn.err);
-    CHECK(says(renderCommand(outcome.err, "clay.exr"), "-m 'clay'"));
+    CHECK(says(renderCommand(outcome.err, "clay.exr"), "--material 'clay'"));
     CHECK(session.bytes("image.exr") == session.bytes("clay.exr"));
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("viewer: steps that cannot be done are refused before the first") {
     };
     expectRefused({{"frames", -1}}, "\"frames\": expected a whole number from 0");
     expectRefused({{"frames", 1.5}}, "whole number");
-    expectRefused({{"wait", -5}}, "\"wait\": expected \"settled\", 0 to");
+    expectRefused({{"wait", -5}}, "\"wait\": expected \"settled\", \"shown\", 0 to");
     expectRefused({{"wait", "long"}}, "found \"long\"");
     expectRefused({{"wait", {{"passes", -1}}}}, "\"passes\"");
     expectRefused({{"frames", 2}, {"quit", true}}, "a step does one thing");

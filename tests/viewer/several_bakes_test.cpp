@@ -52,3 +52,26 @@ TEST_CASE("viewer: B goes from bake to bake, and the same mesh stays where it is
     CHECK_EQ(cameraOf(commands["two.exr"]), cameraOf(commands["three.exr"]));
     CHECK_NE(cameraOf(commands["one.exr"]), cameraOf(commands["two.exr"])); // about the same middle
 }
+
+TEST_CASE("viewer: a mesh is shown before anything of it is baked, and the session names it") {
+    Session& session = sharedSession();
+    const Outcome outcome = session.replay({{{"wait", "shown"}},
+                                            {{"screenshot", "sketch.exr"}},
+                                            {{"key", "ctrl+S"}},
+                                            {{"frames", 2}},
+                                            {{"quit", true}}},
+                                           "ring.obj room.exr");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    CHECK(isQuiet(outcome.err));
+    const Image sketch = readImage(session.path("sketch.exr")).image;
+    const size_t covered = size_t(std::ranges::count_if(
+        sketch.pixels, [](const vec4& pixel) { return pixel.w == 1 && pixel.x + pixel.y + pixel.z > 0; }));
+    CHECK_GT(covered, sketch.pixels.size() / 4);
+    bool isNamed = false;
+    for (const auto& file : std::filesystem::directory_iterator(session.folder().path()))
+        if (file.path().string().ends_with(".session.json"))
+            isNamed |= json::parse(session.bytes(file.path().filename())).value("model", "") ==
+                       session.path("ring.obj").string();
+    CHECK(isNamed);
+}

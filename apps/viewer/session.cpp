@@ -1,0 +1,140 @@
+#include "apps/viewer/session.h"
+
+#include "apps/viewer/screenshot.h"
+#include "engine/base/error.h"
+#include "engine/import/json_object.h"
+#include "engine/import/light_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace relume {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float kLargest = 1e9f, kMostDegrees = 1e6f;
+
+// One of `names`, in the order of an enumeration.
+template <typename Choice>
+Choice choiceOf(const JsonObject& object, const char* key, Choice fallback,
+                std::initializer_list<std::string_view> names, std::string_view expected) {
+    if (!object.find(key)) return fallback;
+    const auto found = std::ranges::find(names, std::string_view(object.text(key, "")));
+    if (found == names.end()) object.fail(key, expected);
+    return Choice(found - names.begin());
+}
+
+int wholeOf(const JsonObject& object, const char* key, int fallback, int low, int high) {
+    const float number = object.number(key, float(fallback), float(low), float(high));
+    if (number != float(int(number))) object.fail(key, "a whole number");
+    return int(number);
+}
+
+// A name, or several with their weights: "gold=0.5".
+std::vector<WeightedMaterial> materialOf(const JsonObject& object) {
+    const Json* list = object.find("material");
+    std::vector<WeightedMaterial> material;
+    if (!list) return material;
+    constexpr const char* kExpected = "a list of names, or of \"NAME=WEIGHT\" with weights above 0";
+    if (!list->is_array() || list->empty()) object.fail("material", kExpected);
+    for (const Json& value : *list) {
+        if (!value.is_string()) object.fail("material", kExpected);
+        const auto text = value.get<std::string>();
+        const size_t equals = text.rfind('=');
+        if (equals == std::string::npos) {
+            material.push_back({text});
+            continue;
+        }
+        char* end = nullptr;
+        const float weight = std::strtof(text.c_str() + equals + 1, &end);
+        if (*end != '\0' || !(weight > 0 && weight < kLargest)) object.fail("material", kExpected);
+        material.push_back({text.substr(0, equals), weight});
+    }
+    return material;
+}
+
+void setLight(const JsonObject& object, const std::filesystem::path& folder, LightState& light) {
+    light.rotation = object.number("rotate", 0, -kMostDegrees, kMostDegrees);
+    light.selection = {.count =
+                           wholeOf(object, "coefficients", LightSelection().count, 1, kMaximumLightEntries)};
+    if (object.find("threshold"))
+        light.selection = {.threshold = wholeOf(object, "threshold", 0, 0, int(kLightMaximum))};
+    light.plays = false;
+    const Json* given = object.find("light");
+    if (given && given->is_string()) {
+        const std::filesystem::path file = folder / object.text("light", "");
+        auto moving = std::make_shared<MovingLight>(readLight(file));
+        moving->keepPictures();
+        light.file = moving;
+        light.fileName = file;
+        light.seconds = double(object.number("time", 0, 0, 1e6f));
+    } else if (given) {
+        setLight(light, *given, object.place() + ": light", folder);
+    } else {
+        const std::string environment = object.text("environment", "");
+        Json described{{"built_in", true}};
+        if (!environment.empty()) described = {{"file", environment}};
+        setLight(light, {{"environment", described}}, object.place(), folder);
+    }
+}
+
+} // namespace
+
+nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
+                                 const std::filesystem::path& input, ivec2 size) {
+    nlohmann::ordered_json session{{"session", 1}, {"bake", std::filesystem::absolute(bake).string()}};
+    if (!input.empty()) session["model"] = input.string();
+    session["size"] = fmt::format("{}x{}", size.x, size.y);
+    session.update(renderOptions(state, fadesGround, Drawn::Picture));
+    if (fadesGround) session["ground-fade"] = true; // whatever the image's default is
+    if (state.light.file)
+        session["light"] = std::filesystem::absolute(state.light.fileName).string();
+    else if (needsLightFile(state.light))
+        session["light"] = lightFileOf(state.light);
+    return session;
+}
+
+Session readSession(const std::filesystem::path& file, SceneState& state) {
+    static constexpr std::string_view kKeys[] = {
+        "session", "bake",       "model",           "size",       "eye",      "target",
+        "fov",     "rotate",     "coefficients",    "threshold",  "light",    "environment",
+        "time",    "material",   "samples",         "terms",      "residual", "exposure",
+        "tone",    "background", "background-blur", "ground-fade"};
+    const Json content = readJson(file);
+    const JsonObject object(content, file.string(), kKeys);
+    if (object.requiredNumber("session", 1, 1e6f) != 1)
+        object.fail("session", "version 1, which this program knows");
+    const std::filesystem::path folder = file.parent_path();
+    Session session;
+    const std::filesystem::path bake = folder / object.requiredText("bake", "a .relume file");
+    session.opened = object.find("model") ? folder / object.text("model", "") : bake;
+    session.camera = {object.requiredVector("eye", -kLargest, kLargest),
+                      object.requiredVector("target", -kLargest, kLargest),
+                      glm::radians(object.number("fov", 35, 1, 170))};
+    if (session.camera.eye == session.camera.target) object.fail("eye", "a point other than the target");
+    session.material = materialOf(object);
+
+    SceneState set = state;
+    setLight(object, folder, set.light);
+    set.fovDegrees = object.number("fov", 35, 1, 170);
+    set.samples = wholeOf(object, "samples", kDefaultSamples, 1, 8);
+    if (set.samples == 3 || (set.samples > 4 && set.samples < 8)) object.fail("samples", "1, 2, 4 or 8");
+    set.terms = wholeOf(object, "terms", 0, 0, 1024);
+    set.addsResidual = choiceOf(object, "residual", 0, {"on", "off"}, "\"on\" or \"off\"") == 0;
+    set.exposure = object.number("exposure", 0, -100, 100);
+    set.exposesItself = set.wantsExposure = false;
+    set.tone =
+        choiceOf(object, "tone", ToneCurve::Agx, {"none", "aces", "agx"}, "\"none\", \"aces\" or \"agx\"");
+    set.background = choiceOf(object, "background", Behind::Environment, {"environment", "none"},
+                              "\"environment\" or \"none\"");
+    set.backgroundBlur = object.number("background-blur", 0, 0, 90);
+    set.fadesGround = object.flag("ground-fade", true);
+    state = std::move(set);
+    return session;
+}
+
+} // namespace relume
