@@ -15,6 +15,7 @@
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/layout/conversion.h"
+#include "precompute/layout/layout_scale.h"
 #include "precompute/layout/layouts.h"
 #include "precompute/refine/refinement.h"
 #include "precompute/residual/residuals.h"
@@ -205,6 +206,7 @@ void leaveOutBounces(BakePlan& plan) {
 }
 
 void finish(BakePlan& plan) {
+    if (!plan.options.layout.error) plan.options.layout.error = standardError(plan.asset);
     prepareTransport(plan);
     checkSkeleton(plan.asset, "the bake");
     cutBlocks(plan);

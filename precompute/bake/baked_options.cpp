@@ -117,7 +117,7 @@ std::string describeOptions(const BakeOptions& options) {
         {"coefficients", options.coefficients},
         {"layout", layoutName(options.layout.layout)},
         {"layout_bytes", options.layout.bytesPerVertex ? json(*options.layout.bytesPerVertex) : nullptr},
-        {"layout_error", isByError(options.layout) ? json(options.layout.error) : nullptr},
+        {"layout_error", isByError(options.layout) && options.layout.error ? json(*options.layout.error) : nullptr},
         {"map_size", options.mapSize},
         {"map", diskMappingName(options.mapping)},
         {"face_size", options.faceSize},
@@ -148,7 +148,10 @@ BakeOptions optionsOf(const Asset& asset) {
     options.coefficients = in.integer("coefficients");
     options.layout.layout = in.name("layout", [](const std::string& name) { return layoutFromName(name); });
     options.layout.bytesPerVertex = in.amount("layout_bytes", kMostLayoutBytes);
-    options.layout.error = in.amount("layout_error", 1).value_or(options.layout.error);
+    options.layout.error = in.amount("layout_error", 1);
+    // A standard error is that of the materials, which may change.
+    if (options.layout.error == kDefaultLayoutError || options.layout.error == kDiffuseLayoutError)
+        options.layout.error.reset();
     options.mapSize = in.integer("map_size");
     options.mapping = in.name("map", [](const std::string& name) { return diskMappingFromName(name); });
     options.faceSize = in.integer("face_size");

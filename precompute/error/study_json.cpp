@@ -54,7 +54,7 @@ std::string commandLineOf(const BakeOptions& options) {
     if (options.layout.layout == TransportLayout::Rows)
         text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
     else
-        text += fmt::format(" --error {:.3g}", options.layout.error);
+        text += fmt::format(" --error {:.3g}", *options.layout.error);
     text +=
         options.refinement ? fmt::format(" --refine {:.3g}", options.refinement->wanted) : " --refine off";
     return text;

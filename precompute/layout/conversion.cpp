@@ -35,7 +35,7 @@ double compress(const Asset& asset, const std::vector<MaterialSet*>& sets, const
         source.units.push_back(transportUnit(rowsOf(set->transport), source.spectrum));
         vertices += rowsOf(set->transport).vertices;
     }
-    LayoutTarget target{{}, options.error * options.error * double(vertices)};
+    LayoutTarget target{{}, *options.error * *options.error * double(vertices)};
     if (options.bytesPerVertex) target.bytes = *options.bytesPerVertex * double(verticesOf(asset));
     const double squared =
         std::visit([&](const auto& layout) { return convertRows(layout, source, target, passes); },
@@ -51,9 +51,11 @@ uint64_t verticesOf(const Asset& asset) {
     return vertices;
 }
 
-Conversion convertLayout(Asset& asset, const LayoutOptions& options, const ConversionReport& progress,
+Conversion convertLayout(Asset& asset, const LayoutOptions& given, const ConversionReport& progress,
                          std::optional<int> coefficients) {
     sumAlikeEverywhere();
+    LayoutOptions options = given;
+    if (!options.error) options.error = standardError(asset);
     const std::vector<MaterialSet*> sets = setsOf(asset);
     const bool areRows = std::ranges::all_of(
         sets, [](const MaterialSet* set) { return layoutOf(set->transport) == TransportLayout::Rows; });

@@ -25,13 +25,20 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
         allRows += rows;
         if (sample.sampledVertices() == 0) continue;
         toldRows += rows;
-        target.error += options.error * options.error * double(sample.vertices);
+        target.error += *options.error * *options.error * double(sample.vertices);
     }
     const double share = allRows > 0 ? toldRows / allRows : 1;
     if (options.bytesPerVertex) target.bytes = share * *options.bytesPerVertex * double(vertices);
     scale.price = std::visit([&](const auto& layout) { return findPrice(layout, samples, faceSize, target); },
                              emptyTransport(options.layout, 0, 0));
     return scale;
+}
+
+double standardError(const Asset& asset) {
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets)
+            if (set.brdf.terms > 1) return kDefaultLayoutError;
+    return kDiffuseLayoutError;
 }
 
 LayoutRecord recordOf(const LayoutOptions& options, double error) {

@@ -34,6 +34,9 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
 void sumAlikeEverywhere();
 
 // As an asset keeps it.
+// Returns the error of transport that an asset in bases has where none is asked for.
+double standardError(const Asset& asset);
+
 LayoutRecord recordOf(const LayoutOptions& options, double error);
 
 constexpr const char* kTooLarge =

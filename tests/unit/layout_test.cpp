@@ -410,3 +410,14 @@ TEST_CASE("layout: there and back") {
     CHECK_EQ(same.coefficients, 20);
     CHECK(entriesOf(same.parts[0].sets[0].transport) <= 20 * 600);
 }
+
+TEST_CASE("layout: where all is diffuse, the standard error is less") {
+    for (const auto& [terms, wanted] :
+         {std::pair(1u, kDiffuseLayoutError), std::pair(2u, kDefaultLayoutError)}) {
+        Asset asset = assetOf(smoothRows(2048, terms, 16));
+        CHECK_EQ(standardError(asset), wanted);
+        convertLayout(asset, {});
+        CHECK_EQ(asset.layout->wantedError, std::optional(wanted));
+        CHECK_LE(asset.layout->error, 1.05 * wanted);
+    }
+}
