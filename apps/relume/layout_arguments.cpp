@@ -33,7 +33,9 @@ void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
             "bake meets it about")
         ->check(between(1e-6f, 1))
         ->type_name("ERROR")
-        ->default_str(hasDefaults ? fmt::format("{}; {} where all is diffuse", kDefaultLayoutError, kDiffuseLayoutError) : "the bake's own")
+        ->default_str(
+            hasDefaults ? fmt::format("{}; {} where all is diffuse", kDefaultLayoutError, kDiffuseLayoutError)
+                        : "the bake's own")
         ->excludes(budget);
 }
 

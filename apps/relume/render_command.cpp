@@ -97,6 +97,20 @@ void writeTimings(const std::filesystem::path& path, const vk::TimingCapture& ca
     writeTimings(path, trace);
 }
 
+// Tells of a lamp or distant light that is too small for the bake where nothing else lights shadows.
+void warnOfSmallLamps(const Light& light, const Asset& asset) {
+    if (!light.environments.empty() || light.sky) return;
+    const float least = smallestLampRadius(asset);
+    float smallest = light.distant.empty() ? kPi : 0;
+    for (const Lamp& lamp : light.lamps) smallest = std::min(smallest, lamp.angularRadius);
+    if (smallest < least)
+        spdlog::warn(
+            "a lamp of {:.2g} degrees, alone, has patchy shadows in this bake: make it {:.2g} degrees or "
+            "more, or bake with an --error below {:.2g} (docs/errors.md)",
+            glm::degrees(smallest), glm::degrees(least),
+            asset.layout ? asset.layout->error : kDefaultLayoutError);
+}
+
 void run(const Arguments& arguments) {
     arguments.image.check();
     std::optional<vk::TimingCapture> timings;
@@ -122,7 +136,9 @@ void run(const Arguments& arguments) {
         light.setLight(lit);
         if (background) background->setLight(lit, arguments.image.backgroundBlur());
     };
-    setLight(moving.at(arguments.light.seconds));
+    const Light first = moving.at(arguments.light.seconds);
+    warnOfSmallLamps(first, asset);
+    setLight(first);
     Relighter relighter(*device, asset, {.residual = arguments.takesResidual()});
     relighter.setMode(arguments.mode);
     ViewPass view(

@@ -14,7 +14,7 @@ namespace {
 constexpr float kPanelMapWidth = 25; // lines
 constexpr int kThumbnailsPerRow = 4;
 
-void drawLamp(LampChoice& lamp, size_t number, std::optional<size_t>& removed) {
+void drawLamp(LampChoice& lamp, size_t number, float leastDegrees, std::optional<size_t>& removed) {
     ImGui::PushID(int(number));
     ImGui::ColorEdit3("##color", &lamp.color.x, ImGuiColorEditFlags_NoInputs);
     explain("Colour");
@@ -27,16 +27,21 @@ void drawLamp(LampChoice& lamp, size_t number, std::optional<size_t>& removed) {
     slider("Elevation", lamp.elevation, -90, 90, "%.0f deg");
     slider("Radius", lamp.radius, 0.5f, 60, "%.1f deg");
     explain("Angular radius: small lamps cast hard shadows");
+    if (lamp.radius < leastDegrees)
+        ImGui::TextDisabled("below %.0f deg this bake's shadows are patchy", double(leastDegrees));
     slider("Brightness", lamp.brightness, 0, 4, "%.2f");
     explain("1 lights white that faces it to radiance 1");
     ImGui::Separator();
     ImGui::PopID();
 }
 
-void drawLamps(std::vector<LampChoice>& lamps) {
+void drawLamps(std::vector<LampChoice>& lamps, float leastDegrees) {
     std::optional<size_t> removed;
-    for (size_t i = 0; i < lamps.size(); i++) drawLamp(lamps[i], i, removed);
+    for (size_t i = 0; i < lamps.size(); i++) drawLamp(lamps[i], i, leastDegrees, removed);
     if (removed) lamps.erase(lamps.begin() + std::ptrdiff_t(*removed));
+}
+
+void drawAddLamp(std::vector<LampChoice>& lamps) {
     if (ImGui::Button("Add lamp") && lamps.size() < kMostSources) {
         lamps.emplace_back();
         lamps.back().azimuth = std::remainder(40 + 75 * float(lamps.size() - 1), 360.0f);
@@ -169,7 +174,7 @@ void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wis
     drawMap(light, state.brush, facts);
     if (!light.file) {
         drawBrush(light, state.brush);
-        drawLamps(light.lamps);
+        drawAddLamp(light.lamps);
         ImGui::SameLine();
         if (ImGui::Button("Save light")) wishes.savesLight = true;
         explain("Write it as a light file, for `relume render --light`");
@@ -177,6 +182,11 @@ void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wis
     }
     ImGui::Checkbox("Play", &light.plays);
     explain("Space: a light file's time passes, the day does, else all of the light turns");
+    if (!light.file) {
+        const auto& model = facts.content->shown();
+        drawLamps(light.lamps,
+                  model && !model->isSketch ? glm::degrees(smallestLampRadius(model->asset)) : 0);
+    }
     slider("Rotation", light.rotation, -180, 180, "%.1f deg");
     explain("Shift + right drag in the view turns the light too");
     drawSelection(light.selection);

@@ -3,6 +3,7 @@
 #include "engine/transport/layout_chunks.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace relume {
 
@@ -32,6 +33,12 @@ uint32_t blockVertices(const Asset& asset) {
                                               },
                                               set.transport));
     return vertices;
+}
+
+float smallestLampRadius(const Asset& asset) {
+    constexpr double kError = 0.05, kDegrees = 8, kLeast = 4;
+    const double error = asset.layout ? asset.layout->error : kError;
+    return glm::radians(float(std::max(kLeast, kDegrees * std::sqrt(error / kError))));
 }
 
 uint32_t visibilityRunVertices(const Asset& asset) {

@@ -101,6 +101,11 @@ uint32_t blockVertices(const Asset& asset);
 // Vertices of a run of kept visibility: a block, or a part of it.
 uint32_t visibilityRunVertices(const Asset& asset);
 
+// Returns the angular radius, in radians, of the smallest lamp that is shown without patches where all else
+// is dark: storage rounds shadows off, and the smaller a lamp, the more of it is seen (docs/errors.md,
+// measured).
+float smallestLampRadius(const Asset& asset);
+
 // Bytes of the file. The same asset gives the same bytes.
 std::vector<std::byte> encodeAsset(const Asset& asset);
 

@@ -290,6 +290,7 @@ TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, witho
             runRelume(folder, "render a.relume -o a.exr --size 64x48 " + light + validated);
         CAPTURE(render.err);
         REQUIRE_EQ(render.exitCode, 0);
+        CHECK_EQ(says(render.err, "patchy shadows"), says(light, "-light ") && !says(light, "l.json"));
         REQUIRE_EQ(runRelume(folder, "reference a.relume -o b.exr --size 64x48 " + light).exitCode, 0);
         const Outcome compare = runRelume(folder, "compare a.exr b.exr --json");
         REQUIRE_EQ(compare.exitCode, 0);
