@@ -1,4 +1,6 @@
 #include "engine/base/error.h"
+#include "engine/base/log.h"
+#include "engine/import/alpha_cut.h"
 #include "engine/import/gltf_document.h"
 #include "engine/import/gltf_geometry.h"
 #include "engine/import/gltf_material.h"
@@ -12,6 +14,9 @@
 
 namespace relume {
 namespace {
+
+// Of the radius of the file's bounds: half a pixel where that fills a thousand.
+constexpr float kHoleTolerance = 1e-3f;
 
 // The name, with the material's number or a greater one if it is taken.
 std::string uniqueName(const std::string& name, int number, std::set<std::string>& names) {
@@ -38,6 +43,30 @@ void addTextures(GltfMaterials& materials, const GltfMaterial& material, GltfPar
     if (material.normalMap) part.detail.normalMap = materials.readTexture(*material.normalMap, false);
     part.detail.normalScale = material.normalScale;
     if (material.emissionMap) part.detail.emissionMap = materials.readTexture(*material.emissionMap, true);
+}
+
+// Whether a blended texture is a mask with soft edges: at least nine tenths of its texels are nearly clear or
+// nearly opaque, and there are both.
+bool isNearlyMask(const Texture& texture, float opacity) {
+    size_t clear = 0, opaque = 0;
+    for (const uint32_t texel : texture.texels) {
+        const float alpha = opacity * float(texel >> 24) / 255;
+        clear += alpha <= 0.1f, opaque += alpha >= 0.9f;
+    }
+    return clear > 0 && opaque > 0 && 10 * (clear + opaque) >= 9 * texture.texelCount();
+}
+
+// Cuts holes where the material has them.
+void cutHoles(GltfMaterials& materials, const GltfMaterial& material, float tolerance,
+              const std::string& name, GltfPart& part) {
+    if (material.alpha == GltfAlpha::Opaque) return;
+    const Texture* texture = part.baseColor ? &*part.baseColor : nullptr;
+    if (material.alpha == GltfAlpha::Blend && !(texture && isNearlyMask(*texture, material.opacity))) {
+        materials.ignore("alphaMode BLEND (drawn opaque)");
+        return;
+    }
+    part.mesh =
+        cutByAlpha(std::move(part.mesh), {texture, material.opacity, material.alphaCutoff}, tolerance, name);
 }
 
 } // namespace
@@ -69,20 +98,30 @@ GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesyste
     };
     GltfParts result;
     std::set<std::string> names;
-    for (auto& [number, mesh] : readGltfGeometry(document.model, wishOf, name)) {
+    std::map<int, Mesh> meshes = readGltfGeometry(document.model, wishOf, name);
+    Bounds bounds;
+    for (const auto& [number, mesh] : meshes) bounds.add(boundsOf(mesh));
+    for (auto& [number, mesh] : meshes) {
         if (mesh.triangles.empty()) continue;
         const GltfMaterial& material = materials.at(number);
         GltfPart part{uniqueName(material.name, number, names), std::move(mesh), material.text, {}, {}, {}};
-        part.mesh = cleanUp(std::move(part.mesh), fmt::format("{}: \"{}\"", name, part.name));
+        const std::string partName = fmt::format("{}: \"{}\"", name, part.name);
+        part.mesh = cleanUp(std::move(part.mesh), partName);
         part.detail.emission = material.emission;
-        const auto isWhite = [](const vec4& color) { return vec3(color) == vec3(1); };
-        if (std::ranges::all_of(part.mesh.colors, isWhite)) part.mesh.colors.clear();
         if (!part.mesh.uvs.empty()) {
             addTextures(materials, material, part);
         } else if (material.placement) {
             materials.ignore("textures where the mesh has no texture coordinates");
             if (material.emissionMap) part.detail.emission = vec3(0);
         }
+        cutHoles(materials, material, kHoleTolerance * bounds.radius(), partName, part);
+        if (part.mesh.triangles.empty()) {
+            log(LogLevel::Info,
+                fmt::format("{}: is left out, since its alpha is below its cutoff", partName));
+            continue;
+        }
+        const auto isWhite = [](const vec4& color) { return vec3(color) == vec3(1); };
+        if (std::ranges::all_of(part.mesh.colors, isWhite)) part.mesh.colors.clear();
         result.parts.push_back(std::move(part));
     }
     if (result.parts.empty())

@@ -218,6 +218,9 @@ class SceneReader {
             if (hasColors) {
                 colors = readGltfFourVectors(mModel, color->second, mName);
                 checkCount("COLOR_0", colors.size(), count);
+                // Without alpha, a tint is opaque.
+                if (wish.isTint && mModel.accessors[size_t(color->second)].type == TINYGLTF_TYPE_VEC3)
+                    for (vec4& one : colors) one.w = 1;
             }
         } catch (const Error& unreadable) {
             if (!wish.isTint) throw;

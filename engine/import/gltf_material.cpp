@@ -125,6 +125,7 @@ GltfMaterial GltfMaterials::read(int index) {
     material.baseColor = placedTexture(surface, "baseColorTexture", place, material);
     readMetalRoughness(surface, place, printable, material);
     readDetail(json, place, material);
+    readAlpha(json, place, material);
     noteIgnored(json, place);
     return material;
 }
@@ -132,7 +133,8 @@ GltfMaterial GltfMaterials::read(int index) {
 void GltfMaterials::readMetalRoughness(const Json& surface, const std::string& place, const std::string& name,
                                        GltfMaterial& material) {
     std::vector<double> base = numbers(surface, "baseColorFactor", {1, 1, 1, 1}, place);
-    base.pop_back(); // opacity
+    material.opacity = float(std::clamp(base.back(), 0.0, 1.0));
+    base.pop_back();
     double metallic = number(surface, "metallicFactor", 1, place);
     double roughness = number(surface, "roughnessFactor", 1, place);
     for (double* value : {&base[0], &base[1], &base[2], &metallic, &roughness})
@@ -165,6 +167,18 @@ void GltfMaterials::readMetalRoughness(const Json& surface, const std::string& p
             double(node.metallic), double(node.roughness)));
     material.blend = print({{"set", set}});
     material.blendWeights = std::move(map->weights);
+}
+
+void GltfMaterials::readAlpha(const Json& json, const std::string& place, GltfMaterial& material) {
+    const std::string mode = text(json, "alphaMode", place);
+    if (mode == "MASK") {
+        material.alpha = GltfAlpha::Mask;
+        material.alphaCutoff = float(std::clamp(number(json, "alphaCutoff", 0.5, place), 0.0, 2.0));
+    } else if (mode == "BLEND") {
+        material.alpha = GltfAlpha::Blend;
+    } else if (!mode.empty() && mode != "OPAQUE") {
+        ignore("alphaMode " + mode.substr(0, 20));
+    }
 }
 
 void GltfMaterials::readDetail(const Json& json, const std::string& place, GltfMaterial& material) {
@@ -207,8 +221,6 @@ std::optional<size_t> GltfMaterials::placedTexture(const Json& json, const char*
 
 void GltfMaterials::noteIgnored(const Json& json, const std::string& place) {
     if (find(json, "occlusionTexture", place)) ignore("occlusionTexture (visibility is baked)");
-    const std::string alpha = text(json, "alphaMode", place);
-    if (!alpha.empty() && alpha != "OPAQUE") ignore("alphaMode " + alpha.substr(0, 20));
     for (const auto& [extension, value] : findObject(json, "extensions", place).items())
         if (extension != "KHR_materials_emissive_strength") ignore(extension.substr(0, 60));
 }

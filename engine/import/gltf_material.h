@@ -21,6 +21,8 @@ struct GltfPlacement {
     bool operator==(const GltfPlacement&) const = default;
 };
 
+enum class GltfAlpha { Opaque, Mask, Blend };
+
 struct GltfMaterial {
     std::string name;
     std::string text; // {"model": "gltf", "base_color", "metallic", "roughness"}, linear
@@ -32,6 +34,8 @@ struct GltfMaterial {
     std::optional<size_t> normalMap, emissionMap;
     float normalScale = 1;
     vec3 emission = vec3(0);
+    GltfAlpha alpha = GltfAlpha::Opaque;
+    float opacity = 1, alphaCutoff = 0.5f; // opacity multiplies the alpha of texture and vertices
 };
 
 class GltfMaterials {
@@ -60,6 +64,7 @@ class GltfMaterials {
     // The number of a texture that lies where the material's others do; none, too, if it does not.
     std::optional<size_t> placedTexture(const Json& json, const char* key, const std::string& place,
                                         GltfMaterial& material);
+    void readAlpha(const Json& json, const std::string& place, GltfMaterial& material);
     void readDetail(const Json& json, const std::string& place, GltfMaterial& material);
     // `name`: of the material, without control characters.
     void readMetalRoughness(const Json& surface, const std::string& place, const std::string& name,

@@ -47,7 +47,8 @@ struct GltfParts {
     std::vector<InputFile> images; // files that were read
 };
 
-// The same, in parts of one material each, cleaned up. What is not supported is ignored, and the log says so.
+// The same, in parts of one material each, cleaned up, with the holes that masks cut. What is not supported
+// is ignored, and the log says so.
 GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                           const std::string& name);
 

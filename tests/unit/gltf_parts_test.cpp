@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/import/mesh_file.h"
+#include "tests/support/log_capture.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"
 
@@ -194,6 +195,47 @@ TEST_CASE("glTF parts: normal maps, emission and vertex colors") {
     REQUIRE(colors.size() == mixed.parts[0].mesh.vertexCount());
     CHECK(std::ranges::count(colors, vec4(1)) == std::ptrdiff_t(colors.size() / 2));
     CHECK(mixed.parts[1].mesh.colors.empty());
+}
+
+TEST_CASE("glTF parts: masks cut holes, and so do blended textures that are nearly masks") {
+    const auto withAlpha = [](const std::string& first, const std::string& second) {
+        TexturedGlb glb;
+        glb.materials = "[{" + first + R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},{)" +
+                        second + R"(,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]}}])";
+        return decode(glb.bytes()).parts;
+    };
+    const auto lowest = [](const Mesh& mesh) {
+        float low = 1;
+        for (const vec2& uv : mesh.uvs) low = std::min(low, uv.y);
+        return low;
+    };
+    // The blue image: alpha 1 above and 0.5 below, v from 0 to 0.5 on the square; 0.75 in the middle, 1 at
+    // 0.25.
+    std::vector<GltfPart> parts = withAlpha(R"("alphaMode":"MASK","alphaCutoff":0.875)", R"("name":"b")");
+    REQUIRE(parts.size() == 2);
+    CHECK(lowest(parts[0].mesh) == doctest::Approx(0.125).epsilon(0.01));
+    CHECK(parts[1].mesh.triangleCount() == 2); // opaque: its factor's alpha does not count
+    parts = withAlpha(R"("alphaMode":"OPAQUE")", R"("alphaMode":"MASK")");
+    REQUIRE(parts.size() == 1); // nothing is left of the other
+    CHECK(lowest(parts[0].mesh) == 0);
+    const LogCapture log;
+    parts = withAlpha(R"("alphaMode":"BLEND")", R"("alphaMode":"BLEND")");
+    REQUIRE(parts.size() == 2);
+    CHECK(lowest(parts[0].mesh) == 0);
+    CHECK(log.says("alphaMode BLEND"));
+    TexturedGlb glb;
+    const uint32_t on = 0xffffffff, off = 0x00ffffff; // off from v = 0.25 to 0.5
+    glb.images = R"([{"uri":"data:image/png;base64,)" +
+                 encodeBase64(samplePng({1, 8, {on, on, off, off, on, on, on, on}, true})) +
+                 R"("},{"bufferView":5}])";
+    glb.materials = R"([{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},{}])";
+    float highest = 0;
+    for (const vec2& uv : decode(glb.bytes()).parts[0].mesh.uvs) highest = std::max(highest, uv.y);
+    CHECK(highest == doctest::Approx(0.25).epsilon(0.01));
+    // Colors without alpha are opaque.
+    glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1},"indices":3,"material":0}])";
+    glb.materials = R"([{"alphaMode":"MASK"}])";
+    CHECK(decode(glb.bytes()).parts[0].mesh.triangleCount() == 2);
 }
 
 TEST_CASE("glTF parts: scales of normals are bounded") {
