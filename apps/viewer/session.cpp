@@ -1,5 +1,6 @@
 #include "apps/viewer/session.h"
 
+#include "apps/viewer/opened_file.h"
 #include "apps/viewer/screenshot.h"
 #include "engine/base/error.h"
 #include "engine/import/json_object.h"
@@ -115,6 +116,10 @@ Session readSession(const std::filesystem::path& file, SceneState& state) {
     session.camera = {object.requiredVector("eye", -kLargest, kLargest),
                       object.requiredVector("target", -kLargest, kLargest),
                       glm::radians(object.number("fov", 35, 1, 170))};
+    const FileKind kind = kindOf(session.opened);
+    if (kind != FileKind::Bake && kind != FileKind::Bakeable)
+        throw Error(fmt::format("{}: expected a bake, a mesh or a scene to open, found {}", file.string(),
+                                session.opened.string()));
     if (session.camera.eye == session.camera.target) object.fail("eye", "a point other than the target");
     session.material = materialOf(object);
 

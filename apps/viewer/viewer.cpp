@@ -137,8 +137,9 @@ class Viewer : public ScriptTarget {
 
     FrameTimes mTimes;
     Outputs mOutputs;
-    std::optional<Session> mSession; // that waits for its model
-    std::filesystem::path mTitled;   // the bake that the window's title names
+    std::optional<Session> mSession; // that waits for its model, of this bake
+    std::filesystem::path mSessionBake;
+    std::filesystem::path mTitled; // the bake that the window's title names
     std::string mNotice;
     Clock::time_point mNoticeTime;
     bool mIsFailure = false;
@@ -261,20 +262,19 @@ void Viewer::open(const std::filesystem::path& file) {
 }
 
 void Viewer::openFile(const std::filesystem::path& file) {
-    if (kindOf(file) != FileKind::Session) {
-        mSession.reset();
-        return mContent.open(file);
-    }
+    const FileKind kind = kindOf(file);
+    if (kind == FileKind::Bake || kind == FileKind::Bakeable) mSession.reset();
+    if (kind != FileKind::Session) return mContent.open(file);
     const Session session = readSession(file, mState);
     mContent.open(session.opened);
     mSession = session;
+    mSessionBake = kindOf(session.opened) == FileKind::Bake ? session.opened : bakePath(session.opened);
     mContent.remember(file);
 }
 
 // The model that a session waits for is there.
 void Viewer::resumeSession() {
-    const bool isBaked = kindOf(mSession->opened) == FileKind::Bakeable;
-    if (mContent.shown()->file != (isBaked ? bakePath(mSession->opened) : mSession->opened)) return;
+    if (mContent.shown()->file != mSessionBake) return;
     mState.orbit = orbitOf(mSession->camera);
     mState.keepsOrbit = true;
     mState.material = mSession->material;
@@ -356,6 +356,7 @@ void Viewer::focus() {
 
 void Viewer::askWhy() {
     if (!hasView()) return;
+    if (mContent.shown()->isSketch) return tell("nothing is baked yet that could say why");
     const auto hit = pick(*mContent.shown(), camera(), mControls.cursor(), mWindow.size());
     if (!hit) {
         mState.showsWhy = false;
@@ -457,7 +458,7 @@ void Viewer::poll() {
     if (mContent.poll()) wantFrames(kFramesAfterInput);
     if (mView.poll()) wantFrames(1);
     if (mPictures.poll()) wantFrames(1);
-    if (mSession && mContent.shown()) attempt([&] { resumeSession(); });
+    if (mSession && mContent.shown()) resumeSession();
     if (!mContent.shown() || mContent.shown()->file == mTitled) return;
     mTitled = mContent.shown()->file;
     const std::string name = mTitled.filename().string();

@@ -135,9 +135,9 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
             observer.progress({.vertices = summary.vertices, .done = summary.vertices, .fraction = 1});
         }
     }
-    if (previews && !missing.empty()) {
+    if (previews && !missing.empty())
         previews->bake(missing, limits, sink, kept, summary.times);
-    } else
+    else
         bakeBlocks(device, plan, missing, own, limits, sink, observer, summary.times, kept);
     observer.stage(BakeStage::Writing, "");
     if (shard)

@@ -12,7 +12,7 @@ namespace relume {
 // interpolated from them depends on the plan alone.
 class CoarseRows {
   public:
-    // Bakes them for the parts of `blocks`. Throws BakeStopped, Error; then nothing more can be baked of
+    // Bakes rows for the parts of `blocks`. Throws BakeStopped, Error; then nothing more can be baked of
     // `plan`, whose occluder is borrowed.
     CoarseRows(const vk::Device& device, BakePlan& plan, std::span<const uint32_t> blocks,
                const BakeLimits& limits, BakeObserver& observer);

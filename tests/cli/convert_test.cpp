@@ -92,7 +92,8 @@ TEST_CASE("bake: bases unless another layout is asked for, about as small and as
         info["layout"] = info["parts"][0]["sets"][0]["layout"];
         return info;
     };
-    const Json usual = bake("-N 100");
+    CHECK_EQ(bake("-N 100")["layout_error"]["wanted_error"], 0.0125); // all sets have one term
+    const Json usual = bake("-N 100 --error 0.05");
     CHECK_EQ(usual["layout"], "bases");
     CHECK_EQ(usual["layout_error"]["wanted_error"], 0.05);
     CHECK(usual["layout_error"]["error"].get<double>() == doctest::Approx(0.05).epsilon(0.15));

@@ -201,6 +201,15 @@ TEST_CASE("viewer: a session is drawn by `relume render`, and opened again as it
     }
     CHECK_LT(std::sqrt(difference / sum), 1e-3); // the camera is kept as angles, the lamp as a brightness
 
+    // A session that opens itself, or what is no model, is refused.
+    for (const char* bake : {"look.session.json", "room.exr", "nothing.xyz"}) {
+        std::ofstream(session.path("look.session.json"))
+            << json{{"session", 1}, {"bake", bake}, {"eye", {0, 0, 5}}, {"target", {0, 0, 0}}};
+        const Outcome refused = session.replay({{{"quit", true}}}, "look.session.json");
+        CHECK_EQ(refused.exitCode, 1);
+        CHECK(says(refused.err, bake));
+    }
+
     std::ofstream(session.path("wrong.json")) << R"({"session": 1, "bake": "ring.relume", "exposur": 1})";
     const Outcome wrong = session.relume("render --session wrong.json -o x.png");
     CHECK_EQ(wrong.exitCode, 1);
