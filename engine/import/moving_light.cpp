@@ -23,7 +23,7 @@ bool has(const nlohmann::json& description, const char* object, const char* key)
 MovingLight::MovingLight(Light still) : mStill(std::move(still)) {}
 
 MovingLight::MovingLight(std::string_view text, std::string name, std::filesystem::path folder)
-    : mDescription(std::make_shared<Description>(parseJson(text, name))), mName(std::move(name)),
+    : mDescription(std::make_shared<Description>(Description{parseJson(text, name)})), mName(std::move(name)),
       mFolder(std::move(folder)) {
     const nlohmann::json& values = mDescription->values;
     const size_t keys = mostTrackKeys(values, mName);

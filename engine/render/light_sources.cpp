@@ -75,9 +75,9 @@ LightSources::Map LightSources::upload(std::shared_ptr<const Environment> enviro
             if (other.footprints && other.footprints->mapSize == size) map.footprints = other.footprints;
     if (!map.footprints) {
         const LightFootprints footprints = makeLightFootprints(size.x, size.y, mFaceSize);
-        map.footprints = std::make_shared<Footprints>(
+        map.footprints = std::make_shared<Footprints>(Footprints{
             size, vk::upload<uint32_t>(mDevice, footprints.starts, "light footprint starts"),
-            vk::upload<shared::FootprintPixel>(mDevice, footprints.pixels, "light footprint pixels"));
+            vk::upload<shared::FootprintPixel>(mDevice, footprints.pixels, "light footprint pixels")});
     }
     std::vector<vec4> pixels;
     pixels.reserve(environment->radiance.size());
