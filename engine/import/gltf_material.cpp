@@ -19,8 +19,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-// More than any file needs; a bound on what a small one can unfold to, whose materials share an image.
-constexpr size_t kMostTexels = size_t(1) << 29;
+// More than any file needs; a bound on what a small one can unfold to, whose materials share an image: a
+// gigabyte of texels must come from megabytes.
+constexpr size_t kMostTexels = size_t(1) << 29, kAlwaysFine = size_t(1) << 26, kTexelsPerByte = 64;
 
 // The member of this name, or null. `place` names the object in errors.
 const Json* find(const Json& object, const char* key, const std::string& place) {
@@ -247,12 +248,13 @@ std::vector<std::byte> GltfMaterials::readImageBytes(const Json& image, const st
         std::string type;
         if (!tinygltf::DecodeDataURI(&data, type, uri, 0, false))
             throw Error(fmt::format("{}: its data cannot be decoded: export the file again", place));
+        if (mTextImages.insert(&image).second) mImageBytes += data.size();
         const auto bytes = std::as_bytes(std::span(data));
         return {bytes.begin(), bytes.end()};
     }
     const std::filesystem::path path = findGltfFile(uri, mFolder, place);
     std::vector<std::byte> bytes = readFile(path, kLargestTextureFile);
-    mFiles[path.string()] = hashText(bytes);
+    if (mFiles.insert_or_assign(path.string(), hashText(bytes)).second) mImageBytes += bytes.size();
     return bytes;
 }
 
@@ -267,9 +269,15 @@ Texture GltfMaterials::readTexture(size_t index, bool srgb) {
     const Json& image = element(mDocument.looks, "images", *source, mName, place);
     Texture texture = decodeTexture(readImageBytes(image, place), place, srgb);
     mTexels += texture.texelCount();
-    if (mTexels > kMostTexels)
-        throw Error(fmt::format("{}: its textures have more than {} texels in all: scale them down", mName,
-                                kMostTexels));
+    size_t most = kAlwaysFine + kTexelsPerByte * mImageBytes;
+    for (const tinygltf::Buffer& buffer : mDocument.model.buffers)
+        most += kTexelsPerByte * buffer.data.size();
+    most = std::min(most, kMostTexels);
+    if (mTexels > most)
+        throw Error(fmt::format(
+            "{}: the textures of its materials have more than {} texels in all, which is more than "
+            "its images need: scale them down, or let materials share them",
+            mName, most));
     return texture;
 }
 

@@ -79,7 +79,9 @@ class GltfMaterials {
     std::map<int, GltfMaterial> mMaterials;
     std::map<std::string, std::string> mFiles;
     std::set<std::string> mIgnored;
-    size_t mTexels = 0; // decoded so far
+    size_t mTexels = 0;     // decoded so far
+    size_t mImageBytes = 0; // of image files and of images as text, each counted once
+    std::set<const Json*> mTextImages;
 };
 
 } // namespace relume

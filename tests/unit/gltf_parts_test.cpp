@@ -280,6 +280,26 @@ TEST_CASE("glTF parts: materials that lie") {
     CHECK(says(failureOf(glb), "number 1 of its materials"));
 }
 
+TEST_CASE("glTF parts: one small image that many materials wear does not become gigabytes") {
+    TexturedGlb glb;
+    constexpr int kSide = 2048, kMaterials = 21; // 21 · 2048² texels, of 4 bytes
+    const std::string png = samplePng({kSide, kSide, std::vector<uint32_t>(kSide * kSide, 0xff808080), true});
+    glb.images =
+        fmt::format(R"([{{"uri":"data:image/png;base64,{}"}},{{"bufferView":5}}])", encodeBase64(png));
+    glb.materials = glb.primitives = "";
+    for (int i = 0; i < kMaterials; i++) {
+        glb.materials += R"({"pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}}},)";
+        glb.primitives += fmt::format(
+            R"({{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}},"indices":3,"material":{}}},)", i);
+    }
+    for (std::string* list : {&glb.materials, &glb.primitives}) {
+        list->back() = ']'; // instead of a comma
+        list->insert(0, 1, '[');
+    }
+    CHECK(glb.bytes().size() < 300'000);
+    CHECK(says(failureOf(glb), "texels in all"));
+}
+
 TEST_CASE("glTF parts: truncated anywhere or with any bit flipped, parts or an Error") {
     const std::string bytes = TexturedGlb().bytes();
     std::mt19937 random(3);
