@@ -62,29 +62,6 @@ class MemoryWriter : public Imf::OStream {
     uint64_t mPosition = 0;
 };
 
-// OpenEXR allocates what an attribute's size field says before it reads: see that all sizes fit the file.
-void checkAttributeSizes(std::span<const std::byte> bytes, const std::string& name) {
-    const auto fail = [&] {
-        throw Error(fmt::format("{}: damaged OpenEXR header; get the file again", name));
-    };
-    size_t position = 8;
-    const auto skipText = [&] {
-        const size_t start = position;
-        while (position < bytes.size() && bytes[position] != std::byte(0)) position++;
-        if (position == bytes.size()) fail();
-        return position++ - start;
-    };
-    while (skipText() > 0) {
-        skipText();
-        int32_t size;
-        if (bytes.size() - position < sizeof size) fail();
-        std::memcpy(&size, bytes.data() + position, sizeof size);
-        position += sizeof size;
-        if (size < 0 || size_t(size) > bytes.size() - position) fail();
-        position += size_t(size);
-    }
-}
-
 // The header of a single-part image of pixels.
 Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name) {
     constexpr size_t kPrefixBytes = 8; // magic number, then version and flags
@@ -97,7 +74,7 @@ Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name
             fmt::format("{}: expected an OpenEXR file of one part of flat pixels, found a multi-part or deep "
                         "one; save one flat part",
                         name));
-    checkAttributeSizes(bytes, name);
+    checkExrHeader(bytes, name);
     MemoryReader reader(bytes, name);
     reader.seekg(kPrefixBytes);
     Imf::Header header;

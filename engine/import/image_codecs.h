@@ -20,6 +20,10 @@ ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name)
 ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name);
 Image decodeRadiance(std::span<const std::byte> bytes, const std::string& name);
 
+// Throws Error unless the attributes of an OpenEXR header of one part have the sizes that their types ask
+// for.
+void checkExrHeader(std::span<const std::byte> bytes, const std::string& name);
+
 std::vector<std::byte> encodeExr(const Image& image);
 
 // Throws Error unless an image of width × height may come from a file of `bytes` bytes: neither empty,

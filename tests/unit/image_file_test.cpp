@@ -229,6 +229,29 @@ TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
     checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
 }
 
+TEST_CASE("image file: OpenEXR attributes of other sizes than their types have are refused") {
+    // OpenEXR reads four bytes of an int, whatever its size says, and would take what follows for an
+    // attribute of almost 2 GB.
+    const std::string start("\x76\x2f\x31\x01\x02\0\0\0", 8);
+    const auto attribute = [](const std::string& type, const std::string& value) {
+        const auto size = uint32_t(value.size());
+        std::string text("a\0", 2);
+        text += type;
+        text += '\0';
+        for (int shift = 0; shift < 32; shift += 8) text += char(size >> shift);
+        return text + value;
+    };
+    const std::string large("\0\0\0\0b\0other\0\x7f\x7f\x7f\x6f", 16);
+    for (const char* type :
+         {"int", "float", "box2i", "chlist", "preview", "stringvector", "floatvector", "tiledesc"}) {
+        CAPTURE(type);
+        const std::string file = start + attribute(type, large + std::string(1, '\0')) + std::string(1, '\0');
+        CHECK_THROWS_WITH_AS(readText(file), doctest::Contains("damaged OpenEXR header"), Error);
+    }
+    CHECK_THROWS_WITH_AS(readText(start + attribute("idmanifest", large)), doctest::Contains("idmanifest"),
+                         Error);
+}
+
 TEST_CASE("image file: Radiance pixels, plain and in run lengths") {
     const std::string header = "#?RADIANCE\n# comment\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 3\n";
     const std::string one = "\x80\x40\x20\x81"; // 1, 0.5, 0.25
