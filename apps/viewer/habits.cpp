@@ -3,6 +3,7 @@
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/json_object.h"
 
 #include <spdlog/spdlog.h>
 
@@ -51,8 +52,8 @@ Habits readHabits() {
         const std::filesystem::path file = habitsFile();
         if (!std::filesystem::exists(file)) return habits;
         const std::vector<std::byte> bytes = readFile(file, kMostBytes);
-        const char* const text = reinterpret_cast<const char*>(bytes.data());
-        const json object = json::parse(text, text + bytes.size());
+        const json object =
+            parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
         habits.size = sizeOf(memberOf(object, "width"), memberOf(object, "height"));
         habits.recent = filesOf(memberOf(object, "recent"));
         habits.environments = filesOf(memberOf(object, "environments"));

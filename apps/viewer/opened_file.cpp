@@ -4,6 +4,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/import/json_object.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -27,12 +28,6 @@ constexpr std::string_view kSceneText = R"({
 }
 )";
 
-json parse(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = readFile(file, 16 << 20);
-    const char* const text = reinterpret_cast<const char*>(bytes.data());
-    return json::parse(text, text + bytes.size(), nullptr, false);
-}
-
 // Whatever text of a scene is a file's name, with that file's date.
 std::string datesOf(const json& value, const std::filesystem::path& folder) {
     std::string dates;
@@ -47,7 +42,7 @@ std::string datesOf(const json& value, const std::filesystem::path& folder) {
 }
 
 FileKind kindOfJson(const std::filesystem::path& file) {
-    const json content = parse(file);
+    const json content = readJson(file);
     if (!content.is_object())
         throw Error(fmt::format("{}: expected a JSON object: a scene, a light or a session", file.string()));
     if (content.contains("session")) return FileKind::Session;
@@ -95,7 +90,7 @@ std::filesystem::path bakePath(const std::filesystem::path& input) {
     const auto changed = std::filesystem::last_write_time(whole, failure);
     if (failure) throw Error(fmt::format("{}: cannot be read: {}", input.string(), failure.message()));
     std::string identity = fmt::format("{}\n{}", whole.string(), changed.time_since_epoch().count());
-    if (extensionOf(input) == ".json") identity += datesOf(parse(input), whole.parent_path());
+    if (extensionOf(input) == ".json") identity += datesOf(readJson(input), whole.parent_path());
     const std::string hash = hashText(std::as_bytes(std::span(identity)));
     return folder / fmt::format("{}-{}.relume", input.stem().string().substr(0, 100), hash.substr(0, 12));
 }

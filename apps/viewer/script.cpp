@@ -2,7 +2,7 @@
 
 #include "apps/viewer/comparison.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
+#include "engine/import/json_object.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -15,8 +15,6 @@ namespace relume {
 namespace {
 
 using nlohmann::json;
-
-constexpr size_t kMostBytes = 16 << 20;
 
 const std::map<std::string, int>& buttons() {
     static const std::map<std::string, int> all = {{"left", GLFW_MOUSE_BUTTON_LEFT},
@@ -114,9 +112,7 @@ void checkStep(const json& step) {
 } // namespace
 
 Script::Script(const std::filesystem::path& file) : mFile(file) {
-    const std::vector<std::byte> bytes = readFile(file, kMostBytes);
-    const char* const text = reinterpret_cast<const char*>(bytes.data());
-    mSteps = json::parse(text, text + bytes.size(), nullptr, false);
+    mSteps = readJson(file);
     if (!mSteps.is_array()) throw Error(fmt::format("{}: expected a JSON array of steps", file.string()));
     for (; !hasEnded(); mStep++) tellStep([&] { checkStep(mSteps[mStep]); });
     mStep = 0;

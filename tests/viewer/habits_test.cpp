@@ -63,6 +63,9 @@ TEST_CASE("habits: what makes no sense is left out, and the rest is not") {
         CAPTURE(text);
         checkIsEmpty(state.read(text));
     }
+    std::string deep(1 << 18, '[');
+    deep = "{\"settings\": {\"x\": " + deep + std::string(deep.size(), ']') + "}}";
+    checkIsEmpty(state.read(deep)); // that a copy or a print of it would take the stack for
     checkIsEmpty(state.read(std::string(2 << 20, ' ') + "{\"width\": 800, \"height\": 600}")); // absurd
 
     const std::string there = state.folder.write("there.relume", "x").string();

@@ -1,4 +1,5 @@
 // What scripts do: inputs, settings, files; and how a session ends.
+#include "apps/viewer/opened_file.h"
 #include "apps/viewer/script.h"
 #include "engine/base/error.h"
 #include "tests/support/viewer_session.h"
@@ -107,6 +108,9 @@ TEST_CASE("viewer: steps that cannot be done are refused before the first") {
     expectRefused({{"resize", {800, 1e9}}}, "\"resize\"");
     expectRefused({{"resize", {800}}}, "");
     expectRefused(7, "expected an object");
+    const auto deep = folder.write("deep.json", std::string(1 << 20, '[') + std::string(1 << 20, ']'));
+    CHECK_THROWS_WITH_AS(Script{deep}, doctest::Contains("nested deeper"), Error);
+    CHECK_THROWS_WITH_AS(kindOf(deep), doctest::Contains("nested deeper"), Error);
     CHECK_NOTHROW(
         Script(folder.write("script.json", R"([{"wait": {"passes": 8}}, {"key": "A", "at": [1, 2]}])")));
 }
