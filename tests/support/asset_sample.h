@@ -54,8 +54,8 @@ inline BasisTransport sampleBases(uint32_t vertices, uint32_t terms, int faceSiz
             number % 4 == 3 ? 0 : std::min(2 * terms + uint32_t(random() % 40), kMostBasisComponents);
         for (uint32_t i = 0; i < columns; i++) cluster.indices.push_back(uint16_t(random() % coefficients));
         std::ranges::sort(cluster.indices);
-        const auto repeated = std::ranges::unique(cluster.indices);
-        cluster.indices.erase(repeated.begin(), repeated.end());
+        const auto repeated = std::unique(cluster.indices.begin(), cluster.indices.end());
+        cluster.indices.erase(repeated, cluster.indices.end());
         for (size_t i = 0; i < cluster.columns() * cluster.components; i++) cluster.basis.push_back(value());
         for (size_t kind = 0; kind < transport.kinds.size(); kind++) {
             const uint32_t count = kind % 5 == 4 ? 0 : random() % (cluster.components + 1);

@@ -38,8 +38,12 @@ struct TexturedGlb {
     std::string images =
         R"([{"bufferView":4,"mimeType":"image/png"},{"bufferView":5,"mimeType":"image/png"}])";
 
-    std::string bytes() const {
-        std::string buffer, views, accessors;
+    struct Content {
+        std::string json, buffer;
+    };
+
+    Content content() const {
+        std::string buffer, views;
         const auto addView = [&](const std::string& data) {
             views += fmt::format(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{}}})",
                                  views.empty() ? "" : ",", buffer.size(), data.size());
@@ -57,6 +61,11 @@ struct TexturedGlb {
             R"({{"bufferView":3,"byteOffset":24,"componentType":5125,"count":6,"type":"SCALAR"}}],)"
             R"("bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
             primitives, materials, textures, images, views, buffer.size());
+        return {json, buffer};
+    }
+
+    std::string bytes() const {
+        const auto [json, buffer] = content();
         return glbOf(json, buffer);
     }
 

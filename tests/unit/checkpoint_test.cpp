@@ -1,23 +1,11 @@
 #include "precompute/bake/checkpoint.h"
 
-#include "tests/support/shard_sample.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/checkpoint_sample.h"
 
 #include <doctest/doctest.h>
 
 using namespace relume;
 using namespace relume::test;
-
-namespace {
-
-StoredBlock blockOf(const SampleBlocks& blocks, uint32_t block) {
-    StoredBlock stored{blocks.losses(block), {}};
-    for (const ChunkEntry& entry : blocks.chunks(block))
-        stored.chunks.push_back({entry, blocks.load(block, entry)});
-    return stored;
-}
-
-} // namespace
 
 TEST_CASE("checkpoint: what it holds is found again, in every layout") {
     const Asset asset = shardedAsset();
