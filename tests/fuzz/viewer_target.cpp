@@ -29,6 +29,7 @@ class Target : public ScriptTarget {
         applySetting(mState, name, value, &mBounds);
     }
     bool isSettled() const override { return true; }
+    bool isShown() const override { return true; }
     int comparedPasses() const override { return 3; }
     void quit() override {}
 
