@@ -33,8 +33,8 @@ inline void resealCheckpoint(Bytes& bytes) {
 
 class CheckpointSample {
   public:
-    explicit CheckpointSample(TransportLayout layout)
-        : mAsset(shardedAsset()), mPlan(planIn(mAsset, layout)), mBlocks(mPlan, mAsset) {
+    explicit CheckpointSample(TransportLayout layout, Asset asset = shardedAsset())
+        : mAsset(std::move(asset)), mPlan(planIn(mAsset, layout)), mBlocks(mPlan, mAsset) {
         {
             Checkpoint checkpoint(path());
             checkpoint.resume(mPlan);
@@ -51,6 +51,7 @@ class CheckpointSample {
     // The bake that goes on from this checkpoint: what is missing is baked again. Throws Error. `found`, if
     // there is one, becomes the number of blocks that were there.
     Bytes resumed(const Bytes& file, size_t* found = nullptr) const {
+        std::filesystem::remove(path()); // overwritten, it might be flushed to the disk
         std::ofstream(path(), std::ios::binary)
             .write(reinterpret_cast<const char*>(file.data()), std::streamsize(file.size()));
         Checkpoint checkpoint(path());
