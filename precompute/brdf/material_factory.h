@@ -22,6 +22,8 @@ class MaterialFactory {
     std::vector<MaterialSet> make(const std::string& material, const std::filesystem::path& folder,
                                   bool isTextured);
 
+    size_t factored() const { return mFactored.size(); } // how many sets were factored, each once
+
   private:
     MaterialSet factor(const std::vector<NamedMaterial>& materials, bool isTextured);
     MaterialSet factorAnew(const std::vector<NamedMaterial>& materials, bool isTextured) const;
