@@ -41,15 +41,13 @@ Header headerOf(const VkPhysicalDeviceProperties& driver, std::span<const std::b
     return header;
 }
 
-// Whether the data begins as Vulkan says, with this device.
+// Whether the data begins as Vulkan says, with this device. Compared as bytes: a damaged version may be none
+// of those that its enumeration has, and no such value may be looked at.
 bool isOfDevice(const VkPhysicalDeviceProperties& driver, std::span<const std::byte> data) {
-    VkPipelineCacheHeaderVersionOne header;
-    if (data.size() < sizeof header) return false;
-    std::memcpy(&header, data.data(), sizeof header);
-    return header.headerSize == sizeof header &&
-           header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-           header.vendorID == driver.vendorID && header.deviceID == driver.deviceID &&
-           std::ranges::equal(header.pipelineCacheUUID, driver.pipelineCacheUUID);
+    VkPipelineCacheHeaderVersionOne expected{
+        sizeof expected, VK_PIPELINE_CACHE_HEADER_VERSION_ONE, driver.vendorID, driver.deviceID, {}};
+    std::ranges::copy(driver.pipelineCacheUUID, expected.pipelineCacheUUID);
+    return data.size() >= sizeof expected && std::memcmp(data.data(), &expected, sizeof expected) == 0;
 }
 
 // Empty: there is none, or it cannot be read.

@@ -77,8 +77,10 @@ void run(std::span<const std::byte> input) {
 
 std::vector<Bytes> seeds() {
     const std::string edit = std::string("\x01\x00\x50\0\xff\xff\xff\xff", 8);
+    // A version that Vulkan's enumeration does not have.
+    const std::string version = std::string("\x01\x00\x3c\0\xff\xff\xff\xff", 8);
     std::vector<Bytes> all = {seedOf({kCache}, sampleCache()), seedOf({kCacheEdits}, edit),
-                              seedOf({kCacheSealedEdits}, edit)};
+                              seedOf({kCacheSealedEdits}, version)};
     for (const int layout : {0, 1}) {
         const Bytes file =
             CheckpointSample(layout == 0 ? TransportLayout::Rows : TransportLayout::Bases).file();
