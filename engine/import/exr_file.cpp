@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <new>
 
 namespace relume {
 
@@ -192,6 +193,8 @@ ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) t
     Imf::InputFile file(reader);
     return {readPixels(file, window, luminance), projection};
 } catch (const Error&) {
+    throw;
+} catch (const std::bad_alloc&) { // no fault of the file's
     throw;
 } catch (const std::exception& failure) {
     throw Error(fmt::format("{}: damaged OpenEXR file: {}; get the file again", name, failure.what()));
