@@ -28,12 +28,21 @@ void forNeighbours(const IsotropicTable& table, size_t cell, const Visit& visit)
 } // namespace
 
 void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
-    std::vector<size_t> missing, filled;
+    // A layer is of cells that are missing beside some that are not. Each looks at the one before alone: a
+    // file that lacks almost all may have hundreds.
+    std::vector<size_t> layer, next;
+    std::vector<bool> isFound(isMissing.size());
+    const auto findMissing = [&](size_t cell, std::vector<size_t>& found) {
+        forNeighbours(table, cell, [&](size_t neighbour) {
+            if (!isMissing[neighbour] || isFound[neighbour]) return;
+            isFound[neighbour] = true;
+            found.push_back(neighbour);
+        });
+    };
     for (size_t cell = 0; cell < isMissing.size(); cell++)
-        if (isMissing[cell]) missing.push_back(cell);
-    while (!missing.empty()) {
-        filled.clear();
-        std::erase_if(missing, [&](size_t cell) {
+        if (!isMissing[cell]) findMissing(cell, layer);
+    for (; !layer.empty(); layer.swap(next)) {
+        for (const size_t cell : layer) {
             vec3 sum(0);
             float count = 0;
             forNeighbours(table, cell, [&](size_t neighbour) {
@@ -41,13 +50,12 @@ void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
                 sum += table[neighbour];
                 count++;
             });
-            if (count == 0) return false;
             table[cell] = sum / count;
-            filled.push_back(cell);
-            return true;
-        });
+        }
         // Only now, so that a layer does not feed on itself.
-        for (size_t cell : filled) isMissing[cell] = false;
+        for (const size_t cell : layer) isMissing[cell] = false;
+        next.clear();
+        for (const size_t cell : layer) findMissing(cell, next);
     }
 }
 

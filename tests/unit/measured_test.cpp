@@ -5,6 +5,7 @@
 #include "precompute/brdf/cornell.h"
 #include "precompute/brdf/merl.h"
 #include "precompute/brdf/spectrum.h"
+#include "precompute/brdf/table_repair.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -214,6 +215,16 @@ TEST_CASE("measured: negative values are counted, reported and filled from their
         for (int d = 10; d < 13; d++)
             CHECK(table[merlCell(40, d, p)].y == doctest::Approx(whole[merlCell(40, d, p)].y).epsilon(0.1));
     for (size_t cell = 0; cell < table.cellCount(); cell++) REQUIRE(table[cell].y >= 0);
+}
+
+TEST_CASE("measured: one cell fills a table that lacks all others, layer by layer") {
+    IsotropicTable table(90, 90, 180);
+    std::vector<bool> isMissing(table.cellCount(), true);
+    const size_t known = table.cell(40, 30, 20);
+    isMissing[known] = false;
+    table[known] = vec3(7, 5, 3);
+    fillMissing(table, isMissing); // at once: looking at every cell for every layer would take seconds
+    for (size_t cell = 0; cell < table.cellCount(); cell++) REQUIRE(table[cell] == vec3(7, 5, 3));
 }
 
 TEST_CASE("measured: noise beyond 80 degrees is held to what a mirror could do") {
