@@ -3,7 +3,10 @@
 #include "engine/base/error.h"
 #include "engine/import/image_codecs.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/exr_sample.h"
+#include "tests/support/temporary_folder.h"
 
+#include <OpenEXR/ImfCompression.h>
 #include <cmath>
 #include <stb_image_write.h>
 
@@ -36,7 +39,21 @@ std::vector<Bytes> seeds() {
         static_cast<Bytes*>(target)->insert(static_cast<Bytes*>(target)->end(), first, first + size);
     };
     stbi_write_hdr_to_func(append, &radiance, image.width, image.height, 3, colors.data());
-    return {encodeExr(image), radiance};
+    std::vector<Bytes> all = {encodeExr(image), radiance};
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "halves.exr";
+    for (const auto compression :
+         {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::PIZ_COMPRESSION,
+          Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION}) {
+        Imf::Header header(20, 10);
+        header.compression() = compression;
+        writeHalves(file, header, {"R", "G", "B"});
+        all.push_back(readFile(file));
+        header.setTileDescription(Imf::TileDescription(8, 4));
+        writeHalves(file, header, {"Y"});
+        all.push_back(readFile(file));
+    }
+    return all;
 }
 
 // 512 pixels of a byte (checkImageSize), of 16 bytes each in memory.

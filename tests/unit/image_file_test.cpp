@@ -1,6 +1,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/import/image_codecs.h"
+#include "tests/support/exr_sample.h"
 #include "tests/support/temporary_folder.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -94,34 +95,8 @@ void patchAttribute(Bytes& bytes, const std::string& nameAndType, size_t offset,
 
 const std::string kDataWindow("dataWindow\0box2i\0", 17);
 
-// Writes half-float channels, each the column number plus ten times the row plus its place in `names`.
-void writeHalves(const std::filesystem::path& path, Imf::Header header,
-                 const std::vector<const char*>& names) {
-    const Imath::Box2i window = header.dataWindow();
-    const size_t width = size_t(window.max.x - window.min.x + 1),
-                 height = size_t(window.max.y - window.min.y + 1);
-    std::vector<std::vector<half>> planes(names.size(), std::vector<half>(width * height));
-    Imf::FrameBuffer source;
-    for (size_t n = 0; n < names.size(); n++) {
-        for (size_t i = 0; i < width * height; i++)
-            planes[n][i] = float(i % width) + 10 * float(i / width) + float(n);
-        header.channels().insert(names[n], Imf::Channel(Imf::HALF));
-        source.insert(names[n], Imf::Slice::Make(Imf::HALF, planes[n].data(), window, sizeof(half),
-                                                 sizeof(half) * width));
-    }
-    if (header.hasTileDescription()) {
-        Imf::TiledOutputFile file(path.c_str(), header);
-        file.setFrameBuffer(source);
-        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
-    } else {
-        Imf::OutputFile file(path.c_str(), header);
-        file.setFrameBuffer(source);
-        file.writePixels(int(height));
-    }
-}
-
 ImageFile readHalves(const Imf::Header& header, const std::vector<const char*>& names) {
-    writeHalves(folder.path() / "halves.exr", header, names);
+    test::writeHalves(folder.path() / "halves.exr", header, names);
     return readImage(folder.path() / "halves.exr");
 }
 
@@ -204,7 +179,7 @@ TEST_CASE("image file: claims beyond what the file can hold are refused") {
     CHECK_THROWS_WITH_AS(readBytes(large), doctest::Contains("scale it down"), Error);
     Imf::Header tiled(6, 4);
     tiled.setTileDescription(Imf::TileDescription(4, 2));
-    writeHalves(folder.path() / "tiled.exr", tiled, {"R", "G", "B"});
+    test::writeHalves(folder.path() / "tiled.exr", tiled, {"R", "G", "B"});
     const Bytes tiles = readFile(folder.path() / "tiled.exr");
     for (int32_t side : {0, 1, 1 << 20, 1 << 30, -1}) {
         Bytes patched = tiles;
@@ -220,12 +195,12 @@ TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
                                          Imf::B44A_COMPRESSION, Imf::DWAB_COMPRESSION}) {
         Imf::Header header(20, 10);
         header.compression() = compression;
-        writeHalves(folder.path() / "halves.exr", header, {"R", "G", "B"});
+        test::writeHalves(folder.path() / "halves.exr", header, {"R", "G", "B"});
         checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
     }
     Imf::Header tiled(20, 10);
     tiled.setTileDescription(Imf::TileDescription(8, 4));
-    writeHalves(folder.path() / "halves.exr", tiled, {"R", "G", "B"});
+    test::writeHalves(folder.path() / "halves.exr", tiled, {"R", "G", "B"});
     checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
 }
 
