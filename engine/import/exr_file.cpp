@@ -107,7 +107,7 @@ void checkChunks(const Imf::Header& header, int64_t width, int64_t height, size_
             throw Error(fmt::format("{}: OpenEXR header claims {} x {} tiles, more than the file can hold",
                                     name, across, down));
     }
-    constexpr double kAlwaysFine = 256 << 20, kExpansion = 4096;
+    constexpr double kAlwaysFine = 32 << 20, kExpansion = 4096;
     const double chunkBytes =
         double(chunkWidth) * double(chunkHeight) * double(bytesPerPixel(header.channels()));
     if (chunkBytes > std::max(kAlwaysFine, kExpansion * double(fileBytes)))

@@ -186,6 +186,9 @@ TEST_CASE("image file: claims beyond what the file can hold are refused") {
         patchAttribute(patched, std::string("tiles\0tiledesc\0", 15), 0, side);
         CHECK(readsOrThrows(patched));
     }
+    Bytes patched = tiles; // a tile of 200 MB
+    patchAttribute(patched, std::string("tiles\0tiledesc\0", 15), 0, 1 << 24);
+    CHECK_THROWS_WITH_AS(readBytes(patched), doctest::Contains("claims chunks"), Error);
 }
 
 TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
