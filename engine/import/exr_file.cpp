@@ -63,13 +63,19 @@ class MemoryWriter : public Imf::OStream {
     uint64_t mPosition = 0;
 };
 
+// Version and flags, of a file that has them.
+int32_t versionOf(std::span<const std::byte> bytes) {
+    int32_t version;
+    std::memcpy(&version, bytes.data() + 4, sizeof version);
+    return version;
+}
+
 // The header of a single-part image of pixels.
 Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name) {
     constexpr size_t kPrefixBytes = 8; // magic number, then version and flags
     if (bytes.size() < kPrefixBytes)
         throw Error(fmt::format("{}: the file ends within its OpenEXR header", name));
-    int32_t version;
-    std::memcpy(&version, bytes.data() + 4, sizeof version);
+    int32_t version = versionOf(bytes);
     if (Imf::isMultiPart(version) || Imf::isNonImage(version))
         throw Error(
             fmt::format("{}: expected an OpenEXR file of one part of flat pixels, found a multi-part or deep "
@@ -93,12 +99,13 @@ size_t bytesPerPixel(const Imf::ChannelList& channels) {
     return bytes;
 }
 
-// OpenEXR decodes whole chunks (at most 256 rows, or a tile), and holds an 8-byte offset of each.
-void checkChunks(const Imf::Header& header, int64_t width, int64_t height, size_t fileBytes,
+// OpenEXR decodes whole chunks (at most 256 rows, or a tile), and holds an 8-byte offset of each. A file of
+// rows may describe tiles, too, which nothing has checked.
+void checkChunks(const Imf::Header& header, bool isTiled, int64_t width, int64_t height, size_t fileBytes,
                  const std::string& name) {
     constexpr int64_t kMostRows = 256;
     int64_t chunkWidth = width, chunkHeight = kMostRows;
-    if (header.hasTileDescription()) {
+    if (isTiled) {
         chunkWidth = header.tileDescription().xSize;
         chunkHeight = header.tileDescription().ySize;
         const int64_t across = (width + chunkWidth - 1) / chunkWidth;
@@ -185,7 +192,7 @@ ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) t
     const int64_t height = int64_t(window.max.y) - window.min.y + 1;
     checkImageSize(name, width, height, bytes.size());
     checkDensity(name, width, height, bytes.size());
-    checkChunks(header, width, height, bytes.size(), name);
+    checkChunks(header, Imf::isTiled(versionOf(bytes)), width, height, bytes.size(), name);
     const bool luminance = isLuminance(header.channels(), name);
     warnOfPrimaries(header, name);
     const ImageProjection projection = projectionOf(header, name);

@@ -189,6 +189,11 @@ TEST_CASE("image file: claims beyond what the file can hold are refused") {
     Bytes patched = tiles; // a tile of 200 MB
     patchAttribute(patched, std::string("tiles\0tiledesc\0", 15), 0, 1 << 24);
     CHECK_THROWS_WITH_AS(readBytes(patched), doctest::Contains("claims chunks"), Error);
+    // Tiles of no width, in a file of lines.
+    patched = tiles;
+    patchAttribute(patched, std::string("tiles\0tiledesc\0", 15), 0, 0);
+    patched[5] &= std::byte(~2); // the flag
+    CHECK(readsOrThrows(patched));
 }
 
 TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
