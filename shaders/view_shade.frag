@@ -11,6 +11,7 @@
 #include "shaders/lib/normal_map.glsl"
 #include "shaders/lib/tangent_frame.glsl"
 #include "shaders/lib/texels.glsl"
+#include "shaders/lib/texture_footprint.glsl"
 #include "shaders/lib/unshadowed.glsl"
 #include "shaders/shared/render.h"
 
@@ -112,9 +113,9 @@ vec3 layerWeight(ViewLayer layer, vec4 paint, vec3 base) {
 }
 
 // Of the first four materials.
-vec4 paintWeights(vec2 uv, vec4 color) {
+vec4 paintWeights(Footprint at, vec4 color) {
     if (push.paint == kUnpainted) return vec4(0);
-    vec4 paint = push.paint == kPaintedByMap ? textureLod(materialMap, vec3(uv, 0), 0) : color;
+    vec4 paint = push.paint == kPaintedByMap ? textureOver(materialMap, at) : color;
     for (uint m = push.materials; m < 4; m++) paint[m] = 0;
     const float sum = paint.x + paint.y + paint.z + paint.w;
     return sum > 0 ? paint / sum : vec4(1, 0, 0, 0);
@@ -198,19 +199,24 @@ vec3 shade(uint triangle, vec3 direction) {
     mat3 mapped = frame; // of the normal that is seen; transport knows that of the vertices
     vec3 seen = local;
     if (kLook == kSurfaceLook) {
-        vec2 uv = vec2(0);
+        const vec3 corner[3] = vec3[3](low[0].xyz, low[1].xyz, low[2].xyz);
+        const vec3 toRight = barycentricSlopes(push.rays.eye, direction, corner, push.rays.right, weights);
+        const vec3 toBelow = barycentricSlopes(push.rays.eye, direction, corner, push.rays.down, weights);
+        Footprint at = Footprint(vec2(0), vec2(0), vec2(0));
         vec4 color = vec4(0);
         for (int c = 0; c < 3; c++) {
-            uv += weights[c] * high[c].zw;
+            at.uv += weights[c] * high[c].zw;
+            at.right += toRight[c] * high[c].zw;
+            at.down += toBelow[c] * high[c].zw;
             color += weights[c] * texelOf(vertices, int(corners[c] * kVertexTexels + 2));
         }
-        paint = paintWeights(uv, color);
-        base = textureLod(baseColor, vec3(uv, 0), 0).rgb;
+        paint = paintWeights(at, color);
+        base = textureOver(baseColor, at).rgb;
         if (detail.isTinted != 0) base *= color.rgb;
-        emitted = detail.emission * textureLod(emissionMap, vec3(uv, 0), 0).rgb;
+        emitted = detail.emission * textureOver(emissionMap, at).rgb;
         if (detail.normalScale != 0) {
-            const vec3 map = 2 * textureLod(normalMap, vec3(uv, 0), 0).xyz - 1;
-            vec3 found = mappedNormal(normal, vec3[3](low[0].xyz, low[1].xyz, low[2].xyz),
+            const vec3 map = 2 * textureOver(normalMap, at).xyz - 1;
+            vec3 found = mappedNormal(normal, corner,
                                             vec2[3](high[0].zw, high[1].zw, high[2].zw),
                                             map * vec3(detail.normalScale, detail.normalScale, 1));
             found = facingNormal(found, normalize(-direction));

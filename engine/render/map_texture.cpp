@@ -37,11 +37,14 @@ ViewMapTexture makeViewMapTexture(const vk::Device& device, const FactoredBrdf& 
 
 vk::Image makeSurfaceTexture(const vk::Device& device, const Texture& texture, std::string_view name) {
     static_assert(std::endian::native == std::endian::little); // texels are words with R lowest
-    const vk::ImageOptions options{.format =
-                                       texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
-                                   .width = uint32_t(texture.width),
-                                   .height = uint32_t(texture.height)};
-    return vk::uploadImage(device, options, std::as_bytes(std::span(texture.texels)), name);
+    vk::ImageOptions options{.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+                             .width = uint32_t(texture.width),
+                             .height = uint32_t(texture.height)};
+    std::vector<uint32_t> texels;
+    const std::vector<Texture> levels = makeMipLevels(texture);
+    for (const Texture& level : levels) texels.insert(texels.end(), level.texels.begin(), level.texels.end());
+    options.mips = uint32_t(levels.size());
+    return vk::uploadImage(device, options, std::as_bytes(std::span(texels)), name);
 }
 
 } // namespace relume

@@ -19,7 +19,7 @@ struct ViewMapTexture {
 // Throws OutOfMemory, or Error where the device holds fewer images in an array.
 ViewMapTexture makeViewMapTexture(const vk::Device& device, const FactoredBrdf& brdf, std::string_view name);
 
-// Uploads a texture as it is: eight bits a channel, decoded by the device where it is sRGB.
+// Uploads a texture with all of its mip levels: eight bits a channel, decoded by the device where it is sRGB.
 vk::Image makeSurfaceTexture(const vk::Device& device, const Texture& texture, std::string_view name);
 
 } // namespace relume

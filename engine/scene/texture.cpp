@@ -2,11 +2,15 @@
 
 #include "engine/base/check.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace relume {
 namespace {
+
+// As in shaders/lib/texture_footprint.glsl.
+constexpr float kMostTaps = 16, kMostFootprint = 1e6f;
 
 // IEC 61966-2-1, of a byte.
 float decodeSrgb(int byte) {
@@ -18,6 +22,30 @@ std::array<float, 256> makeSrgbTable() {
     std::array<float, 256> table;
     for (int byte = 0; byte < 256; byte++) table[size_t(byte)] = decodeSrgb(byte);
     return table;
+}
+
+// The nearest byte.
+uint32_t encode(float value, bool srgb) {
+    if (srgb) value = value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
+    return uint32_t(std::lround(255 * value));
+}
+
+// What a texel of a side half as long covers: up to three texels, and their shares.
+struct Cover {
+    int first, count;
+    std::array<float, 3> shares;
+};
+
+Cover cover(int index, int size) {
+    const int half = std::max(size / 2, 1);
+    Cover cover{index * size / half, 0, {}};
+    // In units of a texel's half-th.
+    for (int texel = cover.first; texel * half < (index + 1) * size; texel++) {
+        const int low = std::max(texel * half, index * size),
+                  high = std::min((texel + 1) * half, (index + 1) * size);
+        cover.shares[size_t(cover.count++)] = float(high - low) / float(size);
+    }
+    return cover;
 }
 
 // Where along one axis of `size` texels a coordinate falls: the texel before it, and how far it is beyond
@@ -55,6 +83,57 @@ vec4 sample(const Texture& texture, vec2 uv) {
     const vec4 lower =
         glm::mix(fetch(texture, x.before, y.after), fetch(texture, x.after, y.after), x.weight);
     return glm::mix(upper, lower, y.weight);
+}
+
+Texture halve(const Texture& texture) {
+    RELUME_CHECK(texture.width > 0 && texture.height > 0);
+    Texture half{std::max(texture.width / 2, 1), std::max(texture.height / 2, 1), {}, texture.srgb};
+    half.texels.reserve(half.texelCount());
+    std::vector<Cover> columns;
+    for (int x = 0; x < half.width; x++) columns.push_back(cover(x, texture.width));
+    for (int y = 0; y < half.height; y++) {
+        const Cover down = cover(y, texture.height);
+        for (const Cover& across : columns) {
+            vec4 sum(0);
+            for (int j = 0; j < down.count; j++)
+                for (int i = 0; i < across.count; i++)
+                    sum += across.shares[size_t(i)] * down.shares[size_t(j)] *
+                           fetch(texture, across.first + i, down.first + j);
+            sum = glm::clamp(sum, 0.0f, 1.0f);
+            uint32_t texel = 0;
+            for (int channel = 0; channel < 4; channel++)
+                texel |= encode(sum[channel], texture.srgb && channel < 3) << (8 * channel);
+            half.texels.push_back(texel);
+        }
+    }
+    return half;
+}
+
+std::vector<Texture> makeMipLevels(const Texture& texture) {
+    std::vector<Texture> levels{texture};
+    while (levels.back().texelCount() > 1) levels.push_back(halve(levels.back()));
+    return levels;
+}
+
+vec4 sampleFootprint(std::span<const Texture> levels, vec2 uv, vec2 right, vec2 down) {
+    const vec2 size(levels[0].width, levels[0].height);
+    const vec2 a = glm::clamp(right * size, -kMostFootprint, kMostFootprint),
+               b = glm::clamp(down * size, -kMostFootprint, kMostFootprint);
+    const float p = glm::dot(a, a), q = glm::dot(b, b), r = glm::dot(a, b);
+    const float major = std::sqrt(0.5f * (p + q + std::sqrt((p - q) * (p - q) + 4 * r * r)));
+    const float minor = std::abs(a.x * b.y - a.y * b.x) / std::max(major, 1e-6f);
+    const float width = std::max({minor, major / kMostTaps, 1.0f});
+    const float taps = std::clamp(std::ceil(major / width), 1.0f, kMostTaps);
+    const float turn = 0.5f * std::atan2(2 * r, p - q);
+    const vec2 along = (std::cos(turn) * a + std::sin(turn) * b) / size;
+    const float level = std::min(std::log2(width), float(levels.size() - 1));
+    const size_t fine = size_t(level), coarse = std::min(fine + 1, levels.size() - 1);
+    vec4 sum(0);
+    for (float tap = 0.5f; tap < taps; tap++) {
+        const vec2 place = uv + (tap / taps - 0.5f) * along;
+        sum += glm::mix(sample(levels[fine], place), sample(levels[coarse], place), level - float(fine));
+    }
+    return sum / taps;
 }
 
 vec4 meanOf(const Texture& texture) {

@@ -28,6 +28,18 @@ vec4 fetch(const Texture& texture, int x, int y);
 // goes down, sRGB is decoded before interpolation. Infinite or NaN coordinates count as 0.
 vec4 sample(const Texture& texture, vec2 uv);
 
+// Half as wide and high, rounded down to 1 or more: the next mip level. A texel is the mean of what it
+// covers, of sides that are odd with a share of the texels that it cuts; sRGB is decoded before, and encoded
+// after.
+Texture halve(const Texture& texture);
+
+// The texture and its mip levels, down to a single texel.
+std::vector<Texture> makeMipLevels(const Texture& texture);
+
+// Returns the mean of a texture over a pixel whose middle lies at uv, and its neighbors to the right and
+// below this far away. GLSL twin, with the method: shaders/lib/texture_footprint.glsl.
+vec4 sampleFootprint(std::span<const Texture> levels, vec2 uv, vec2 right, vec2 down);
+
 // The mean of all texels, linear.
 vec4 meanOf(const Texture& texture);
 

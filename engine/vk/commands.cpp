@@ -340,7 +340,7 @@ void Commands::transition(const Image& image, VkImageLayout from, VkImageLayout 
     barrier.newLayout = to;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image.handle();
-    barrier.subresourceRange = {image.aspect(), 0, 1, 0, image.options().layers};
+    barrier.subresourceRange = {image.aspect(), 0, image.options().mips, 0, image.options().layers};
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &barrier;
@@ -373,9 +373,21 @@ static VkBufferImageCopy wholeLayers(const Image& image, uint32_t layers) {
 }
 
 void Commands::copy(const Buffer& from, const Image& to) {
-    const VkBufferImageCopy region = wholeLayers(to, to.options().layers);
-    vkCmdCopyBufferToImage(mCommands, from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                           &region);
+    const ImageOptions& options = to.options();
+    std::vector<VkBufferImageCopy> regions;
+    uint64_t texels = 0; // before the level
+    for (uint32_t level = 0; level < options.mips; level++) {
+        VkBufferImageCopy region = wholeLayers(to, options.layers);
+        region.bufferOffset = texels;
+        region.imageSubresource.mipLevel = level;
+        region.imageExtent = {std::max(options.width >> level, 1u), std::max(options.height >> level, 1u), 1};
+        texels += uint64_t(region.imageExtent.width) * region.imageExtent.height * options.layers;
+        regions.push_back(region);
+    }
+    RELUME_CHECK(options.mips == 1 || from.bytes() % texels == 0);
+    for (VkBufferImageCopy& region : regions) region.bufferOffset *= from.bytes() / texels;
+    vkCmdCopyBufferToImage(mCommands, from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           uint32_t(regions.size()), regions.data());
 }
 
 void Commands::copy(const Buffer& from, uint64_t fromOffset, const Image& to, uint32_t layer) {

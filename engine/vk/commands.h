@@ -111,7 +111,9 @@ class Commands {
     void update(const Buffer& buffer, std::span<const std::byte> bytes);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
               uint64_t toOffset = 0);
-    void copy(const Buffer& from, const Image& to); // all layers; image in TRANSFER_DST
+    // All mip levels, one after the other, and their layers; image in TRANSFER_DST. The buffer holds no more
+    // where there are several levels.
+    void copy(const Buffer& from, const Image& to);
     void copy(const Buffer& from, uint64_t fromOffset, const Image& to, uint32_t layer); // that layer alone
     // The first layers; image in TRANSFER_SRC.
     void copy(const Image& from, const Buffer& to, uint32_t layers, uint64_t toOffset = 0);

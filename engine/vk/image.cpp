@@ -13,7 +13,7 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
     create.imageType = VK_IMAGE_TYPE_2D;
     create.format = options.format;
     create.extent = {options.width, options.height, 1};
-    create.mipLevels = 1;
+    create.mipLevels = options.mips;
     create.arrayLayers = options.layers;
     create.samples = VkSampleCountFlagBits(options.samples);
     create.tiling = VK_IMAGE_TILING_OPTIMAL;
@@ -61,7 +61,7 @@ void Image::createView() {
     view.image = mImage;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
     view.format = mOptions.format;
-    view.subresourceRange = {aspect(), 0, 1, 0, mOptions.layers};
+    view.subresourceRange = {aspect(), 0, mOptions.mips, 0, mOptions.layers};
     RELUME_VK(vkCreateImageView(mDevice->handle(), &view, nullptr, &mView));
 }
 
@@ -96,6 +96,9 @@ Sampler::Sampler(const Device& device, VkSamplerAddressMode addressU, VkSamplerA
     create.addressModeU = addressU;
     create.addressModeV = addressV;
     create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    create.mipmapMode =
+        filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    create.maxLod = VK_LOD_CLAMP_NONE;
     RELUME_VK(vkCreateSampler(device.handle(), &create, nullptr, &mSampler));
     device.setName(VK_OBJECT_TYPE_SAMPLER, reinterpret_cast<uint64_t>(mSampler), name);
 }

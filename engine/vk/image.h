@@ -10,6 +10,7 @@ struct ImageOptions {
     uint32_t width = 1, height = 1;
     uint32_t layers = 1;  // Always viewed as a 2D array
     uint32_t samples = 1; // of a pixel: a power of two
+    uint32_t mips = 1;    // levels, each half as wide and high as the one before, rounded down to 1 or more
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 };
 
@@ -45,7 +46,7 @@ class Image {
     VkImageView mView = VK_NULL_HANDLE;
 };
 
-// A sampler without mip levels; integers cannot be filtered.
+// Filters between mip levels where an image has several; integers cannot be filtered.
 class Sampler {
   public:
     Sampler() = default;

@@ -17,8 +17,8 @@ Buffer upload(const Device& device, std::span<const T> values, std::string_view 
     return uploadBytes(device, std::as_bytes(values), name);
 }
 
-// An image with these texels, layer after layer, ready for shader reads. Waits for the copy. Throws
-// OutOfMemory.
+// An image with these texels, level after level and of each layer after layer, ready for shader reads. Waits
+// for the copy. Throws OutOfMemory.
 Image uploadImage(const Device& device, const ImageOptions& options, std::span<const std::byte> texels,
                   std::string_view name);
 

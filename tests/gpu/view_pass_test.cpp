@@ -116,12 +116,17 @@ class HostView {
           mTracer(std::array{&asset.parts[0].mesh, &asset.parts[1].mesh}) {
         for (size_t i = 0; i < asset.parts.size(); i++)
             mTuples.push_back(relight(rowsOf(setOf(i).transport), light));
+        for (const AssetPart& part : asset.parts)
+            mTextures.push_back(
+                {part.baseColor ? makeMipLevels(*part.baseColor) : std::vector<Texture>(),
+                 part.materialMap ? makeMipLevels(*part.materialMap) : std::vector<Texture>()});
     }
 
-    HostPixel at(vec3 eye, vec3 direction) const {
-        const auto hit = mTracer.intersect(eye, direction);
+    // At a place of an image, in pixels from its upper left corner.
+    HostPixel at(const Camera& camera, vec2 place, ivec2 size) const {
+        const auto hit = mTracer.intersect(camera.eye, camera.directionAt(place, size.x, size.y));
         if (!hit) return {false, false, vec3(0)};
-        return at(direction, *hit);
+        return at(camera, place, size, *hit);
     }
 
     // A pixel of several samples, as the shaders group them. It is steady if its samples are.
@@ -134,7 +139,7 @@ class HostView {
             const vec3 ray = camera.directionAt(place, size.x, size.y);
             hits.push_back(mTracer.intersect(camera.eye, ray));
             const auto& hit = hits.back();
-            isSteady = isSteady && hit && at(ray, *hit).steady;
+            isSteady = isSteady && hit && at(camera, place, size, *hit).steady;
             seen.push_back(hit ? (hit->mesh << 24 | hit->triangle) + 1 : 0);
         }
         const auto hitOf = [&](uint32_t surface) {
@@ -158,26 +163,47 @@ class HostView {
             RayHit hit = *hits[size_t(std::countr_zero(members))];
             const vec3 ray = camera.directionAt(place, size.x, size.y);
             hit.weights = weightsAt(hit, camera.eye, ray);
-            sum += count / float(samples) * vec4(at(ray, hit).radiance, 1);
+            sum += count / float(samples) * vec4(at(camera, place, size, hit).radiance, 1);
         }
         return {sum, isSteady};
     }
 
   private:
-    // Where a ray meets the plane of the triangle that another has hit, moved to its nearest edge.
-    vec3 weightsAt(const RayHit& hit, vec3 eye, vec3 direction) const {
+    // Where a ray meets the plane of the triangle that another has hit.
+    vec3 planeWeightsAt(const RayHit& hit, vec3 eye, vec3 direction) const {
         const Mesh& mesh = mAsset.parts[hit.mesh].mesh;
         const uvec3 corners = mesh.triangles[hit.triangle];
         const vec3 origin = mesh.positions[corners.x];
         const mat3 axes(mesh.positions[corners.y] - origin, mesh.positions[corners.z] - origin, -direction);
         const vec3 solved = glm::inverse(axes) * (eye - origin);
-        vec2 yz = glm::clamp(vec2(solved), 0.0f, 1.0f);
+        return {1 - solved.x - solved.y, vec2(solved)};
+    }
+
+    // The same, moved to the triangle's nearest edge.
+    vec3 weightsAt(const RayHit& hit, vec3 eye, vec3 direction) const {
+        const vec3 weights = planeWeightsAt(hit, eye, direction);
+        vec2 yz = glm::clamp(vec2(weights.y, weights.z), 0.0f, 1.0f);
         yz /= std::max(1.0f, yz.x + yz.y);
         return {1 - yz.x - yz.y, yz};
     }
 
-    // Of a surface that is looked at in a direction.
-    HostPixel at(vec3 direction, const RayHit& seen) const {
+    // How far the texture coordinates of the next pixel are away.
+    vec2 uvStep(const Camera& camera, vec2 place, ivec2 size, const RayHit& hit, vec2 next) const {
+        const Mesh& mesh = mAsset.parts[hit.mesh].mesh;
+        if (mesh.uvs.empty()) return vec2(0);
+        constexpr float kShare = 0.05f;
+        const auto weights = [&](float share) {
+            return planeWeightsAt(hit, camera.eye, camera.directionAt(place + share * next, size.x, size.y));
+        };
+        const vec3 change = (weights(kShare) - weights(-kShare)) / (2 * kShare);
+        vec2 step(0);
+        for (int c = 0; c < 3; c++) step += change[c] * mesh.uvs[mesh.triangles[hit.triangle][c]];
+        return step;
+    }
+
+    // Of a surface that is seen at a place of the image.
+    HostPixel at(const Camera& camera, vec2 place, ivec2 size, const RayHit& seen) const {
+        const vec3 direction = camera.directionAt(place, size.x, size.y);
         const RayHit* const hit = &seen;
         const AssetPart& part = mAsset.parts[hit->mesh];
         const uvec3 corners = part.mesh.triangles[hit->triangle];
@@ -193,7 +219,13 @@ class HostView {
         const vec3 toEye = tangentFrame(glm::normalize(normal), tangent).toLocal(glm::normalize(-direction));
         const vec3 local = liftAboveHorizon(toEye);
         const FactoredBrdf& brdf = setOf(hit->mesh).brdf;
-        const std::vector<vec3> weights = layerWeights(hit->mesh, uv, color);
+        const vec2 right = uvStep(camera, place, size, *hit, {1, 0}),
+                   down = uvStep(camera, place, size, *hit, {0, 1});
+        const auto look = [&](const std::vector<Texture>& levels) {
+            return levels.empty() ? std::optional<vec4>() : sampleFootprint(levels, uv, right, down);
+        };
+        const std::vector<vec3> weights = layerWeights(hit->mesh, look(mTextures[hit->mesh].baseColor),
+                                                       look(mTextures[hit->mesh].materialMap), color);
         vec3 radiance(0);
         for (int term = 0; term < brdf.terms; term++) {
             vec3 tuple(0);
@@ -209,14 +241,14 @@ class HostView {
     const MaterialSet& setOf(size_t part) const { return mAsset.parts[part].sets[mAppearance[part].set]; }
 
     // How much of every layer of the worn set, worked out from the definitions in appearance.h.
-    std::vector<vec3> layerWeights(size_t index, vec2 uv, vec4 color) const {
-        const AssetPart& part = mAsset.parts[index];
+    std::vector<vec3> layerWeights(size_t index, std::optional<vec4> baseColor, std::optional<vec4> map,
+                                   vec4 color) const {
         const MaterialSet& set = setOf(index);
         const PartAppearance& worn = mAppearance[index];
-        vec4 paint = part.materialMap ? sample(*part.materialMap, uv) : color;
+        vec4 paint = map.value_or(color);
         float sum = 0;
         for (size_t m = 0; m < std::min<size_t>(set.materials.size(), 4); m++) sum += paint[int(m)];
-        const vec3 base = part.baseColor ? vec3(sample(*part.baseColor, uv)) : vec3(1);
+        const vec3 base(baseColor.value_or(vec4(1)));
         std::vector<vec3> weights(size_t(set.brdf.layers), vec3(0));
         for (size_t m = 0; m < set.materials.size(); m++) {
             const AssetMaterial& material = set.materials[m];
@@ -240,6 +272,10 @@ class HostView {
     float mEdgeWeight; // barycentric weight up to which a pixel is too near an edge to be steady
     RayTracer mTracer;
     std::vector<std::vector<vec3>> mTuples;
+    struct Textures {
+        std::vector<Texture> baseColor, materialMap; // mip levels; empty for none
+    };
+    std::vector<Textures> mTextures; // of the parts
 };
 
 struct TestScene {
@@ -274,7 +310,7 @@ void checkAgainstHost(const vk::Device& device, const Asset& asset, const Appear
     std::vector<HostPixel> expected;
     for (int y = 0; y < kHeight; y++)
         for (int x = 0; x < kWidth; x++)
-            expected.push_back(host.at(camera.eye, camera.pixelDirection(x, y, kWidth, kHeight)));
+            expected.push_back(host.at(camera, vec2(x, y) + 0.5f, {kWidth, kHeight}));
 
     float largest = 0, worst = 0;
     int covered = 0, clamped = 0;
@@ -328,6 +364,63 @@ TEST_CASE("view pass: materials are painted by vertex colours and by a map") {
         const Asset asset = makePaintedAsset(byColors);
         checkAgainstHost(device, asset, defaultAppearance(asset), kFiltered);
     }
+}
+
+TEST_CASE("view pass: far away, a texture is its mean over each pixel") {
+    // A plane that glows through a texture of 64 x 64 random squares, and reflects nothing.
+    Asset asset;
+    for (int i = 0; i < 2; i++) {
+        AssetPart& part = asset.parts.emplace_back(makePart(makePlane(4, 3, true), 1, DiskMapping::Polar, 1));
+        std::ranges::fill(part.sets[0].brdf.viewMaps, vec3(0));
+        for (vec3& position : part.mesh.positions) position.y -= float(i); // the second is hidden
+    }
+    const Texture squares = randomTexture(64, 64, true, 5);
+    Texture texture{256, 256, {}, true};
+    for (int t = 0; t < 256 * 256; t++)
+        texture.texels.push_back(squares.texels[size_t(t / 1024 * 64 + t % 256 / 4)]);
+    asset.parts[0].detail = {.emission = vec3(1), .emissionMap = texture};
+    const Mesh& plane = asset.parts[0].mesh;
+
+    const TestDevice device;
+    const Appearance appearance = defaultAppearance(asset);
+    const TestScene scene(device, asset, appearance);
+    constexpr int kWidth = 120, kHeight = 80;
+    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
+    const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.2f, 0.7f, 0.8f, float(kWidth) / kHeight);
+    const Image image = view.render(camera, scene.relighter);
+
+    // The texture coordinates where the ray through a place in the image meets the plane.
+    const uvec3 corners = plane.triangles[0];
+    const vec3 origin = plane.positions[corners.x];
+    const auto uvAt = [&](vec2 place) {
+        const vec3 ray = camera.directionAt(place, kWidth, kHeight);
+        const vec3 solved = glm::inverse(mat3(plane.positions[corners.y] - origin,
+                                              plane.positions[corners.z] - origin, -ray)) *
+                            (camera.eye - origin);
+        return plane.uvs[corners.x] + solved.x * (plane.uvs[corners.y] - plane.uvs[corners.x]) +
+               solved.y * (plane.uvs[corners.z] - plane.uvs[corners.x]);
+    };
+    const std::vector<Texture> levels = makeMipLevels(texture);
+    double sum = 0, ofPoints = 0;
+    int covered = 0;
+    for (int y = 0; y < kHeight; y++)
+        for (int x = 0; x < kWidth; x++) {
+            const vec2 middle(float(x) + 0.5f, float(y) + 0.5f);
+            const vec2 uv = uvAt(middle);
+            const vec2 margin = glm::min(uv, 1.0f - uv);
+            if (image.at(x, y).w == 0 || std::min(margin.x, margin.y) < 0.02f) continue;
+            const vec2 right = uvAt(middle + vec2(0.5f, 0)) - uvAt(middle - vec2(0.5f, 0)),
+                       down = uvAt(middle + vec2(0, 0.5f)) - uvAt(middle - vec2(0, 0.5f));
+            const vec3 expected(sampleFootprint(levels, uv, right, down)), found(image.at(x, y));
+            sum += double(glm::dot(found - expected, found - expected));
+            const vec3 off = vec3(sample(texture, uv)) - expected;
+            ofPoints += double(glm::dot(off, off));
+            covered++;
+        }
+    CHECK_LT(500, covered);
+    // Devices round weights to 8 bits, and lavapipe takes the mip level of the first pixel of four.
+    CHECK_LT(std::sqrt(sum / covered), 0.01);
+    CHECK_LT(0.2, std::sqrt(ofPoints / covered));
 }
 
 TEST_CASE("view pass: a swap takes the next draw, in one submission, and costs no relighting within a set") {

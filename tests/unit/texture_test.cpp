@@ -55,6 +55,76 @@ TEST_CASE("texture: bilinear between centres, repeating on all sides") {
     CHECK(isNear(meanOf(texture), vec4(0.25f)));
 }
 
+TEST_CASE("texture: a mip level is the mean of what it covers, decoded first") {
+    const Texture checker{2, 2, {0xff000000, 0x00ffffff, 0x00ffffff, 0xff000000}, true};
+    const Texture half = halve(checker);
+    REQUIRE(half.texelCount() == 1);
+    CHECK(half.srgb);
+    CHECK(isNear(fetch(half, 0, 0), vec4(0.5f), 0.01f)); // not the 0.21 of an encoded 0.5
+    CHECK(half.texels[0] == 0x80bcbcbc);
+    // Odd sides: two texels of two and a half each, then one of two, then none fewer.
+    Texture line{5, 1, {0, 30, 60, 90, 120}, false};
+    const Texture shorter = halve(line);
+    REQUIRE(shorter.width == 2);
+    REQUIRE(shorter.height == 1);
+    CHECK(shorter.texels == std::vector<uint32_t>{24, 96}); // (0 + 30 + 60 / 2) / 2.5
+    CHECK(halve(shorter).texels == std::vector<uint32_t>{60});
+    CHECK(halve(halve(shorter)).texels == std::vector<uint32_t>{60});
+    // Every byte stays itself.
+    for (const bool srgb : {false, true})
+        for (uint32_t byte = 0; byte < 256; byte++) {
+            const uint32_t texel = byte * 0x01010101;
+            CHECK(halve({2, 1, {texel, texel}, srgb}).texels[0] == texel);
+        }
+    // The mean stays, whatever the sides.
+    Texture noise{37, 21, {}, false};
+    std::mt19937 random(4);
+    for (size_t i = 0; i < noise.texelCount(); i++) noise.texels.push_back(random());
+    CHECK(isNear(meanOf(halve(noise)), meanOf(noise), 0.002f));
+    CHECK(isNear(meanOf(halve(halve(noise))), meanOf(noise), 0.003f));
+}
+
+TEST_CASE("texture: over a pixel it is the mean of what the pixel sees") {
+    // Stripes of 4 texels along v, of sums of waves along u.
+    Texture texture{256, 256, {}, false};
+    for (int y = 0; y < 256; y++)
+        for (int x = 0; x < 256; x++)
+            texture.texels.push_back((x / 4 % 2 ? 255u : 0u) | uint32_t(128 + 100 * std::sin(x * 0.1f)) << 8 |
+                                     (y / 4 % 2 ? 255u : 0u) << 16);
+    const std::vector<Texture> levels = makeMipLevels(texture);
+    CHECK(levels.size() == 9);
+    const auto meanOver = [&](vec2 uv, vec2 right, vec2 down) {
+        vec4 sum(0);
+        for (int j = 0; j < 64; j++)
+            for (int i = 0; i < 64; i++) {
+                const vec2 place = (vec2(i, j) + 0.5f) / 64.0f - 0.5f;
+                sum += sample(texture, uv + place.x * right + place.y * down);
+            }
+        return sum / 4096.0f;
+    };
+    const float texel = 1 / 256.0f;
+    // No larger than a texel: bilinear, as ever.
+    for (const vec2 uv : {vec2(0.3f, 0.7f), vec2(0.123f, 0.456f)})
+        CHECK(sampleFootprint(levels, uv, {0.9f * texel, 0}, {0, -0.7f * texel}) == sample(texture, uv));
+    CHECK(sampleFootprint(levels, vec2(0.3f), vec2(0), vec2(0)) == sample(texture, vec2(0.3f)));
+    // Long across the stripes of R, and no wider than a texel along them: G and B stay as sharp as they are.
+    for (const float v : {0.1f, 0.2f, 0.503f}) {
+        const vec4 found = sampleFootprint(levels, {0.4f, v}, {0, texel}, {16 * texel, 0});
+        CHECK(isNear(found, meanOver({0.4f, v}, {16 * texel, 0}, {0, texel}), 0.12f));
+        CHECK(found.x == doctest::Approx(0.5).epsilon(0.1));
+        CHECK(std::abs(found.z - 0.5f) > 0.4f);
+    }
+    // Both neighbors in the same direction, so that the pixel is a line.
+    CHECK(sampleFootprint(levels, {0.4f, 0.1f}, {8 * texel, 0}, {8 * texel, 0}).x ==
+          doctest::Approx(0.5).epsilon(0.1));
+    // As wide as long: a mip level, whose filter is wider than the pixel.
+    CHECK(isNear(sampleFootprint(levels, vec2(0.4f), {32 * texel, 0}, {0, 32 * texel}),
+                 meanOver(vec2(0.4f), {32 * texel, 0}, {0, 32 * texel}), 0.15f));
+    // Absurd ones are the mean of all.
+    const float huge = std::numeric_limits<float>::max();
+    CHECK(isNear(sampleFootprint(levels, vec2(0.4f), vec2(huge), vec2(-huge, huge)), meanOf(texture), 0.05f));
+}
+
 TEST_CASE("texture: sRGB is decoded before interpolation, alpha never") {
     const Texture texture{2, 1, {0xff000000, 0x00ffffff}, true};
     CHECK(isNear(sample(texture, {0.5f, 0.5f}), vec4(0.5f)));
