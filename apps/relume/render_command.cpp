@@ -247,7 +247,8 @@ void addRenderCommand(CLI::App& program) {
         ->type_name("FILE");
     command->callback([arguments, command] {
         if (!arguments->session.empty()) applySession(arguments->session, *command);
-        if (arguments->file.empty()) throw UsageError("FILE: expected a bake (.relume), or --session");
+        if (arguments->file.empty())
+            throw UsageError("FILE: expected a bake (.relume), or a --session that names one");
         run(*arguments);
     });
 }

@@ -1,7 +1,6 @@
 #include "apps/viewer/content.h"
 
 #include "apps/viewer/opened_file.h"
-#include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/import/environment_file.h"
@@ -11,6 +10,7 @@
 #include "precompute/bake/sketch.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace relume {
@@ -44,15 +44,17 @@ void Content::open(const std::filesystem::path& file) {
     const FileKind kind = kindOf(file);
     // The built-in scene is for want of another.
     if (kind == FileKind::Bake || kind == FileKind::Bakeable) {
-        std::erase_if(mNextBakes, [](const Bake& bake) { return bake.input.stem() == kBuiltInScene; });
-        if (mBake && mBake->input().stem() == kBuiltInScene) cancelBake();
+        std::erase_if(mNextBakes, [&](const Bake& bake) { return bake.input == mBuiltIn; });
+        if (mBake && mBake->input() == mBuiltIn) cancelBake();
     }
     switch (kind) {
     case FileKind::Bake:
         load(file);
+        showOpen(file);
         break;
     case FileKind::Bakeable:
         bake(file);
+        showOpen(bakePath(file));
         break;
     case FileKind::Environment:
         mLight.environment = addEnvironment(mLight, file);
@@ -62,15 +64,18 @@ void Content::open(const std::filesystem::path& file) {
         openLight(file);
         break;
     case FileKind::Session:
-        RELUME_CHECK(false); // of the viewer as a whole
+        throw Error(fmt::format("{}: has become a session; open it again", file.string()));
     }
     remember(file);
 }
 
-void Content::openBuiltIn() { bake(writeBuiltInScene()); }
+void Content::openBuiltIn() {
+    mBuiltIn = writeBuiltInScene();
+    bake(mBuiltIn);
+}
 
 void Content::remember(const std::filesystem::path& file) {
-    const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+    const std::filesystem::path whole = wholePath(file);
     std::erase(mRecent, whole);
     mRecent.insert(mRecent.begin(), whole);
     if (mRecent.size() > kMostRecent) mRecent.resize(kMostRecent);
@@ -106,8 +111,20 @@ void Content::reload() {
         if (model != mShown) load(model->file);
 }
 
+std::vector<std::shared_ptr<Model>>::iterator Content::find(const std::filesystem::path& file) {
+    return std::ranges::find_if(
+        mModels, [whole = wholePath(file)](const auto& model) { return wholePath(model->file) == whole; });
+}
+
+void Content::showOpen(const std::filesystem::path& file) {
+    const auto open = find(file);
+    if (open == mModels.end()) return;
+    mShown = *open;
+    mHasChanged = true;
+}
+
 void Content::take(std::shared_ptr<Model> model) {
-    const auto same = std::ranges::find_if(mModels, [&](const auto& m) { return m->file == model->file; });
+    const auto same = find(model->file);
     // What is there anew is shown if it was before: someone may be looking at another one.
     const bool isShown = !mShown || same == mModels.end() || *same == mShown;
     if (same != mModels.end())
@@ -131,7 +148,7 @@ void Content::close(size_t model) {
 
 void Content::bake(const std::filesystem::path& input) {
     const Bake bake{input, bakePath(input)};
-    mInputs[bake.output] = std::filesystem::absolute(input);
+    mInputs[bake.output] = wholePath(input);
     if (mBake && mBake->output() == bake.output) return;
     if (mBake) { // it goes on where it was, later
         mNextBakes.push_back({mBake->input(), mBake->output()});

@@ -73,6 +73,9 @@ class Content {
     // Shows the scene unshadowed until its bake has a preview.
     void sketch(const Bake& bake);
     void take(std::shared_ptr<Model> model);
+    std::vector<std::shared_ptr<Model>>::iterator find(const std::filesystem::path& file);
+    // Shows a bake that is open; else nothing changes.
+    void showOpen(const std::filesystem::path& file);
     void openLight(const std::filesystem::path& file);
     void readEnvironment(size_t number);
     void readNextEnvironment();
@@ -91,6 +94,7 @@ class Content {
     bool mHasChanged = false;
     std::vector<std::filesystem::path> mRecent;
     std::map<std::filesystem::path, std::filesystem::path> mInputs; // of bakes
+    std::filesystem::path mBuiltIn;                                 // empty: it was not asked for
     Worker mWorker;                                                 // last: its work uses all of the above
 };
 

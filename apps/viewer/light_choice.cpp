@@ -1,5 +1,6 @@
 #include "apps/viewer/light_choice.h"
 
+#include "engine/base/error.h"
 #include "engine/import/json_object.h"
 #include "engine/light/sun_position.h"
 
@@ -28,6 +29,14 @@ std::string timeOf(const DaySkyChoice& choice) {
     const int second = std::clamp(int(std::lround(3600 * double(choice.hour))), 0, 24 * 3600 - 1);
     return fmt::format("2026-{:02}-{:02}T{:02}:{:02}:{:02}Z", month, day, second / 3600, second / 60 % 60,
                        second % 60);
+}
+
+Moment momentOf(const JsonObject& sky) {
+    try {
+        return parseMoment(sky.requiredText("time", "a moment"));
+    } catch (const UsageError& wrong) {
+        throw Error(fmt::format("{}: \"time\": {}", sky.place(), wrong.what()));
+    }
 }
 
 nlohmann::json listOf(vec3 v) { return {v.x, v.y, v.z}; }
@@ -68,8 +77,8 @@ Light lightOf(const LightState& state) {
     return light;
 }
 
-nlohmann::json lightFileOf(const LightState& state) {
-    nlohmann::json light = nlohmann::json::object();
+nlohmann::ordered_json lightFileOf(const LightState& state) {
+    nlohmann::ordered_json light = nlohmann::json::object();
     if (state.isDay()) {
         light["sky"] = {{"time", timeOf(state.sky)},
                         {"latitude", state.sky.latitude},
@@ -126,6 +135,8 @@ void setLight(LightState& state, const nlohmann::json& light, const std::string&
     if (root.find("environment") && root.find("sky")) root.fail("sky", "no such key beside \"environment\"");
     if (const nlohmann::json* json = root.find("environment")) {
         const JsonObject environment(*json, place + ": environment", kEnvironmentKeys);
+        if (environment.find("built_in") && environment.find("file"))
+            environment.fail("file", "no such key beside \"built_in\"");
         if (!environment.flag("built_in", false))
             set.environment =
                 addEnvironment(set, folder / environment.requiredText("file", "an .exr or .hdr file"));
@@ -140,7 +151,7 @@ void setLight(LightState& state, const nlohmann::json& light, const std::string&
         set.sky.turbidity = sky.number("turbidity", 2.5f, 2, 10);
         // The viewer's clock shows solar time, which is an hour later every 15 degrees to the east.
         const float longitude = sky.requiredNumber("longitude", -180, 180);
-        const Moment moment = parseMoment(sky.requiredText("time", "a moment"));
+        const Moment moment = momentOf(sky);
         set.sky.hour = float(moment.hours) + longitude / 15;
         set.sky.dayOfYear = moment.day;
         for (int month = 1; month < moment.month; month++) set.sky.dayOfYear += kDays[month - 1];

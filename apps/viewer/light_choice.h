@@ -86,7 +86,7 @@ bool lightsAlike(const LightState& a, const LightState& b);
 Light lightOf(const LightState& state);
 
 // The same as a light file has it (docs/light_format.md).
-nlohmann::json lightFileOf(const LightState& state);
+nlohmann::ordered_json lightFileOf(const LightState& state);
 
 // Sets what a light file's content says, whose relative paths start at `folder`: one environment or day sky,
 // strokes and lamps, as lightFileOf() gives them. `place` names it in errors. Throws Error, for other light

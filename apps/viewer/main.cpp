@@ -17,9 +17,10 @@ int main(int argc, char** argv) {
     program.set_version_flag("--version", "relume-viewer " RELUME_VERSION);
     program.formatter(std::make_shared<HelpFormatter>());
     ViewerOptions options;
-    program.add_option("FILE", options.files,
-                       "Bakes (.relume); meshes and scenes, which are baked in view; environments and lights "
-                       "(.exr, .hdr, .json). Default: a built-in scene");
+    program.add_option(
+        "FILE", options.files,
+        "Bakes (.relume); meshes and scenes, which are baked in view; environments, lights and "
+        "sessions (.exr, .hdr, .json). Default: a built-in scene");
     std::string size;
     program.add_option("--size", size, "Window size (default: as the last time, or 1280x720)")
         ->type_name("WxH")

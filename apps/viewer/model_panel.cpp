@@ -47,8 +47,11 @@ void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
         }
         ImGui::EndCombo();
     }
-    if (shown && ImGui::Button("Save session")) wishes.savesSession = true;
-    explain("Ctrl + S: view, light and materials in a file that this program opens and relume render draws");
+    if (shown) {
+        if (ImGui::Button("Save session")) wishes.savesSession = true;
+        explain(
+            "Ctrl + S: view, light and materials in a file that this program opens and relume render draws");
+    }
     ImGui::TextDisabled("Drop files to open them");
 }
 

@@ -58,6 +58,10 @@ std::string extensionOf(const std::filesystem::path& file) {
     return extension;
 }
 
+std::filesystem::path wholePath(const std::filesystem::path& file) {
+    return std::filesystem::absolute(file).lexically_normal();
+}
+
 FileKind kindOf(const std::filesystem::path& file) {
     const std::string extension = extensionOf(file);
     if (extension == ".relume") return FileKind::Bake;
@@ -86,7 +90,7 @@ std::filesystem::path bakePath(const std::filesystem::path& input) {
     const std::filesystem::path folder = cacheFolder() / "bakes";
     std::filesystem::create_directories(folder, failure);
     if (failure) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
-    const std::filesystem::path whole = std::filesystem::absolute(input);
+    const std::filesystem::path whole = wholePath(input);
     const auto changed = std::filesystem::last_write_time(whole, failure);
     if (failure) throw Error(fmt::format("{}: cannot be read: {}", input.string(), failure.message()));
     std::string identity = fmt::format("{}\n{}", whole.string(), changed.time_since_epoch().count());

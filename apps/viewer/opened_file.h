@@ -11,6 +11,9 @@ enum class FileKind { Bake, Bakeable, Environment, Light, Session };
 // In small letters: ".obj".
 std::string extensionOf(const std::filesystem::path& file);
 
+// Returns the absolute path, by which files are told apart.
+std::filesystem::path wholePath(const std::filesystem::path& file);
+
 // By its name; of a .json by whether it has "parts", as scenes do, or "session". Throws Error for other
 // files.
 FileKind kindOf(const std::filesystem::path& file);

@@ -25,12 +25,12 @@ std::string outputName(const std::string& ending) {
     return fmt::format("relume-{}-{:03}{}", text, milliseconds % 1000, ending);
 }
 
-void writeLightFile(const std::filesystem::path& file, const nlohmann::json& light) {
+void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& content) {
     try {
-        writeFileAtomically(file, light.dump(2) + "\n");
+        writeFileAtomically(file, content.dump(2) + "\n");
     } catch (const nlohmann::json::exception&) {
-        throw Error(fmt::format(
-            "{}: a light file is UTF-8, and the name of the environment is not; rename it", file.string()));
+        throw Error(fmt::format("{}: JSON is UTF-8, and the name of a file in it is not; rename that",
+                                file.string()));
     }
 }
 
@@ -101,9 +101,7 @@ void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& scr
     if (state.inspect != Inspect::Off || model->isSketch) return; // no command draws it
     std::filesystem::path light = file;
     light.replace_extension(".light.json");
-    if (needsLightFile(state.light)) {
-        writeLightFile(light, lightFileOf(state.light));
-    }
+    if (needsLightFile(state.light)) writeJsonFile(light, lightFileOf(state.light));
     const auto command = [&](Drawn drawn) {
         nlohmann::ordered_json options = renderOptions(state, fadesGround, drawn);
         if (needsLightFile(state.light)) options["light"] = light.string();

@@ -11,8 +11,8 @@ namespace relume {
 // "relume-", the time to the millisecond, and this: a name in the folder that the program was started in.
 std::string outputName(const std::string& ending);
 
-// What lightFileOf() gives. Throws Error.
-void writeLightFile(const std::filesystem::path& file, const nlohmann::json& light);
+// Writes a light file or session. Throws Error.
+void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& content);
 
 class Outputs {
   public:

@@ -145,7 +145,7 @@ void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec
     if (ivec2(int(options.width), int(options.height)) != size) mModel->view.resize(size.x, size.y);
     mModel->view.setSamples(now.samples);
     mModel->view.setTerms(now.terms);
-    mModel->view.setResidual(now.addsResidual);
+    mModel->view.setResidual(now.addsResidual || mModel->isSketch);
     mModel->view.setInspect(now.inspect);
     mModel->view.setGroundFade(now.fadesGround ? mModel->groundFade : std::nullopt);
     mModel->view.record(commands, now.camera, mModel->relighter);

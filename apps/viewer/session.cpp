@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/import/json_object.h"
 #include "engine/import/light_file.h"
+#include "engine/import/session_file.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr float kLargest = 1e9f, kMostDegrees = 1e6f;
+constexpr float kLargest = 1e6f, kMostDegrees = 1e6f, kMostWeight = 1e9f;
 
 // One of `names`, in the order of an enumeration.
 template <typename Choice>
@@ -37,13 +38,9 @@ int wholeOf(const JsonObject& object, const char* key, int fallback, int low, in
 
 // A name, or several with their weights: "gold=0.5".
 std::vector<WeightedMaterial> materialOf(const JsonObject& object) {
-    const Json* list = object.find("material");
     std::vector<WeightedMaterial> material;
-    if (!list) return material;
-    constexpr const char* kExpected = "a list of names, or of \"NAME=WEIGHT\" with weights above 0";
-    if (!list->is_array() || list->empty()) object.fail("material", kExpected);
-    for (const Json& value : *list) {
-        if (!value.is_string()) object.fail("material", kExpected);
+    if (!object.find("material")) return material;
+    for (const Json& value : *object.find("material")) {
         const auto text = value.get<std::string>();
         const size_t equals = text.rfind('=');
         if (equals == std::string::npos) {
@@ -52,13 +49,14 @@ std::vector<WeightedMaterial> materialOf(const JsonObject& object) {
         }
         char* end = nullptr;
         const float weight = std::strtof(text.c_str() + equals + 1, &end);
-        if (*end != '\0' || !(weight > 0 && weight < kLargest)) object.fail("material", kExpected);
+        if (*end != '\0' || !(weight > 0 && weight < kMostWeight))
+            object.fail("material", "names, or \"NAME=WEIGHT\" with weights above 0");
         material.push_back({text.substr(0, equals), weight});
     }
     return material;
 }
 
-void setLight(const JsonObject& object, const std::filesystem::path& folder, LightState& light) {
+void setLight(const JsonObject& object, LightState& light) {
     light.rotation = object.number("rotate", 0, -kMostDegrees, kMostDegrees);
     light.selection = {.count =
                            wholeOf(object, "coefficients", LightSelection().count, 1, kMaximumLightEntries)};
@@ -67,19 +65,20 @@ void setLight(const JsonObject& object, const std::filesystem::path& folder, Lig
     light.plays = false;
     const Json* given = object.find("light");
     if (given && given->is_string()) {
-        const std::filesystem::path file = folder / object.text("light", "");
+        const std::filesystem::path file = given->get<std::string>();
         auto moving = std::make_shared<MovingLight>(readLight(file));
         moving->keepPictures();
         light.file = moving;
         light.fileName = file;
-        light.seconds = double(object.number("time", 0, 0, 1e6f));
+        object.number("time", 0, 0, 1e6f);
+        light.seconds = object.find("time") ? object.find("time")->get<double>() : 0;
     } else if (given) {
-        setLight(light, *given, object.place() + ": light", folder);
+        setLight(light, *given, object.place() + ": light", "");
     } else {
         const std::string environment = object.text("environment", "");
         Json described{{"built_in", true}};
         if (!environment.empty()) described = {{"file", environment}};
-        setLight(light, {{"environment", described}}, object.place(), folder);
+        setLight(light, {{"environment", described}}, object.place(), "");
     }
 }
 
@@ -99,46 +98,43 @@ nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, cons
     return session;
 }
 
-Session readSession(const std::filesystem::path& file, SceneState& state) {
-    static constexpr std::string_view kKeys[] = {
-        "session", "bake",       "model",           "size",       "eye",      "target",
-        "fov",     "rotate",     "coefficients",    "threshold",  "light",    "environment",
-        "time",    "material",   "samples",         "terms",      "residual", "exposure",
-        "tone",    "background", "background-blur", "ground-fade"};
-    const Json content = readJson(file);
-    const JsonObject object(content, file.string(), kKeys);
-    if (object.requiredNumber("session", 1, 1e6f) != 1)
-        object.fail("session", "version 1, which this program knows");
-    const std::filesystem::path folder = file.parent_path();
-    Session session;
-    const std::filesystem::path bake = folder / object.requiredText("bake", "a .relume file");
-    session.opened = object.find("model") ? folder / object.text("model", "") : bake;
-    session.camera = {object.requiredVector("eye", -kLargest, kLargest),
-                      object.requiredVector("target", -kLargest, kLargest),
-                      glm::radians(object.number("fov", 35, 1, 170))};
+Session readSession(const std::filesystem::path& file, const SceneState& state) {
+    const Json content = readSessionFile(file);
+    const JsonObject object(content, file.string(), kSessionKeys);
+    Session session{.opened = object.text("bake", ""), .state = state};
+    const std::filesystem::path model = object.text("model", "");
+    std::error_code failure;
+    if (!model.empty() && std::filesystem::exists(model, failure)) session.opened = model;
     const FileKind kind = kindOf(session.opened);
     if (kind != FileKind::Bake && kind != FileKind::Bakeable)
         throw Error(fmt::format("{}: expected a bake, a mesh or a scene to open, found {}", file.string(),
                                 session.opened.string()));
-    if (session.camera.eye == session.camera.target) object.fail("eye", "a point other than the target");
+    if (!std::filesystem::exists(session.opened, failure))
+        throw Error(fmt::format("{}: {} is not there; bake it, or name another \"bake\"", file.string(),
+                                session.opened.string()));
+    session.camera = {object.vector("eye", vec3(0), -kLargest, kLargest),
+                      object.vector("target", vec3(0), -kLargest, kLargest),
+                      glm::radians(object.number("fov", 35, 1, 170))};
     session.material = materialOf(object);
 
-    SceneState set = state;
-    setLight(object, folder, set.light);
+    SceneState& set = session.state;
+    setLight(object, set.light);
+    set.turns = false;
+    set.compare = Compare::Off;
+    set.inspect = Inspect::Off;
     set.fovDegrees = object.number("fov", 35, 1, 170);
     set.samples = wholeOf(object, "samples", kDefaultSamples, 1, 8);
     if (set.samples == 3 || (set.samples > 4 && set.samples < 8)) object.fail("samples", "1, 2, 4 or 8");
     set.terms = wholeOf(object, "terms", 0, 0, 1024);
     set.addsResidual = choiceOf(object, "residual", 0, {"on", "off"}, "\"on\" or \"off\"") == 0;
     set.exposure = object.number("exposure", 0, -100, 100);
-    set.exposesItself = set.wantsExposure = false;
+    set.exposesItself = set.wantsExposure = !object.find("exposure");
     set.tone =
         choiceOf(object, "tone", ToneCurve::Agx, {"none", "aces", "agx"}, "\"none\", \"aces\" or \"agx\"");
     set.background = choiceOf(object, "background", Behind::Environment, {"environment", "none"},
                               "\"environment\" or \"none\"");
     set.backgroundBlur = object.number("background-blur", 0, 0, 90);
     set.fadesGround = object.flag("ground-fade", true);
-    state = std::move(set);
     return session;
 }
 

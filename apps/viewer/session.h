@@ -12,7 +12,8 @@ namespace relume {
 // What a session shows, once it is open.
 struct Session {
     std::filesystem::path opened; // a bake; or a mesh or scene, which is baked in view
-    Camera camera;
+    SceneState state;             // with its light and view
+    Camera camera;                // these two once its model is there
     std::vector<WeightedMaterial> material;
 };
 
@@ -21,8 +22,7 @@ struct Session {
 nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
                                  const std::filesystem::path& input, ivec2 size);
 
-// Sets light and view as a session file has them; what belongs to its model is returned. Throws Error, and
-// changes nothing then.
-Session readSession(const std::filesystem::path& file, SceneState& state);
+// Reads a session file; what it does not say stays as in `state`. Throws Error.
+Session readSession(const std::filesystem::path& file, const SceneState& state);
 
 } // namespace relume

@@ -16,7 +16,6 @@
 #include "apps/viewer/ui.h"
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/interrupt.h"
 #include "engine/render/display_pass.h"
 
@@ -268,13 +267,14 @@ void Viewer::openFile(const std::filesystem::path& file) {
     const Session session = readSession(file, mState);
     mContent.open(session.opened);
     mSession = session;
+    mState = session.state;
     mSessionBake = kindOf(session.opened) == FileKind::Bake ? session.opened : bakePath(session.opened);
     mContent.remember(file);
 }
 
 // The model that a session waits for is there.
 void Viewer::resumeSession() {
-    if (mContent.shown()->file != mSessionBake) return;
+    if (wholePath(mContent.shown()->file) != wholePath(mSessionBake)) return;
     mState.orbit = orbitOf(mSession->camera);
     mState.keepsOrbit = true;
     mState.material = mSession->material;
@@ -390,7 +390,7 @@ void Viewer::reloadShaders() {
 void Viewer::saveLight() {
     attempt([&] {
         const std::string file = outputName(".light.json");
-        writeLightFile(file, lightFileOf(mState.light));
+        writeJsonFile(file, lightFileOf(mState.light));
         tell(fmt::format("{} is written; its turn is --rotate={}", file, mState.light.rotation));
     });
 }
@@ -401,11 +401,10 @@ void Viewer::saveSession() {
         const SceneState drawn = mView.drawn(mState);
         const std::filesystem::path& bake = mContent.shown()->file;
         const std::string file = outputName(".session.json");
-        writeFileAtomically(
-            file, sessionOf(drawn, mView.fadesGround(mState), bake, mContent.inputOf(bake), mWindow.size())
-                          .dump(2) +
-                      "\n");
-        tell(fmt::format("{0} is written; relume render --session {0} -o IMAGE draws it", file));
+        writeJsonFile(
+            file, sessionOf(drawn, mView.fadesGround(mState), bake, mContent.inputOf(bake), mWindow.size()));
+        tell(fmt::format("{0} is written; relume render --session {0} -o IMAGE draws it{1}", file,
+                         mContent.shown()->isSketch ? " once it is baked" : ""));
     });
 }
 

@@ -12,7 +12,7 @@ namespace relume {
 
 struct ViewerOptions {
     vk::DeviceOptions device;
-    std::vector<std::filesystem::path> files; // bakes, meshes, scenes; environments and lights
+    std::vector<std::filesystem::path> files; // bakes, meshes, scenes, sessions; environments and lights
     std::optional<ivec2> size;                // of the window; none: as the last time
     bool waitsForDisplay = true;
     std::optional<int> exitFrame;     // frames to draw before it ends by itself

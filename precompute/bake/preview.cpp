@@ -140,6 +140,7 @@ void Previews::writeDraft() {
     const LayoutOptions layout =
         std::exchange(mPlan.options.layout, LayoutOptions{.layout = TransportLayout::Rows});
     const int bounces = std::exchange(mPlan.asset.bounces, 0);
+    mPlan.options.bounces = 0;
     const std::string described =
         std::exchange(mPlan.asset.provenance.options, describeOptions(mPlan.options));
     prepareTransport(mPlan);
@@ -150,7 +151,7 @@ void Previews::writeDraft() {
     writeShare(mPlan, 0, blocks, mWrite);
     mObserver.preview(0);
     mPlan.options.layout = layout;
-    mPlan.asset.bounces = bounces;
+    mPlan.asset.bounces = mPlan.options.bounces = bounces;
     mPlan.asset.provenance.options = described;
     prepareTransport(mPlan);
     mSeconds += secondsSince(start);

@@ -26,8 +26,7 @@ class Previews {
              PreviewWriter write, BakeObserver& observer);
 
     // Writes a preview before bounced light and the layout's scale are known: of direct light, in rows. It is
-    // left out where blocks are baked already, whose preview is there, and where it would take more than
-    // 512 MiB.
+    // left out where blocks are baked already, and where it would take more than 512 MiB.
     void writeDraft();
 
     // Bakes `missing`, the blocks that the checkpoint lacks, into `sink`, which puts them there. Before that,

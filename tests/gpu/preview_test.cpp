@@ -1,4 +1,4 @@
-// Seen of a bake: how near they come, and that they leave no trace.
+// Previews of a bake: how near they come, and that they leave no trace.
 #include "engine/base/file.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"

@@ -209,11 +209,72 @@ TEST_CASE("viewer: a session is drawn by `relume render`, and opened again as it
         CHECK_EQ(refused.exitCode, 1);
         CHECK(says(refused.err, bake));
     }
+}
 
-    std::ofstream(session.path("wrong.json")) << R"({"session": 1, "bake": "ring.relume", "exposur": 1})";
-    const Outcome wrong = session.relume("render --session wrong.json -o x.png");
-    CHECK_EQ(wrong.exitCode, 1);
-    CHECK(says(wrong.err, "did you mean \"exposure\""));
+TEST_CASE("viewer: a session of a bake that is open, but not shown, shows it; the residual is no matter of a "
+          "sketch") {
+    Session& session = sharedSession();
+    session.bake("other.relume", "-m clay");
+    std::ofstream(session.path("back.json"))
+        << json{{"session", 1}, {"bake", "ring.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}}};
+    const Outcome outcome = session.replay({{{"wait", "settled"}},
+                                            {{"drop", {"back.json"}}},
+                                            {{"frames", 2}},
+                                            {{"wait", "settled"}},
+                                            {{"screenshot", "back.exr"}},
+                                            {{"drop", {"ring.obj"}}},
+                                            {{"set", {{"residual", false}}}},
+                                            {{"frames", 3}},
+                                            {{"screenshot", "any.exr"}},
+                                            {{"quit", true}}},
+                                           "ring.relume other.relume room.exr");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    CHECK(isQuiet(outcome.err));
+    CHECK(says(renderCommand(outcome.err, "back.exr"), "/ring.relume'"));
+    CHECK(says(renderCommand(outcome.err, "back.exr"), "--eye=0,3"));
+    const Image any = readImage(session.path("any.exr")).image;
+    CHECK(std::ranges::any_of(any.pixels, [](const vec4& pixel) { return pixel.x > 0; }));
+}
+
+TEST_CASE("cli: sessions are data: keys of a look alone, and options that are given win") {
+    Session& session = sharedSession();
+    const json look = {{"session", 1},    {"bake", "ring.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}},
+                       {"exposure", 0.3}, {"background-blur", 4},  {"size", "40x30"}};
+    const auto render = [&](json more, const std::string& options) {
+        more.update(look);
+        std::ofstream(session.path("data.json")) << more;
+        return session.relume("render --session data.json " + options);
+    };
+    std::ofstream(session.path("kept.json")) << "kept";
+    const std::vector<std::pair<json, std::string>> refused = {
+        {{{"timings", "kept.json"}}, "unknown key \"timings\""},
+        {{{"frames", 3}}, "unknown key"},
+        {{{"exposur", 1}}, "did you mean \"exposure\""},
+        {{{"environment", "room.exr"}, {"light", json::object()}}, "\"environment\""},
+        {{{"threshold", 64}, {"coefficients", 64}}, "\"threshold\""},
+        {{{"ground-fade", "maybe"}}, "\"ground-fade\""},
+        {{{"material", "gold"}}, "\"material\""},
+        {{{"tone", "sepia"}}, "\"tone\""},
+    };
+    for (const auto& [more, why] : refused) {
+        CAPTURE(more.dump());
+        const Outcome outcome = render(more, "-o data.png");
+        CHECK_EQ(outcome.exitCode, 1);
+        CHECK(says(outcome.err, "data.json"));
+        CHECK(says(outcome.err, why));
+    }
+    CHECK_EQ(session.bytes("kept.json"), "kept");
+    for (const char* options : {"-o data.png", "-o data.exr", "-o data.png --background none",
+                                "-o data.png --background '#ffffff'", "-o data.png --exposure auto"}) {
+        CAPTURE(options);
+        const Outcome outcome = render(json::object(), options);
+        CHECK_MESSAGE(outcome.exitCode == 0, outcome.err);
+    }
+    CHECK_EQ(render({{"background", "none"}}, "-o data.png --background-blur 5").exitCode, 0);
+    std::ofstream(session.path("data.json"))
+        << json{{"session", 1}, {"bake", "ring.relume"}, {"eye", {0, 0, 1e-30}}, {"target", {0, 0, 0}}};
+    CHECK(says(session.relume("render --session data.json -o data.png").err, "other than the target"));
 }
 
 TEST_CASE("viewer: the built-in sky and a lamp have a light file") {

@@ -1,0 +1,23 @@
+// Sessions of the viewer as files: docs/session_format.md.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace relume {
+
+// All keys that a session can have.
+constexpr std::array<std::string_view, 22> kSessionKeys = {
+    "session", "bake",       "model",           "size",       "eye",      "target",
+    "fov",     "rotate",     "coefficients",    "threshold",  "light",    "environment",
+    "time",    "material",   "samples",         "terms",      "residual", "exposure",
+    "tone",    "background", "background-blur", "ground-fade"};
+
+// Returns the content of a session file: keys of sessions alone, of the right types, none that excludes
+// another, and names of files as absolute paths. Values may be out of range. Throws Error that names file and
+// key.
+nlohmann::json readSessionFile(const std::filesystem::path& path);
+
+} // namespace relume
