@@ -19,10 +19,10 @@ void main() {
     const uint side = lamps[lamp].side, texels = 1u << (2 * push.sideBits);
     float sum = 0;
     for (uint face = 0; face < 6; face++) {
-        const vec3 centre = lamps[lamp].centres[face];
+        const vec3 center = lamps[lamp].centers[face];
         for (uint place = lane; place < texels; place += kGroup) {
             const CapTexel texel = capTexel(place, push.sideBits);
-            sum += capCoverage(texel, centre, inner, outer, side) * cubeSolidAngle(middleOf(texel), texel.width);
+            sum += capCoverage(texel, center, inner, outer, side) * cubeSolidAngle(middleOf(texel), texel.width);
         }
     }
     sums[lane] = sum;

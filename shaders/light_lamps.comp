@@ -16,7 +16,7 @@ void main() {
     const CapTexel texel = capTexel(index, push.sideBits);
     vec3 sum = radiance[index];
     for (uint lamp = push.first; lamp < push.first + push.count; lamp++) {
-        const float covered = capCoverage(texel, lamps[lamp].centres[face], lamps[lamp].inner, lamps[lamp].outer,
+        const float covered = capCoverage(texel, lamps[lamp].centers[face], lamps[lamp].inner, lamps[lamp].outer,
                                           lamps[lamp].side);
         if (covered > 0) sum += covered * gains[lamp] * lamps[lamp].radiance;
     }

@@ -15,7 +15,7 @@ void main() {
     const CapTexel texel = capTexel(index, push.sideBits);
     vec3 painted = radiance[index];
     for (uint stroke = push.first; stroke < push.first + push.count; stroke++) {
-        const float covered = capCoverage(texel, strokes[stroke].centres[face], strokes[stroke].inner,
+        const float covered = capCoverage(texel, strokes[stroke].centers[face], strokes[stroke].inner,
                                           strokes[stroke].outer, strokes[stroke].side);
         if (covered > 0) painted = mix(painted, strokes[stroke].radiance, covered * strokes[stroke].amount);
     }

@@ -26,14 +26,14 @@ void main() {
     const float angle = float(turn) * (kTurn / kTupleTurns);
     const mat2 turned = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
     const mat3 frame = mat3(turned) * (side == 0 ? tangentFrame(normal) : lowerTangentFrame(normal));
-    const uint images = push.isGrey != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
+    const uint images = push.isGray != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
     vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples lie in memory
     for (int light = 0; light < int(kTupleLights); light++) {
         const vec3 local = frame * texelOf(lights, 2 * light).xyz;
         if (local.z <= kGrazingCosine) continue;
         const vec3 energy = local.z * texelOf(lights, 2 * light + 1).rgb;
         const vec2 place = diskMapCoordinates(push.mapping, local);
-        if (push.isGrey != 0) {
+        if (push.isGray != 0) {
             const vec4 m = textureLod(lightMaps, vec3(place, quad), 0);
             a += m.xxxy * energy.rgbr;
             b += m.yyzz * energy.gbrg;

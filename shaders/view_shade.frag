@@ -1,5 +1,5 @@
 #version 460
-// Reflected radiance of the triangle that a pixel sees, where its ray meets it: view maps of the worn layers, looked
+// Reflected radiance of the triangle that a pixel sees, where its ray meets it: view maps of the bound layers, looked
 // up in the local view direction, times the interpolated tuple. C++ twins: lookupMap() in
 // engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The sampler does the bilinear lookup;
 // devices may round its weights to 8 bits, which the eye forgives and a bake would not. Buffers are read as texels:
@@ -16,15 +16,15 @@
 #include "shaders/shared/render.h"
 
 layout(constant_id = 0) const uint kTerms = 4;
-layout(constant_id = 1) const bool kGrey = false; // all view maps are: ViewMapTexture
+layout(constant_id = 1) const bool kGray = false; // all view maps are: ViewMapTexture
 layout(constant_id = 2) const uint kLook = 0;
 layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms
 layout(constant_id = 4) const uint kEstimate = 0; // how what the terms leave of the BRDF is added: unshadowed.glsl
-layout(constant_id = 7) const uint kHarmonics = 0;     // most that a worn layer's lit spheres have
+layout(constant_id = 7) const uint kHarmonics = 0;     // most that a bound layer's lit spheres have
 layout(constant_id = 8) const bool kTangents = false;  // frames follow the vertices' tangents, else the normal
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
-const uint kLayerImages = kGrey ? kQuads : (3 * kTerms + 3) / 4;
+const uint kLayerImages = kGray ? kQuads : (3 * kTerms + 3) / 4;
 layout(push_constant, scalar) uniform Push { ViewShadePush push; };
 #ifdef MULTISAMPLED
 #include "shaders/lib/pixel_samples.glsl"
@@ -67,7 +67,7 @@ vec3 sumOf(Quad q) {
 }
 
 Quad mapsOf(vec2 place, uint firstMap, uint quad) {
-    if (kGrey) {
+    if (kGray) {
         const vec4 m = textureLod(viewMaps, vec3(place, firstMap + quad), 0);
         return Quad(m.xxxy, m.yyzz, m.zwww);
     }

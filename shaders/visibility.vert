@@ -1,5 +1,5 @@
 #version 460
-// Rasterises the occluder into one cube face of one point; the instance says which layer.
+// Rasterizes the occluder into one cube face of one point; the instance says which layer.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_ARB_shader_viewport_layer_array : require

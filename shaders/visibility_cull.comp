@@ -21,12 +21,12 @@ layout(binding = 2, scalar) buffer Draws { uint draws[][5]; };
 layout(binding = 3, scalar) writeonly buffer Layers { uint instanceLayers[]; };
 
 bool canShow(BakePoint point, TriangleCluster cluster, uint face) {
-    const vec3 centre = cluster.centre - point.origin;
-    const vec3 extent = cluster.extent + 1e-6 * (abs(centre) + cluster.extent); // a margin for rounding
-    if (dot(point.normal, centre) + dot(abs(point.normal), extent) <= 0) return false;
+    const vec3 center = cluster.center - point.origin;
+    const vec3 extent = cluster.extent + 1e-6 * (abs(center) + cluster.extent); // a margin for rounding
+    if (dot(point.normal, center) + dot(abs(point.normal), extent) <= 0) return false;
     if (dot(normalize(cluster.apex - point.origin), cluster.axis) >= cluster.cutoff) return false;
     // Face coordinates: the pyramid is |x| ≤ z, |y| ≤ z.
-    const vec3 local = centre * kFaceAxes[face], reach = abs(extent * kFaceAxes[face]);
+    const vec3 local = center * kFaceAxes[face], reach = abs(extent * kFaceAxes[face]);
     return local.z + reach.z > 0 && abs(local.x) - local.z <= reach.x + reach.z &&
            abs(local.y) - local.z <= reach.y + reach.z;
 }

@@ -1,5 +1,5 @@
 #version 460
-// Rasterises the occluder into the cube face of one point that the push constant says: for devices whose vertex
+// Rasterizes the occluder into the cube face of one point that the push constant says: for devices whose vertex
 // shaders cannot choose a layer.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

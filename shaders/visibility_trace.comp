@@ -46,7 +46,7 @@ vec3 gSigns; // of swizzled axes
 vec3 swizzle(vec3 v) { return gFace < 2 ? v.zyx : gFace < 4 ? v.xzy : v; }
 vec3 toFace(vec3 v) { return swizzle(v) * gSigns; }
 
-// The tile's texels whose centres lie between face coordinates, or a thousandth of a texel beyond.
+// The tile's texels whose centers lie between face coordinates, or a thousandth of a texel beyond.
 void reach(vec2 low, vec2 high, out ivec2 first, out ivec2 last) {
     first = max(ivec2(ceil((max(low, -2) + 1) * gHalfSize - 0.501)) - gFirst, ivec2(0));
     last = min(ivec2(floor((min(high, 2) + 1) * gHalfSize - 0.499)) - gFirst, ivec2(kWidth - 1, kHeight - 1));
@@ -58,19 +58,19 @@ uint spanBits(int first, int last) { return (0xffffffffu >> (31 - (last - first)
 // Whether a box can block a ray that is still free.
 bool mayBlock(vec3 low, vec3 high) {
     if (!(low.x <= high.x)) return false;
-    const vec3 centre = toFace(0.5 * (low + high)) - gOrigin;
+    const vec3 center = toFace(0.5 * (low + high)) - gOrigin;
     vec3 extent = swizzle(0.5 * (high - low));
-    extent += 1e-6 * (abs(centre) + extent); // rounding must not leave out what could block
-    const float near = centre.z - extent.z, far = centre.z + extent.z;
+    extent += 1e-6 * (abs(center) + extent); // rounding must not leave out what could block
+    const float near = center.z - extent.z, far = center.z + extent.z;
     if (far <= 0) return false;
-    if (dot(gNormal, centre) + dot(abs(gNormal), extent) <= 0) return false;
-    const vec2 insideLow = centre.xy - gLow * centre.z + extent.xy + abs(gLow) * extent.z;
-    const vec2 insideHigh = gHigh * centre.z - centre.xy + extent.xy + abs(gHigh) * extent.z;
+    if (dot(gNormal, center) + dot(abs(gNormal), extent) <= 0) return false;
+    const vec2 insideLow = center.xy - gLow * center.z + extent.xy + abs(gLow) * extent.z;
+    const vec2 insideHigh = gHigh * center.z - center.xy + extent.xy + abs(gHigh) * extent.z;
     if (min(min(insideLow.x, insideLow.y), min(insideHigh.x, insideHigh.y)) < 0) return false;
     if (near <= 0) return true;
 
     const float perNear = 1 / near, perFar = 1 / far;
-    const vec2 least = centre.xy - extent.xy, most = centre.xy + extent.xy;
+    const vec2 least = center.xy - extent.xy, most = center.xy + extent.xy;
     ivec2 first, last;
     reach(least * mix(vec2(perNear), vec2(perFar), greaterThan(least, vec2(0))),
           most * mix(vec2(perFar), vec2(perNear), greaterThan(most, vec2(0))), first, last);

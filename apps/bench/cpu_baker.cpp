@@ -14,7 +14,7 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kTaskPoints = 4; // neighbours, which share what the caches hold of the occluder
+constexpr size_t kTaskPoints = 4; // neighbors, which share what the caches hold of the occluder
 
 // One thread's.
 struct Workspace {
@@ -130,7 +130,7 @@ void CpuBaker::bake(std::span<const shared::BakePoint> points, std::span<SparseT
             append(rows, mSetTerms, transports);
             losses.total += rows.losses.total;
             losses.dropped += rows.losses.dropped;
-            losses.quantised += rows.losses.quantised;
+            losses.quantized += rows.losses.quantized;
         }
     };
     using Task = std::span<const shared::BakePoint>;

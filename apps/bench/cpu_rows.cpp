@@ -71,13 +71,13 @@ void CpuRowPacker::pack(const CpuCoefficients& coefficients, CpuRows& rows) {
         double kept = 0;
         for (uint32_t entry : mSelected) {
             const vec3 value = coefficientAt(coefficients, group, lane, entry & 0xffff);
-            const ivec3 quantised = quantiseCoefficient(value, scale);
-            const vec3 lost = value - vec3(quantised) * step;
+            const ivec3 quantized = quantizeCoefficient(value, scale);
+            const vec3 lost = value - vec3(quantized) * step;
             kept += double(keyOf(value));
-            rows.losses.quantised += double(keyOf(lost));
-            if (quantised == ivec3(0)) continue;
+            rows.losses.quantized += double(keyOf(lost));
+            if (quantized == ivec3(0)) continue;
             rows.indices.push_back(uint16_t(entry >> 16));
-            rows.values.push_back(packCoefficient(quantised));
+            rows.values.push_back(packCoefficient(quantized));
         }
         const double total = coefficients.energy[size_t(term)];
         rows.losses.total += total;

@@ -1,4 +1,4 @@
-// Selection, quantisation and packing of one vertex's rows on the CPU.
+// Selection, quantization and packing of one vertex's rows on the CPU.
 #pragma once
 
 #include "precompute/bake/transport_pass.h"

@@ -73,7 +73,7 @@ def figure_3(setup: Setup) -> Section:
     images = []
     for coefficients in (64, 96, 160, 256, ALL_COEFFICIENTS):
         options = paper_options(1, coefficients=coefficients)
-        recipe = dataclasses.replace(scene_recipe(setup, "bunny", model, "grey-diffuse", options), ground=quads)
+        recipe = dataclasses.replace(scene_recipe(setup, "bunny", model, "gray-diffuse", options), ground=quads)
         what = "lossless" if coefficients == ALL_COEFFICIENTS else f"N = {coefficients}"
         images += [FigureImage(f"n{coefficients}", what, recipe, threshold=PAPER_THRESHOLD),
                    FigureImage(f"n{coefficients}-all-light", what, recipe, threshold=0, is_shown=False)]
@@ -179,7 +179,7 @@ def figure_5(setup: Setup) -> Section:
         return FigureImage(name, what, scene_recipe(setup, "lucy", model, material, options), **others)
     polar = paper_options(1, map="polar-sine")
     figure = Figure("figure-5", "Figure 5", setup.scale, environment_light(light), [
-        image("diffuse", "gray diffuse", paper_options(1), "grey-diffuse", is_compared=False),
+        image("diffuse", "gray diffuse", paper_options(1), "gray-diffuse", is_compared=False),
         image("polar", "one term, polar map", polar),
         image("normalized", "one term, polar map, normalized decomposition", {**polar, "factorization": "normalized"}),
         image("terms", "four terms", paper_options(4)),

@@ -23,7 +23,7 @@ DiskMapping mappingFrom(const std::string& name) {
 }
 
 TexelValue texelsFrom(const std::string& name) {
-    if (name == "centers") return TexelValue::Centre;
+    if (name == "centers") return TexelValue::Center;
     if (name == "means") return TexelValue::Mean;
     throw UsageError(fmt::format("texels: expected centers or means, found \"{}\"", name));
 }

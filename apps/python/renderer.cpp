@@ -25,10 +25,10 @@ class Renderer {
           mView(*mDevice, *mAsset, {.width = size.first, .height = size.second, .samples = samples}),
           mAppearance(defaultAppearance(*mAsset)), mSize(size) {}
 
-    void wear(const std::map<std::string, float>& blend) {
+    void bind(const std::map<std::string, float>& blend) {
         std::vector<WeightedMaterial> materials;
         for (const auto& [name, weight] : blend) materials.push_back({name, weight});
-        relume::wear(mAppearance, *mAsset, materials);
+        relume::bindMaterials(mAppearance, *mAsset, materials);
         mView.setAppearance(mAppearance);
     }
 
@@ -141,7 +141,7 @@ void addRenderer(py::module_& module) {
         .def(py::init<std::shared_ptr<const Asset>, std::pair<int, int>, int, bool>(), py::arg("asset"),
              py::arg("size"), py::arg("samples"), py::arg("residual"),
              py::call_guard<py::gil_scoped_release>())
-        .def("wear", &Renderer::wear)
+        .def("bind", &Renderer::binding)
         .def("select_terms", &Renderer::setTerms, py::arg("terms"))
         .def("select_light", &Renderer::setSelection, py::arg("threshold") = py::none(),
              py::arg("coefficients") = py::none())

@@ -29,7 +29,7 @@ WeightedMaterial parse(const std::string& text, const std::vector<std::string>& 
 void AppearanceArguments::add(CLI::App& command) {
     command
         .add_option("-m,--material", mMaterials,
-                    "Wear this material of the bake, wherever a part has it; several of one set are blended "
+                    "Show this material of the bake, wherever a part has it; several of one set are blended "
                     "by their weights (default 1) over the sum of these: -m clay=0.3 -m gold=0.7")
         ->type_name("NAME[=WEIGHT]")
         ->allow_extra_args(false); // one each: FILE may follow
@@ -49,7 +49,7 @@ Appearance AppearanceArguments::appearance(const Asset& asset) const {
     }
     if (sum == 0) throw UsageError("--material: expected at least one weight above 0");
     for (WeightedMaterial& material : blend) material.weight /= sum;
-    wear(appearance, asset, blend);
+    bindMaterials(appearance, asset, blend);
     return appearance;
 }
 

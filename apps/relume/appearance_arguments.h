@@ -1,4 +1,4 @@
-// What to wear: options that render and reference share.
+// The options of render and reference that bind materials to parts.
 #pragma once
 
 #include "engine/render/appearance.h"

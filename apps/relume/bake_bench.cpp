@@ -15,7 +15,7 @@ namespace relume {
 
 namespace {
 
-constexpr uint64_t kRun = 64; // neighbours
+constexpr uint64_t kRun = 64; // neighbors
 
 int termsOf(const AssetPart& part) {
     int terms = 0;

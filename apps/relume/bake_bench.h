@@ -19,7 +19,7 @@ struct BakeSample {
     double termsPerVertex() const; // mean over the sample
 };
 
-// About `vertices` vertices, of every part in proportion: runs of 64 neighbours, as bakes take them, spread
+// About `vertices` vertices, of every part in proportion: runs of 64 neighbors, as bakes take them, spread
 // evenly through the bake order.
 BakeSample sampleBake(const vk::Device& device, Scene scene, const BakeOptions& options, uint64_t vertices);
 

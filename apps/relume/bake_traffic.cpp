@@ -27,7 +27,7 @@ std::optional<double> BakeTraffic::device(const std::string& stage) const {
     if (stage == "transport")
         return mTexels / 8 + slots + blocks * kCoefficient + summaries; // averages twice
     if (stage == "select") return summaries + mKept * (kCoefficient + kIndex);
-    if (stage == "quantise") return mKept * (kIndex + kCoefficient + kValue);
+    if (stage == "quantize") return mKept * (kIndex + kCoefficient + kValue);
     if (stage == "compact") return mKept * 2 * (kIndex + kValue);
     return std::nullopt;
 }

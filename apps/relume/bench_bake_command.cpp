@@ -228,7 +228,7 @@ void addBenchBakeCommand(CLI::App& bench) {
     arguments->scene.add(*command);
     arguments->bake.add(*command, false);
     arguments->device.add(*command);
-    command->add_option("--vertices", arguments->vertices, "Vertices to bake, about: runs of 64 neighbours")
+    command->add_option("--vertices", arguments->vertices, "Vertices to bake, about: runs of 64 neighbors")
         ->type_name("COUNT")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

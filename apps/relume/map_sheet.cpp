@@ -20,7 +20,7 @@ float largestMagnitude(const vec3* map, size_t texels) {
 }
 
 // Of a value scaled to [-1, 1], brightened as displays expect.
-vec3 colourOf(vec3 value) {
+vec3 colorOf(vec3 value) {
     const vec3 bright = glm::pow(glm::abs(value), vec3(1 / 2.2f));
     if (value.x + value.y + value.z >= 0) return bright;
     return kNegative * std::max({bright.x, bright.y, bright.z});
@@ -40,10 +40,10 @@ Image drawMapSheet(const FactoredBrdf& brdf) {
         for (int y = 0; y < side; y++)
             for (int x = 0; x < side; x++) {
                 const ivec2 texel(x / scale, brdf.size - 1 - y / scale);
-                const vec2 centre = (vec2(texel) + 0.5f) / float(brdf.size);
-                if (!diskMapDirection(brdf.mapping, centre) || largest == 0) continue;
+                const vec2 center = (vec2(texel) + 0.5f) / float(brdf.size);
+                if (!diskMapDirection(brdf.mapping, center) || largest == 0) continue;
                 const vec3 value = map[texel.y * brdf.size + texel.x] / largest;
-                sheet.at(left + x, top + y) = vec4(colourOf(value), 1);
+                sheet.at(left + x, top + y) = vec4(colorOf(value), 1);
             }
     }
     return sheet;

@@ -8,7 +8,7 @@ namespace relume {
 
 // The first eight light maps, four to a row, texels as squares of 4 pixels or more: s to the right, t upwards
 // (polar: the azimuth to the right, the zenith below). Each is scaled by its own largest magnitude; where the
-// sum of the channels is negative, its magnitude is shown in magenta. Display values; dark grey outside the
+// sum of the channels is negative, its magnitude is shown in magenta. Display values; dark gray outside the
 // maps' domain.
 Image drawMapSheet(const FactoredBrdf& brdf);
 

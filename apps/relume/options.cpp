@@ -96,7 +96,7 @@ Camera CameraArguments::camera(const Asset& asset, float turn) const {
     } else
         camera = defaultCamera(bounds, fov, aspect);
     if (!mEye.empty()) {
-        camera.target = bounds.centre();
+        camera.target = bounds.center();
         camera.eye = vectorOf(mEye);
     }
     if (!mTarget.empty()) camera.target = vectorOf(mTarget);

@@ -39,7 +39,7 @@ void addRows(const Asset& asset, size_t file, const std::string& name, std::vect
     rows.push_back({file, name, first});
     for (const std::string& material : materialNames(asset)) {
         Appearance appearance = first;
-        wear(appearance, asset, std::vector<WeightedMaterial>{{material}});
+        bindMaterials(appearance, asset, std::vector<WeightedMaterial>{{material}});
         if (appearance != first) rows.push_back({file, fmt::format("{}, {}", name, material), appearance});
     }
 }

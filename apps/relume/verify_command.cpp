@@ -54,7 +54,7 @@ void run(const Arguments& arguments) {
                            {"bounce_error", asset.bounces > 0 ? Json(found.bounceError) : Json()},
                            {"layout_error", found.layoutError},
                            {"wavelet_error", found.waveletError},
-                           {"quantization_error", found.quantisationError},
+                           {"quantization_error", found.quantizationError},
                            {"brdf_error", found.brdfError},
                            {"relight_bits", found.relightBits},
                            {"total_error", found.totalError}};
@@ -75,7 +75,7 @@ void run(const Arguments& arguments) {
                    found.layoutError);
         fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
                    asset.coefficients);
-        fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantisationError);
+        fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantizationError);
         fmt::print("BRDF error           {:.4f}    cos-weighted RMS of the terms\n", found.brdfError);
         fmt::print("relight bits         {}         vertices that differ between device and CPU\n",
                    found.relightBits);

@@ -24,8 +24,8 @@ bool isSceneFile(const std::filesystem::path& input) { return extensionOf(input)
 // What `relume bake` reads with the options of beginBake().
 Scene readInput(const std::filesystem::path& input) {
     if (isSceneFile(input)) return readScene(input);
-    const bool isDressed = hasOwnMaterials(input);
-    Scene scene{loadParts(input, UpAxis::Y, isDressed ? std::nullopt : std::optional(kDefaultMaterial))};
+    const bool isBound = hasOwnMaterials(input);
+    Scene scene{loadParts(input, UpAxis::Y, isBound ? std::nullopt : std::optional(kDefaultMaterial))};
     addGround(scene, {});
     return scene;
 }

@@ -33,7 +33,7 @@ std::vector<KeyHelp> keyHelp() {
         {"C", "compare: split, the reference alone, the difference, off"},
         {"I", "inspect: wireframe, normals, density of triangles, off"},
         {"L", "the light vector, as given and as kept"},
-        {"W", "why the vertex under the cursor has its colour"},
+        {"W", "why the vertex under the cursor has its color"},
         {"Tab, H, Escape", "panels, this help, close it"},
         {"F5", "build the shaders anew"},
         {"F9", "start and stop a timing capture"},

@@ -19,11 +19,11 @@ vec3 directionOf(const LampChoice& lamp, float rotation) {
 // The far side of the sphere, or its near one.
 bool isBehind(vec3 direction, const Camera& camera, const Bounds& model) {
     const vec3 point = kSphere * model.radius() * direction;
-    return glm::dot(point, camera.eye - model.centre() - point) < 0;
+    return glm::dot(point, camera.eye - model.center() - point) < 0;
 }
 
 float handleRadius(const LampChoice& lamp, const Camera& camera, const Bounds& model, ivec2 size) {
-    const float distance = glm::length(camera.eye - model.centre());
+    const float distance = glm::length(camera.eye - model.center());
     const float perUnit = 0.5f * float(size.y) / (std::tan(0.5f * camera.verticalFov) * distance);
     return std::max(kSmallestHandle,
                     perUnit * kSphere * model.radius() * std::sin(glm::radians(lamp.radius)));
@@ -52,7 +52,7 @@ bool LampHandles::take(const InputEvent& event, LightState& light, const Camera&
         return false;
     for (size_t i = 0; i < light.lamps.size(); i++) {
         const vec3 direction = directionOf(light.lamps[i], light.rotation);
-        const auto place = pixelOf(model.centre() + kSphere * model.radius() * direction, camera, size);
+        const auto place = pixelOf(model.center() + kSphere * model.radius() * direction, camera, size);
         if (!place ||
             glm::distance(*place, event.place) > handleRadius(light.lamps[i], camera, model, size) + 3)
             continue;
@@ -68,7 +68,7 @@ bool LampHandles::take(const InputEvent& event, LightState& light, const Camera&
 void LampHandles::drag(LampChoice& lamp, float rotation, const Camera& camera, const Bounds& model,
                        ivec2 size) {
     const vec3 ray = camera.pixelDirection(int(mCursor.x), int(mCursor.y), size.x, size.y);
-    const vec3 toEye = camera.eye - model.centre();
+    const vec3 toEye = camera.eye - model.center();
     const float radius = kSphere * model.radius();
     const float along = -glm::dot(toEye, ray); // of the point of the ray that is nearest to the middle
     const vec3 nearest = toEye + along * ray;
@@ -84,26 +84,26 @@ void LampHandles::drag(LampChoice& lamp, float rotation, const Camera& camera, c
 void LampHandles::draw(const LightState& light, const Camera& camera, const Bounds& model, ivec2 size) const {
     if (light.file || light.lamps.empty()) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const vec3 centre = model.centre();
+    const vec3 center = model.center();
     const float radius = kSphere * model.radius();
     const auto drawCircle = [&](vec3 x, vec3 y, ImU32 color) {
         std::optional<vec2> last;
         for (int i = 0; i <= kSegments; i++) {
             const float angle = 2 * kPi * float(i) / kSegments;
             const auto place =
-                pixelOf(centre + radius * (std::cos(angle) * x + std::sin(angle) * y), camera, size);
+                pixelOf(center + radius * (std::cos(angle) * x + std::sin(angle) * y), camera, size);
             if (last && place) list.AddLine({last->x, last->y}, {place->x, place->y}, color, 1);
             last = place;
         }
     };
     constexpr ImU32 kFaint = IM_COL32(160, 160, 160, 90), kShadow = IM_COL32(0, 0, 0, 160);
-    const vec3 back = glm::normalize(camera.eye - centre);
+    const vec3 back = glm::normalize(camera.eye - center);
     const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back));
     drawCircle(right, glm::cross(back, right), kFaint); // the rim, nearly
     drawCircle({1, 0, 0}, {0, 0, 1}, kFaint);           // the horizon
     for (const LampChoice& lamp : light.lamps) {
         const vec3 direction = directionOf(lamp, light.rotation);
-        const auto place = pixelOf(centre + radius * direction, camera, size);
+        const auto place = pixelOf(center + radius * direction, camera, size);
         if (!place) continue;
         const vec3 c =
             lamp.color / std::max(1e-3f, std::max(lamp.color.x, std::max(lamp.color.y, lamp.color.z)));

@@ -17,7 +17,7 @@ constexpr int kThumbnailsPerRow = 4;
 void drawLamp(LampChoice& lamp, size_t number, float leastDegrees, std::optional<size_t>& removed) {
     ImGui::PushID(int(number));
     ImGui::ColorEdit3("##color", &lamp.color.x, ImGuiColorEditFlags_NoInputs);
-    explain("Colour");
+    explain("Color");
     ImGui::SameLine();
     text(fmt::format("Lamp {}", number + 1));
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - 4 * line());
@@ -122,7 +122,7 @@ void drawBrush(LightState& light, Brush& b) {
         ImGui::TextDisabled("%zu of %zu touches", light.strokes.size(), kMostSources);
     }
     if (!b.isInHand) return;
-    ImGui::ColorEdit3("Colour", &b.color.x, ImGuiColorEditFlags_NoInputs);
+    ImGui::ColorEdit3("Color", &b.color.x, ImGuiColorEditFlags_NoInputs);
     slider("Brush", b.radius, 2, 90, "%.0f deg");
     slider("Radiance", b.brightness, 0, 50, "%.2f", ImGuiSliderFlags_Logarithmic);
     slider("Opacity", b.opacity, 0, 1, "%.2f");

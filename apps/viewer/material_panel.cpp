@@ -11,7 +11,7 @@ namespace {
 constexpr float kSwatchWidth = 4; // lines
 constexpr int kSwatchesPerRow = 5;
 
-bool wearsOnly(const SceneState& state, const std::string& name) {
+bool showsOnly(const SceneState& state, const std::string& name) {
     return state.material.size() == 1 && state.material[0].name == name;
 }
 
@@ -24,19 +24,19 @@ void drawSwatches(SceneState& state, const PanelFacts& facts) {
         if (swatch != facts.swatches.end() && swatch->second) {
             if (shown++ % kSwatchesPerRow) ImGui::SameLine();
             if (facts.pictures->drawButton(name.c_str(), swatch->second, kSwatchWidth * line(),
-                                           wearsOnly(state, name)))
+                                           showsOnly(state, name)))
                 state.material = {{name}};
             explain(name.c_str());
-        } else if (ImGui::RadioButton(name.c_str(), wearsOnly(state, name)))
+        } else if (ImGui::RadioButton(name.c_str(), showsOnly(state, name)))
             state.material = {{name}};
     }
 }
 
-// Sliders of the set that holds what is worn, else of the first that has several materials.
+// Sliders of the set that holds what is bound, else of the first that has several materials.
 void drawBlend(SceneState& state, const std::vector<std::vector<std::string>>& sets) {
     const auto holds = [&](const std::vector<std::string>& set) {
-        return std::ranges::any_of(state.material, [&](const WeightedMaterial& worn) {
-            return std::ranges::find(set, worn.name) != set.end();
+        return std::ranges::any_of(state.material, [&](const WeightedMaterial& bound) {
+            return std::ranges::find(set, bound.name) != set.end();
         });
     };
     auto set = std::ranges::find_if(sets, holds);
@@ -45,8 +45,8 @@ void drawBlend(SceneState& state, const std::vector<std::vector<std::string>>& s
     bool hasChanged = false;
     float sum = 0;
     for (const std::string& name : *set) {
-        const auto worn = std::ranges::find(state.material, name, &WeightedMaterial::name);
-        WeightedMaterial material{name, worn == state.material.end() ? 0 : worn->weight};
+        const auto bound = std::ranges::find(state.material, name, &WeightedMaterial::name);
+        WeightedMaterial material{name, bound == state.material.end() ? 0 : bound->weight};
         hasChanged |= slider(name.c_str(), material.weight, 0, 1, "%.2f");
         sum += material.weight;
         if (material.weight > 0) blend.push_back(material);

@@ -1,6 +1,6 @@
 #include "apps/viewer/model.h"
 
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 
 #include <algorithm>
 #include <utility>

@@ -20,7 +20,7 @@ class PanelPictures {
     // passed, and thumbnails and swatches of what has come.
     void update(const SceneState& state, const std::shared_ptr<Model>& model, const SceneView& view);
 
-    // Asks why this vertex of the model has its colour; the answer follows light, eye and material.
+    // Asks why this vertex of the model has its color; the answer follows light, eye and material.
     void ask(const Model& model, size_t part, uint32_t vertex) {
         mAsked = Asked{model.file, part, vertex, 0};
     }

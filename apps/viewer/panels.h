@@ -15,7 +15,7 @@ struct PanelFacts {
     const Content* content = nullptr;
     const FrameTimes* times = nullptr;
     const Pictures* pictures = nullptr;
-    std::vector<std::string> materials;                 // that can be worn
+    std::vector<std::string> materials;                 // that can be bound
     std::vector<std::vector<std::string>> materialSets; // those that can be blended
     std::map<std::string, Picture> swatches;            // by material
     std::vector<Picture> environments;                  // by choice; of no size: not there yet

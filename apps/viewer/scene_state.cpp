@@ -4,9 +4,10 @@
 
 namespace relume {
 
-void wearNext(SceneState& state, const std::vector<std::string>& names) {
-    const auto worn = state.material.empty() ? names.end() : std::ranges::find(names, state.material[0].name);
-    const size_t next = worn == names.end() ? 0 : size_t(worn - names.begin()) + 1;
+void bindNextMaterial(SceneState& state, const std::vector<std::string>& names) {
+    const auto bound =
+        state.material.empty() ? names.end() : std::ranges::find(names, state.material[0].name);
+    const size_t next = bound == names.end() ? 0 : size_t(bound - names.begin()) + 1;
     state.material.clear();
     if (next < names.size()) state.material.push_back({names[next]});
 }

@@ -53,7 +53,7 @@ struct SceneState {
 };
 
 // From one of these materials to the next, from the last to what was baked, from that to the first.
-void wearNext(SceneState& state, const std::vector<std::string>& names);
+void bindNextMaterial(SceneState& state, const std::vector<std::string>& names);
 
 // More of `most` terms, or fewer: at least one.
 void addTerms(SceneState& state, int more, int most);

@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-// Of a difference that the hottest colour stands for, where 1 is what a display shows as white.
+// Of a difference that the hottest color stands for, where 1 is what a display shows as white.
 constexpr float kHottest = 0.25f;
 
 bool operator==(const WeightedMaterial& a, const WeightedMaterial& b) {
@@ -55,7 +55,7 @@ void SceneView::record(vk::Commands& commands, SceneState& state, const std::sha
         state.orbit =
             defaultOrbit(mModel->bounds, glm::radians(state.fovDegrees), float(size.x) / float(size.y));
     const uint64_t light = mLightVersion, view = mViewVersion;
-    wearChosen(state);
+    bindChosen(state);
     recordLight(commands, state);
     mImage = nullptr;
     if (!mLit) return;
@@ -76,32 +76,32 @@ void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
     mLit.reset();
     mSeen.reset();
     mLightStats.reset();
-    mWorn.clear();
+    mBound.clear();
     mImage = nullptr;
     mModel->appearance = defaultAppearance(mModel->asset);
     mModel->view.setAppearance(mModel->appearance);
     const std::vector<std::string> names = materialNames(mModel->asset);
-    std::erase_if(state.material, [&](const WeightedMaterial& worn) {
-        return std::ranges::find(names, worn.name) == names.end();
+    std::erase_if(state.material, [&](const WeightedMaterial& material) {
+        return std::ranges::find(names, material.name) == names.end();
     });
 }
 
-void SceneView::wearChosen(SceneState& state) {
-    if (std::ranges::equal(mWorn, state.material, [](const auto& a, const auto& b) { return a == b; }))
+void SceneView::bindChosen(SceneState& state) {
+    if (std::ranges::equal(mBound, state.material, [](const auto& a, const auto& b) { return a == b; }))
         return;
     Appearance appearance = defaultAppearance(mModel->asset);
     std::vector<WeightedMaterial> blend = state.material;
     float sum = 0;
-    for (const WeightedMaterial& worn : blend) sum += worn.weight;
-    for (WeightedMaterial& worn : blend) worn.weight /= sum; // as `relume render` does
+    for (const WeightedMaterial& material : blend) sum += material.weight;
+    for (WeightedMaterial& material : blend) material.weight /= sum; // as `relume render` does
     try {
-        if (!blend.empty()) wear(appearance, mModel->asset, blend);
+        if (!blend.empty()) bindMaterials(appearance, mModel->asset, blend);
     } catch (const Error& why) {
         mTell(why.what(), true);
-        state.material = mWorn;
+        state.material = mBound;
         return;
     }
-    mWorn = state.material;
+    mBound = state.material;
     // Another set's tuples are of the light before.
     const bool isRelit =
         !std::ranges::equal(appearance, mModel->appearance, {}, &PartAppearance::set, &PartAppearance::set);

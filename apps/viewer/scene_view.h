@@ -40,7 +40,7 @@ class SceneView {
 
     // Linear, in TRANSFER_SRC_OPTIMAL; null: nothing is there yet.
     const vk::Image* image() const;
-    // Image() is not radiance, but has colours of its own.
+    // Image() is not radiance, but has colors of its own.
     bool isFalseColor(const SceneState& state) const;
 
     // The state as it is drawn: of a light file that plays, the moment.
@@ -78,7 +78,7 @@ class SceneView {
         std::weak_ptr<const MovingLight> file;
     };
     void begin(const std::shared_ptr<Model>& model, SceneState& state);
-    void wearChosen(SceneState& state);
+    void bindChosen(SceneState& state);
     void recordLight(vk::Commands& commands, SceneState& state);
     void recordView(vk::Commands& commands, const SceneState& state, ivec2 size, bool isFinal);
     void recordCompared(vk::Commands& commands, const SceneState& state);
@@ -95,7 +95,7 @@ class SceneView {
     std::optional<std::pair<uint64_t, float>> mBehind; // light version and blur that the pass has
     std::optional<Exposed> mExposed;
     std::shared_ptr<Model> mModel;
-    std::vector<WeightedMaterial> mWorn;
+    std::vector<WeightedMaterial> mBound;
     std::optional<LightState> mLit; // what the tuples on the device were made for
     std::shared_ptr<const Light> mLitFile;
     std::optional<Seen> mSeen;

@@ -194,7 +194,7 @@ void setMaterial(SceneState& state, const json& value) {
     if (!value.is_string() && blend.empty())
         throw Error(fmt::format("\"material\": expected a name, or weights by name, found {}", value.dump()));
     if (!blend.empty() &&
-        std::ranges::all_of(blend, [](const WeightedMaterial& worn) { return worn.weight == 0; }))
+        std::ranges::all_of(blend, [](const WeightedMaterial& material) { return material.weight == 0; }))
         throw Error(
             fmt::format("\"material\": expected at least one weight above 0, found {}", value.dump()));
     state.material = blend;

@@ -28,7 +28,7 @@ void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
         text(fmt::format("{:7.2f} ms", 1e3 * pass.seconds));
         if (isOld) ImGui::PopStyleColor();
     }
-    explain("Device time of each pass; grey: of the last frame that needed it");
+    explain("Device time of each pass; gray: of the last frame that needed it");
     if (facts.light) {
         text(fmt::format("{} coefficients of light", facts.light->kept));
         explain("That were kept for relighting; the rest counts as zero");

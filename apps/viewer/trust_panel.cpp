@@ -49,7 +49,7 @@ void drawTrustPanel(SceneState& state, const PanelFacts& facts) {
     ImGui::Checkbox("Light vector", &state.showsLight);
     explain("L: the light as it was given, and what its kept coefficients stand for");
     ImGui::SameLine();
-    ImGui::TextDisabled("W: why this colour?");
+    ImGui::TextDisabled("W: why this color?");
     explain("Point at the object and press W: what the vertex there sees, and which light reaches the eye");
 }
 
@@ -74,7 +74,7 @@ void drawLightVectorWindow(SceneState& state, const PanelFacts& facts) {
 
 void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
     const Why& why = *facts.why;
-    if (beginAtRight("Why this colour?", state.showsWhy)) {
+    if (beginAtRight("Why this color?", state.showsWhy)) {
         text(fmt::format("{}, vertex {} at {:.3f} {:.3f} {:.3f}", why.part, why.vertex, why.position.x,
                          why.position.y, why.position.z));
         ImGui::BeginGroup();
@@ -91,7 +91,7 @@ void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
         ImGui::EndGroup();
         text("the light that reaches the eye from it");
         facts.pictures->draw(facts.contributions, (2 * kCrossWidth + 0.6f) * line());
-        explain("The environment in grey; coloured: light times what it counts for, yellow most");
+        explain("The environment in gray; colored: light times what it counts for, yellow most");
         text(fmt::format("radiance {:.4f} {:.4f} {:.4f}; its {} terms:", why.radiance.x, why.radiance.y,
                          why.radiance.z, why.tuple.size()));
         if (ImGui::BeginChild("terms", {0, std::min<float>(4, float(why.tuple.size())) *

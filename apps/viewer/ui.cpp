@@ -151,8 +151,8 @@ void Ui::setDark(bool dark) {
     style.WindowRounding = 4;
     style.FrameRounding = 3;
     style.Colors[ImGuiCol_WindowBg].w = 0.92f;
-    const float grey = dark ? 0.62f : 0.4f; // hints are to be read as well
-    style.Colors[ImGuiCol_TextDisabled] = {grey, grey, grey, 1};
+    const float gray = dark ? 0.62f : 0.4f; // hints are to be read as well
+    style.Colors[ImGuiCol_TextDisabled] = {gray, gray, gray, 1};
     style.Colors[ImGuiCol_SliderGrab].w = 0.5f; // numbers are written over it
     style.Colors[ImGuiCol_SliderGrabActive].w = 0.7f;
     style.ScaleAllSizes(mScale);

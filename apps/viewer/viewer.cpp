@@ -308,7 +308,7 @@ void Viewer::obey(Command command) {
         mState.light.file.reset();
         return;
     case Command::NextMaterial:
-        if (model) wearNext(mState, materialNames(model->asset));
+        if (model) bindNextMaterial(mState, materialNames(model->asset));
         return;
     case Command::NextModel: {
         const auto& models = mContent.models();

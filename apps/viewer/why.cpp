@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kGrey = 0.35f; // of the environment behind what is coloured
+constexpr float kGray = 0.35f; // of the environment behind what is colored
 
 float mean(vec3 v) { return (v.x + v.y + v.z) / 3; }
 
@@ -57,8 +57,8 @@ Image contributionsPicture(const LightCube& light, const LightCube& transport) {
     for (vec4& pixel : picture.pixels) pixel = vec4(heatColor(mean(vec3(pixel)) / hottest), 1);
     picture = toneMap(picture, ToneCurve::None, 0);
     for (size_t i = 0; i < picture.pixels.size(); i++) {
-        const vec3 grey(kGrey * mean(vec3(behind.pixels[i])));
-        picture.pixels[i] = vec4(glm::max(grey, vec3(picture.pixels[i])), 1);
+        const vec3 gray(kGray * mean(vec3(behind.pixels[i])));
+        picture.pixels[i] = vec4(glm::max(gray, vec3(picture.pixels[i])), 1);
     }
     return picture;
 }
@@ -69,7 +69,7 @@ Why explain(const WhyQuestion& question) {
     const Model& model = *question.model;
     const AssetPart& part = model.asset.parts[question.part];
     const VertexProbe probe = probeVertex(model.asset, model.occluder, question.part, question.vertex,
-                                          question.eye, question.worn, question.light, question.kept);
+                                          question.eye, question.bound, question.light, question.kept);
     Why why;
     why.part = part.name;
     why.vertex = question.vertex;

@@ -1,4 +1,4 @@
-// Why a vertex has the colour that it has from where the eye is, in numbers and pictures.
+// Why a vertex has the color that it has from where the eye is, in numbers and pictures.
 #pragma once
 
 #include "apps/viewer/model.h"
@@ -9,7 +9,7 @@ namespace relume {
 // A vertex, an eye, and the light that it is relit by: as it was given, and as it was kept.
 struct WhyQuestion {
     std::shared_ptr<const Model> model;
-    PartAppearance worn;
+    PartAppearance bound;
     size_t part = 0;
     uint32_t vertex = 0;
     vec3 eye{0};
@@ -30,7 +30,7 @@ struct Why {
     float openShare = 0;     // of the hemisphere above it that nothing blocks
     Image visibility;        // cross: white is open, dark blocked, below the horizon transparent
     Image transport;         // cross: what a texel of light adds, the brightest hundredth white
-    Image contributions;     // map: the light in grey, and over it what reaches the eye, from red to yellow
+    Image contributions;     // map: the light in gray, and over it what reaches the eye, from red to yellow
 };
 
 // Takes a few hundredths of a second; any thread.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPixelsPerDegree = 67;
 
-// --- Colours: linear RGB, XYZ relative to the white of D65, YyCxCz, Hunt-adjusted L*a*b*.
+// --- Colors: linear RGB, XYZ relative to the white of D65, YyCxCz, Hunt-adjusted L*a*b*.
 
 float decodeSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
@@ -35,7 +35,7 @@ vec3 xyzOfOpponent(vec3 opponent) {
     return {y + opponent.y / 500, y, y - opponent.z / 200};
 }
 
-// L*a*b* is the opponent space of the cube root; Hunt: colours matter less in the dark.
+// L*a*b* is the opponent space of the cube root; Hunt: colors matter less in the dark.
 vec3 huntLabOfRgb(vec3 rgb) {
     vec3 root = kRgbToXyz * rgb;
     for (int c = 0; c < 3; c++) {
@@ -47,7 +47,7 @@ vec3 huntLabOfRgb(vec3 rgb) {
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
 }
 
-// HyAB distance: city-block in lightness, Euclidean in colour.
+// HyAB distance: city-block in lightness, Euclidean in color.
 float hyab(vec3 a, vec3 b) {
     const vec3 difference = a - b;
     return std::abs(difference.x) + std::hypot(difference.y, difference.z);
@@ -97,7 +97,7 @@ float sumOf(const Kernel& kernel) {
     return sum;
 }
 
-// --- Colour pipeline.
+// --- Color pipeline.
 
 // A Gaussian of a contrast sensitivity function, a √(π / b) exp(-π² x² / b) with x in degrees.
 struct Sensitivity {
@@ -114,7 +114,7 @@ Kernel sensitivityKernel(float b) {
     });
 }
 
-// Filters by the sum of the given Gaussians, normalised to a sum of 1.
+// Filters by the sum of the given Gaussians, normalized to a sum of 1.
 Plane filterBySensitivity(const Plane& plane, std::initializer_list<Sensitivity> terms) {
     Plane result{plane.width, plane.height, std::vector<float>(plane.values.size(), 0.0f)};
     float total = 0;
@@ -130,21 +130,21 @@ Plane filterBySensitivity(const Plane& plane, std::initializer_list<Sensitivity>
 }
 
 // What of the image the eye resolves, in Hunt-adjusted L*a*b*.
-std::vector<vec3> perceivedColours(const std::array<Plane, 3>& opponent) {
+std::vector<vec3> perceivedColors(const std::array<Plane, 3>& opponent) {
     const Plane achromatic = filterBySensitivity(opponent[0], {kAchromatic});
     const Plane redGreen = filterBySensitivity(opponent[1], {kRedGreen});
     const Plane blueYellow = filterBySensitivity(opponent[2], {kBlueYellow[0], kBlueYellow[1]});
-    std::vector<vec3> colours(achromatic.values.size());
-    for (size_t i = 0; i < colours.size(); i++) {
+    std::vector<vec3> colors(achromatic.values.size());
+    for (size_t i = 0; i < colors.size(); i++) {
         const vec3 filtered(achromatic.values[i], redGreen.values[i], blueYellow.values[i]);
         const vec3 rgb = kXyzToRgb * xyzOfOpponent(filtered);
-        colours[i] = huntLabOfRgb(glm::clamp(rgb, vec3(0), vec3(1)));
+        colors[i] = huntLabOfRgb(glm::clamp(rgb, vec3(0), vec3(1)));
     }
-    return colours;
+    return colors;
 }
 
 // The distance with its exponent, stretched so that 0.4 of the largest becomes 0.95.
-float colourError(vec3 a, vec3 b) {
+float colorError(vec3 a, vec3 b) {
     constexpr float kExponent = 0.7f, kKnee = 0.4f, kKneeError = 0.95f;
     static const float largest =
         std::pow(hyab(huntLabOfRgb(vec3(0, 1, 0)), huntLabOfRgb(vec3(0, 0, 1))), kExponent);
@@ -157,7 +157,7 @@ float colourError(vec3 a, vec3 b) {
 // --- Feature pipeline.
 
 // Positive weights sum to 1, negative ones to -1.
-Kernel normaliseBySign(Kernel kernel) {
+Kernel normalizeBySign(Kernel kernel) {
     float positive = 0, negative = 0;
     for (float weight : kernel) (weight > 0 ? positive : negative) += std::abs(weight);
     for (float& weight : kernel) weight /= weight > 0 ? positive : negative;
@@ -188,8 +188,8 @@ Features detectFeatures(Plane opponentY) {
     const Kernel edge = makeKernel(radius, [&](float i) { return -i * gauss(i); });
     const Kernel point =
         makeKernel(radius, [&](float i) { return (i * i / (deviation * deviation) - 1) * gauss(i); });
-    return {featureStrength(opponentY, normaliseBySign(edge), along),
-            featureStrength(opponentY, normaliseBySign(point), along)};
+    return {featureStrength(opponentY, normalizeBySign(edge), along),
+            featureStrength(opponentY, normalizeBySign(point), along)};
 }
 
 float featureError(const Features& a, const Features& b, size_t i) {
@@ -213,12 +213,12 @@ std::array<Plane, 3> opponentPlanes(const Image& image) {
 double flipError(const Image& a, const Image& b) {
     RELUME_CHECK(a.width == b.width && a.height == b.height && !a.pixels.empty());
     const std::array<Plane, 3> planesA = opponentPlanes(a), planesB = opponentPlanes(b);
-    const std::vector<vec3> coloursA = perceivedColours(planesA), coloursB = perceivedColours(planesB);
+    const std::vector<vec3> colorsA = perceivedColors(planesA), colorsB = perceivedColors(planesB);
     const Features featuresA = detectFeatures(planesA[0]), featuresB = detectFeatures(planesB[0]);
     double sum = 0;
-    for (size_t i = 0; i < coloursA.size(); i++)
-        sum += std::pow(colourError(coloursA[i], coloursB[i]), 1 - featureError(featuresA, featuresB, i));
-    return sum / double(coloursA.size());
+    for (size_t i = 0; i < colorsA.size(); i++)
+        sum += std::pow(colorError(colorsA[i], colorsB[i]), 1 - featureError(featuresA, featuresB, i));
+    return sum / double(colorsA.size());
 }
 
 } // namespace relume

@@ -122,9 +122,9 @@ std::string describeTerms(const Asset& asset) {
     const Json method = optionOf(asset, "factorization");
     if (!method.is_string()) return "BRDF terms: of an unknown factorization";
     const auto name = method.get<std::string>();
-    const bool hasCentres = name == "paper" || name == "normalized";
+    const bool hasCenters = name == "paper" || name == "normalized";
     return fmt::format("BRDF terms: of factorization {}, from values of f {}", name,
-                       hasCentres ? "at the maps' texel centres" : "averaged over the maps' texels");
+                       hasCenters ? "at the maps' texel centers" : "averaged over the maps' texels");
 }
 
 Json describeApproximations(const Asset& asset) {
@@ -212,7 +212,7 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t v
                  {"transport_samples", asset.transportSamples},
                  {"visibility_offset", asset.visibilityOffset},
                  {"truncation_error", asset.truncationError},
-                 {"quantization_error", asset.quantisationError},
+                 {"quantization_error", asset.quantizationError},
                  {"layout_error", asset.layout ? describeLayout(*asset.layout) : Json()},
                  {"approximations", describeApproximations(asset)},
                  {"occluder_triangles", asset.occluder.triangleCount()},

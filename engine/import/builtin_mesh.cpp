@@ -87,7 +87,7 @@ vec2 sphereUv(const Mesh& sphere, const uvec3& triangle, int corner) {
 
 // A point of the (2, 3) torus knot, axis Y, and the frame of its tube's cross-section.
 struct KnotPoint {
-    vec3 centre, tangent, outward; // outward: the torus' normal, which is perpendicular to the curve
+    vec3 center, tangent, outward; // outward: the torus' normal, which is perpendicular to the curve
 };
 
 constexpr float kKnotMajor = 2.0f, kKnotMinor = 1.0f, kKnotTube = 0.42f;
@@ -157,8 +157,8 @@ Mesh makeKnot(int vertices, bool hasUvs) {
     float length = 0;
     const int steps = 600;
     for (int i = 0; i < steps; i++)
-        length += glm::distance(knotPoint(2 * kPi * float(i) / steps).centre,
-                                knotPoint(2 * kPi * float(i + 1) / steps).centre);
+        length += glm::distance(knotPoint(2 * kPi * float(i) / steps).center,
+                                knotPoint(2 * kPi * float(i + 1) / steps).center);
     // Cells as square as the two circumferences allow.
     const int across =
         std::max(5, int(std::lround(std::sqrt(float(vertices) * 2 * kPi * kKnotTube / length))));
@@ -174,7 +174,7 @@ Mesh makeKnot(int vertices, bool hasUvs) {
         for (int j = 0; j < across; j++) {
             const float turn = 2 * kPi * float(j) / float(across);
             const vec3 normal = glm::normalize(std::cos(turn) * point.outward + std::sin(turn) * side);
-            mesh.positions.push_back(scale * (point.centre + kKnotTube * normal));
+            mesh.positions.push_back(scale * (point.center + kKnotTube * normal));
             mesh.normals.push_back(normal);
         }
     }

@@ -9,7 +9,7 @@
 namespace relume {
 
 // A unit sphere about the origin from a subdivided icosahedron: 10·4^levels + 2 vertices. The image is a
-// latlong whose centre faces +Z.
+// latlong whose center faces +Z.
 Mesh makeSphere(int levels, bool hasUvs = false);
 
 // A torus about the Y axis, `around` × `across` vertices.

@@ -1,4 +1,4 @@
-// From image files to latlong maps with pixel centres.
+// From image files to latlong maps with pixel centers.
 #include "engine/import/environment_file.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
@@ -18,7 +18,7 @@ namespace {
 // Far beyond the sun's 2e7 W·m⁻²·sr⁻¹, and small enough that no later float sum or square overflows.
 constexpr float kLargestRadiance = 1e12f;
 
-// Bilinear value at (x, y), where whole numbers are pixel centres; beyond the border the border repeats.
+// Bilinear value at (x, y), where whole numbers are pixel centers; beyond the border the border repeats.
 vec3 bilinear(const Image& image, float x, float y) {
     const int x0 = std::clamp(int(x), 0, image.width - 1), x1 = std::min(x0 + 1, image.width - 1);
     const int y0 = std::clamp(int(y), 0, image.height - 1), y1 = std::min(y0 + 1, image.height - 1);
@@ -47,7 +47,7 @@ Environment emptyEnvironment(int width, int height) {
     return {width, height, std::vector<vec3>(size_t(width) * size_t(height))};
 }
 
-Environment fromPixelCentres(const Image& image) {
+Environment fromPixelCenters(const Image& image) {
     Environment map = emptyEnvironment(image.width, image.height);
     std::copy(image.pixels.begin(), image.pixels.end(), map.radiance.begin());
     return map;
@@ -64,7 +64,7 @@ Environment fromOpenExrLatLong(const Image& image) {
     return map;
 }
 
-// Bilinear within the face, whose outer pixels are centred on the cube's edges.
+// Bilinear within the face, whose outer pixels are centered on the cube's edges.
 vec3 lookupOpenExrCube(const Image& image, vec3 direction) {
     const int faceSize = image.width;
     const Imath::Box2i window({0, 0}, {image.width - 1, image.height - 1});
@@ -118,7 +118,7 @@ Environment readEnvironment(const std::filesystem::path& path) {
             fmt::format("{}: expected a latitude-longitude map twice as wide as high, found {} x {} pixels; "
                         "convert or crop it",
                         name, image.width, image.height));
-    return file.projection == ImageProjection::LatLong ? fromOpenExrLatLong(image) : fromPixelCentres(image);
+    return file.projection == ImageProjection::LatLong ? fromOpenExrLatLong(image) : fromPixelCenters(image);
 }
 
 } // namespace relume

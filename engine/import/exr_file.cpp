@@ -124,9 +124,9 @@ void checkChunks(const Imf::Header& header, bool isTiled, int64_t width, int64_t
 
 // Which channels to read: R, G and B as far as they are there, else Y alone.
 bool isLuminance(const Imf::ChannelList& channels, const std::string& name) {
-    const bool colour = channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
-    const bool luminance = !colour && channels.findChannel("Y");
-    if (!colour && !luminance) {
+    const bool color = channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
+    const bool luminance = !color && channels.findChannel("Y");
+    if (!color && !luminance) {
         std::string found;
         for (auto channel = channels.begin(); channel != channels.end() && found.size() < 200; ++channel)
             found += fmt::format(" {}", channel.name());

@@ -69,9 +69,9 @@ T load(const unsigned char* data) {
 }
 
 template <typename T>
-float loadNormalised(const unsigned char* data, bool isNormalised) {
+float loadNormalized(const unsigned char* data, bool isNormalized) {
     const float value = float(load<T>(data));
-    return isNormalised ? std::max(value / float(std::numeric_limits<T>::max()), -1.0f) : value;
+    return isNormalized ? std::max(value / float(std::numeric_limits<T>::max()), -1.0f) : value;
 }
 
 float loadComponent(const unsigned char* data, const tinygltf::Accessor& accessor, const std::string& name) {
@@ -79,13 +79,13 @@ float loadComponent(const unsigned char* data, const tinygltf::Accessor& accesso
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return load<float>(data);
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return loadNormalised<int8_t>(data, accessor.normalized);
+        return loadNormalized<int8_t>(data, accessor.normalized);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return loadNormalised<uint8_t>(data, accessor.normalized);
+        return loadNormalized<uint8_t>(data, accessor.normalized);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return loadNormalised<int16_t>(data, accessor.normalized);
+        return loadNormalized<int16_t>(data, accessor.normalized);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return loadNormalised<uint16_t>(data, accessor.normalized);
+        return loadNormalized<uint16_t>(data, accessor.normalized);
     default:
         throw Error(
             fmt::format("{}: an accessor of vectors has component type {}", name, accessor.componentType));

@@ -10,12 +10,12 @@
 
 namespace relume {
 
-// Elements of accessor number `index`, which must be VEC3 or VEC2; integers are normalised if it says so.
+// Elements of accessor number `index`, which must be VEC3 or VEC2; integers are normalized if it says so.
 // Throws Error, in which `name` stands for the file, for anything out of bounds.
 std::vector<vec3> readGltfVectors(const tinygltf::Model& model, int index, const std::string& name);
 std::vector<vec2> readGltfUvs(const tinygltf::Model& model, int index, const std::string& name);
 
-// The same of VEC4 or VEC3: colours and tangents. What VEC3 does not say is 0: colours serve as weights.
+// The same of VEC4 or VEC3: colors and tangents. What VEC3 does not say is 0: colors serve as weights.
 std::vector<vec4> readGltfFourVectors(const tinygltf::Model& model, int index, const std::string& name);
 
 // The bytes of buffer view number `index`.

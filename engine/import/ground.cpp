@@ -12,8 +12,8 @@ Mesh makeGround(const Bounds& object, const GroundOptions& options) {
     const float largest = std::max({extent.x, extent.y, extent.z});
     RELUME_CHECK(largest > 0 && options.extent > 0);
     Mesh ground = makePlane(options.extent * largest, options.tessellation);
-    const vec3 centre(object.centre().x, object.low.y, object.centre().z);
-    for (vec3& position : ground.positions) position += centre;
+    const vec3 center(object.center().x, object.low.y, object.center().z);
+    for (vec3& position : ground.positions) position += center;
     return ground;
 }
 

@@ -18,7 +18,7 @@ constexpr int kRefinedGroundQuads = 16;
 constexpr int kMostGroundQuads = 4096;
 constexpr float kSmallestGroundExtent = 0.01f, kLargestGroundExtent = 1000.0f;
 
-// A square centred under `object` in x and z, at its lowest y, normals up.
+// A square centered under `object` in x and z, at its lowest y, normals up.
 Mesh makeGround(const Bounds& object, const GroundOptions& options = {});
 
 } // namespace relume

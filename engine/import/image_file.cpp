@@ -35,7 +35,7 @@ void zeroWhatIsNotFinite(Image& image, const std::string& name) {
 }
 
 // A value that is not a number becomes 0.
-uint8_t quantise(float value) { return value > 0 ? uint8_t(std::lround(255 * std::min(value, 1.0f))) : 0; }
+uint8_t quantize(float value) { return value > 0 ? uint8_t(std::lround(255 * std::min(value, 1.0f))) : 0; }
 
 void checkWritable(const Image& image) {
     RELUME_CHECK(image.width > 0 && image.height > 0);
@@ -97,7 +97,7 @@ void writePng(const std::filesystem::path& path, const Image& image) {
     std::vector<uint8_t> texels;
     texels.reserve(4 * image.pixels.size());
     for (const vec4& pixel : image.pixels)
-        for (int c = 0; c < 4; c++) texels.push_back(quantise(pixel[c]));
+        for (int c = 0; c < 4; c++) texels.push_back(quantize(pixel[c]));
     std::vector<std::byte> bytes;
     const auto append = [](void* context, void* data, int size) {
         const auto* first = static_cast<const std::byte*>(data);

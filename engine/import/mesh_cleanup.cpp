@@ -63,7 +63,7 @@ void checkMesh(const Mesh& mesh, const std::string& name) {
 }
 
 // Makes normals unit length, or drops all of them if one that is used is no direction.
-void normaliseNormals(Mesh& mesh, const std::string& name) {
+void normalizeNormals(Mesh& mesh, const std::string& name) {
     if (mesh.normals.empty()) return;
     std::vector<bool> isUsed(mesh.vertexCount(), false);
     for (const uvec3& triangle : mesh.triangles)
@@ -84,7 +84,7 @@ void normaliseNormals(Mesh& mesh, const std::string& name) {
 
 // Makes tangents unit length and orthogonal to the normals, or drops all of them if none is a direction.
 // A single one that is not gives way to the s of the normal's frame.
-void normaliseTangents(Mesh& mesh) {
+void normalizeTangents(Mesh& mesh) {
     const auto isDirection = [](vec3 t) { return isFinite(t) && glm::dot(t, t) > 1e-12f; };
     if (mesh.tangents.size() != mesh.vertexCount() || std::ranges::none_of(mesh.tangents, isDirection))
         mesh.tangents.clear();
@@ -145,9 +145,9 @@ void dropUnused(Mesh& mesh) {
 
 Mesh cleanUp(Mesh mesh, const std::string& name) {
     checkMesh(mesh, name);
-    normaliseNormals(mesh, name);
+    normalizeNormals(mesh, name);
     checkAttribute(mesh.uvs, mesh, "texture coordinates", name);
-    checkAttribute(mesh.colors, mesh, "colours", name);
+    checkAttribute(mesh.colors, mesh, "colors", name);
     for (vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
     weld(mesh);
     const size_t degenerate =
@@ -163,7 +163,7 @@ Mesh cleanUp(Mesh mesh, const std::string& name) {
         throw Error(fmt::format("{}: is less than {:g} units across: scale it up before export", name,
                                 kSmallestExtent));
     if (mesh.normals.empty()) makeNormals(mesh);
-    normaliseTangents(mesh);
+    normalizeTangents(mesh);
     return mesh;
 }
 

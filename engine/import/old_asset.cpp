@@ -176,7 +176,7 @@ AssetMeta decodeOldMeta(std::string_view text, const std::string& name) {
     meta.asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
     meta.asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
     meta.asset.visibilityOffset = in.real("visibilityOffset");
-    meta.asset.quantisationError = in.real("quantisationError");
+    meta.asset.quantizationError = in.real("quantisationError");
     meta.asset.truncationError = in.real("truncationError");
     if (in.has("layout")) meta.asset.layout = readLayout(in.object("layout"));
     const Reader occluder = in.object("occluder");

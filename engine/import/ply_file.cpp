@@ -119,7 +119,7 @@ class VertexColumns {
         return columns;
     }
 
-    // Colours are whole numbers of the type's range, or floating.
+    // Colors are whole numbers of the type's range, or floating.
     std::optional<std::vector<size_t>> findColors() const {
         auto columns = find({"red", "green", "blue", "alpha"});
         if (!columns) columns = find({"red", "green", "blue"});
@@ -136,7 +136,7 @@ class VertexColumns {
     const PlyElement& mElement;
 };
 
-// What a colour of this type is divided by to lie in [0, 1].
+// What a color of this type is divided by to lie in [0, 1].
 float fullColor(const PlyScalarType& type) {
     return type.kind == 'f' ? 1 : float(std::exp2(8.0 * double(type.size) - (type.kind == 'i')) - 1);
 }

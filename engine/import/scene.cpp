@@ -110,7 +110,7 @@ std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optio
             mesh));
     if (paint.isByColors && part.mesh.colors.empty())
         throw Error(fmt::format(
-            "{}: has no vertex colours, or not at every vertex: paint it before export (as PLY or glTF)",
+            "{}: has no vertex colors, or not at every vertex: paint it before export (as PLY or glTF)",
             mesh));
     part.baseColor = loadTexture(paint.baseColor, true, part.textureFiles);
     part.materialMap = loadTexture(paint.materialMap, false, part.textureFiles);

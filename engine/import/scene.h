@@ -29,11 +29,11 @@ struct Part {
     std::string material;   // As readMaterials() takes it: precompute/brdf/material_list.h.
     std::string source;     // The file it came from, or "built-in NAME"; for provenance.
     std::string sourceHash; // hashText of that file's bytes; empty for built-in meshes.
-    std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs; multiplies the material's base colour.
+    std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs; multiplies the material's base color.
     std::optional<Texture> materialMap =
         std::nullopt;             // By mesh.uvs: weights of the set's first four materials.
     bool paintedByColors = false; // Whether mesh.colors are these weights instead.
-    bool tintedByColors = false;  // Whether mesh.colors multiply the material's base colour.
+    bool tintedByColors = false;  // Whether mesh.colors multiply the material's base color.
     SurfaceDetail detail = {};
     std::filesystem::path materialFolder = {}; // Where relative paths in `material` start.
     std::vector<InputFile> textureFiles = {};  // What the textures came from, unless `source` holds them.
@@ -44,7 +44,7 @@ struct Part {
 // What a part is painted with.
 struct PartPaint {
     std::filesystem::path baseColor, materialMap; // Image files; empty for none.
-    bool isByColors = false;                      // Vertex colours instead of a material map.
+    bool isByColors = false;                      // Vertex colors instead of a material map.
 
     bool usesUvs() const { return !baseColor.empty() || !materialMap.empty(); }
     bool isAny() const { return usesUvs() || isByColors; }
@@ -68,7 +68,7 @@ bool hasOwnMaterials(const std::string& mesh);
 
 // The parts made of a mesh file or of a built-in mesh, with source and hashes filled in: one of this material
 // and paint; or, if there is no material, one for each of the mesh's own. Throws Error as readMesh and
-// readTexture do, when the mesh lacks the texture coordinates or colours that the paint needs, when it has no
+// readTexture do, when the mesh lacks the texture coordinates or colors that the paint needs, when it has no
 // materials of its own but must, and for paint on these.
 std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optional<std::string>& material,
                             const PartPaint& paint = {});

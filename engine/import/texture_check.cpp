@@ -94,13 +94,13 @@ class JpegWalk {
     }
 
   private:
-    static constexpr uint32_t kFirstMarker = 0xff02, kHuffman = 0xffc4, kQuantisation = 0xffdb;
+    static constexpr uint32_t kFirstMarker = 0xff02, kHuffman = 0xffc4, kQuantization = 0xffdb;
     static constexpr uint32_t kScan = 0xffda, kEnd = 0xffd9;
     static constexpr uint32_t kBaseline = 0xffc0, kExtended = 0xffc1, kProgressive = 0xffc2;
 
     void readSegment(uint32_t marker, Reader segment) {
         if (marker == kHuffman) readHuffmanTables(segment);
-        if (marker == kQuantisation) readQuantisationTables(segment);
+        if (marker == kQuantization) readQuantizationTables(segment);
         if (marker == kBaseline || marker == kExtended || marker == kProgressive) {
             mIsProgressive = marker == kProgressive;
             readFrame(segment);
@@ -124,11 +124,11 @@ class JpegWalk {
         }
     }
 
-    void readQuantisationTables(Reader& segment) {
+    void readQuantizationTables(Reader& segment) {
         while (!segment.isEmpty()) {
             const uint32_t table = segment.takeNumber(1); // width and number
             segment.take(table >> 4 ? 128 : 64);
-            mQuantisation[table & 15] = true;
+            mQuantization[table & 15] = true;
         }
     }
 
@@ -151,7 +151,7 @@ class JpegWalk {
         if (count > tables.size()) segment.fail("a scan has more than four components");
         for (uint32_t i = 0; i < count; i++) {
             const uint32_t id = segment.takeNumber(1), numbers = segment.takeNumber(1);
-            if (!mComponents.contains(id) || !mQuantisation[mComponents.at(id) & 15])
+            if (!mComponents.contains(id) || !mQuantization[mComponents.at(id) & 15])
                 segment.fail("a scan is of a component that is not described");
             tables[i] = {numbers >> 4, 0x10 | (numbers & 15)};
         }
@@ -180,9 +180,9 @@ class JpegWalk {
     }
 
     Reader mFile;
-    std::map<uint32_t, uint32_t> mComponents; // quantisation table by id
+    std::map<uint32_t, uint32_t> mComponents; // quantization table by id
     std::array<bool, 256> mHuffman{};
-    std::array<bool, 16> mQuantisation{};
+    std::array<bool, 16> mQuantization{};
     bool mIsProgressive = false, mHasScan = false;
 };
 

@@ -14,7 +14,7 @@ bool isJpeg(std::span<const std::byte> bytes);
 
 // Each throws Error, in which `name` stands for the file, unless segments follow one another up to the end of
 // the image, which is of no more than kLongestTextureSide a side, and a PNG file's check sums, a JPEG file's
-// Huffman and quantisation tables, are sound.
+// Huffman and quantization tables, are sound.
 void checkPng(std::span<const std::byte> bytes, const std::string& name);
 void checkJpeg(std::span<const std::byte> bytes, const std::string& name);
 

@@ -27,11 +27,11 @@ shared::LightCap makeCap(vec3 direction, float angularRadius, float softness, in
     const float texel = 2.0f / float(size);
     const float radius = std::max(angularRadius, texel * kCellsPerRadius / float(kMostCells));
     shared::LightCap cap{};
-    const vec3 centre = glm::normalize(direction);
+    const vec3 center = glm::normalize(direction);
     for (int face = 0; face < kCubeFaces; face++) {
         const CubeFaceAxes axes = cubeFaceAxes(face);
-        cap.centres[face] = {glm::dot(centre, axes.right), glm::dot(centre, axes.down),
-                             glm::dot(centre, axes.forward)};
+        cap.centers[face] = {glm::dot(center, axes.right), glm::dot(center, axes.down),
+                             glm::dot(center, axes.forward)};
     }
     cap.side =
         uint32_t(std::clamp(int(std::ceil(kCellsPerRadius * texel / radius)), kFewestCells, kMostCells));
@@ -42,17 +42,17 @@ shared::LightCap makeCap(vec3 direction, float angularRadius, float softness, in
 }
 
 float capCoverage(const shared::LightCap& cap, int face, int x, int y, int size) {
-    const vec3 centre = cap.centres[face];
+    const vec3 center = cap.centers[face];
     const auto local = [](float u, float v) { return glm::normalize(vec3(u, v, 1)); };
     const auto middle = [&](int i) { return (2.0f * float(i) + 1.0f) / float(size) - 1.0f; };
-    // Nothing of a texel is further from its centre: projection to the sphere brings points together.
+    // Nothing of a texel is further from its center: projection to the sphere brings points together.
     const float reach = std::sqrt(2.0f) / float(size);
-    const float away = glm::distance(local(middle(x), middle(y)), centre);
+    const float away = glm::distance(local(middle(x), middle(y)), center);
     if (away - reach >= cap.outer) return 0;
     if (away + reach <= cap.inner) return 1;
     float covered = 0, weights = 0;
     forEachSubCellPlace(x, y, size, int(cap.side), [&](float u, float v, float weight) {
-        const float within = (cap.outer - glm::distance(local(u, v), centre)) / (cap.outer - cap.inner);
+        const float within = (cap.outer - glm::distance(local(u, v), center)) / (cap.outer - cap.inner);
         covered += weight * std::clamp(within, 0.0f, 1.0f);
         weights += weight;
     });

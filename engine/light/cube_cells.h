@@ -7,22 +7,22 @@
 
 namespace relume {
 
-// Visits the centres (u, v) of count × count equal squares of a texel, row by row, with a weight in
+// Visits the centers (u, v) of count × count equal squares of a texel, row by row, with a weight in
 // proportion to their solid angle.
 template <typename Visit>
 void forEachSubCellPlace(int x, int y, int size, int count, Visit visit) {
-    const auto centre = [&](int texel, int sub) {
+    const auto center = [&](int texel, int sub) {
         return 2.0f * (float(texel) + (float(sub) + 0.5f) / float(count)) / float(size) - 1.0f;
     };
     for (int j = 0; j < count; j++)
         for (int i = 0; i < count; i++) {
-            const float u = centre(x, i), v = centre(y, j);
+            const float u = center(x, i), v = center(y, j);
             const float squared = 1.0f + u * u + v * v;
             visit(u, v, 1.0f / (squared * std::sqrt(squared)));
         }
 }
 
-// The same, with their unnormalised directions in place of (u, v).
+// The same, with their unnormalized directions in place of (u, v).
 template <typename Visit>
 void forEachSubCell(int face, int x, int y, int size, int count, Visit visit) {
     forEachSubCellPlace(x, y, size, count,

@@ -19,7 +19,7 @@ struct DaySky {
 
 // The sky's luminance and chromaticity by Preetham, Shirley, Smits: A Practical Analytic Model for Daylight,
 // 1999. Below the horizon the sun's sky keeps the shape that it had at sunset and darkens tenfold every 2.9
-// degrees (400 lx at sunset, 3.4 lx at the end of civil twilight, 6 degrees below). Colours out of gamut are
+// degrees (400 lx at sunset, 3.4 lx at the end of civil twilight, 6 degrees below). Colors out of gamut are
 // clamped. The ground is of one radiance: `ground` times the horizontal irradiance of sky and sun over π.
 shared::LightSky makeSkyModel(const DaySky& sky);
 

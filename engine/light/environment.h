@@ -13,15 +13,15 @@ struct MapTaps {
     vec2 weight;
 };
 
-// A latlong map with pixel centres: column x is longitude π - 2π (x + ½) / width, row y latitude
-// π/2 - π (y + ½) / height, direction (sin lon cos lat, sin lat, cos lon cos lat): +Y up, the centre
+// A latlong map with pixel centers: column x is longitude π - 2π (x + ½) / width, row y latitude
+// π/2 - π (y + ½) / height, direction (sin lon cos lat, sin lat, cos lon cos lat): +Y up, the center
 // looks along +Z, a quarter turn left of it along +X, as OpenEXR defines its latlong.
 struct Environment {
     int width = 0, height = 0;
     std::vector<vec3> radiance; // W·m⁻²·sr⁻¹, rows from the top
 
     vec3 direction(float column,
-                   float row) const;    // of a point in pixel units; (0.5, 0.5) is the first centre
+                   float row) const;    // of a point in pixel units; (0.5, 0.5) is the first center
     vec2 place(vec3 direction) const;   // the inverse, in pixel units
     MapTaps taps(vec3 direction) const; // wrapping in longitude, clamped in latitude
     vec3 lookup(vec3 direction) const;  // bilinear, wrapping in longitude

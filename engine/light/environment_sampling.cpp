@@ -69,7 +69,7 @@ Map resample(const Environment& environment, int width, int height) {
     return map;
 }
 
-// Circular mean over a window of `columns`, at most the width, centred on each pixel.
+// Circular mean over a window of `columns`, at most the width, centered on each pixel.
 void blurRow(dvec3* row, int width, double columns) {
     if (columns <= 1) return;
     std::vector<dvec3> sums(size_t(2 * width) + 1, dvec3(0)); // of the pixels before, over two turns

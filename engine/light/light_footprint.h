@@ -14,7 +14,7 @@ struct LightFootprints {
     std::vector<shared::FootprintPixel> pixels; // row by row within a texel, whose weights sum to 1
 };
 
-// A texel is the mean of n × n bilinear lookups, n = samplesPerTexelSide, at the centres of its sub-cells
+// A texel is the mean of n × n bilinear lookups, n = samplesPerTexelSide, at the centers of its sub-cells
 // in (u, v), weighted by (1 + u² + v²)^(-3/2). Both sides of the map are at most 65,536.
 LightFootprints makeLightFootprints(int width, int height, int size);
 

@@ -5,7 +5,7 @@
 
 namespace relume {
 
-// Largest |quantised coefficient|, and the paper's threshold, of kLightMaximum.
+// Largest |quantized coefficient|, and the paper's threshold, of kLightMaximum.
 constexpr int kLightMaximum = 32767;
 constexpr int kPaperLightThreshold = 1024;
 

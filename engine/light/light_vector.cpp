@@ -71,7 +71,7 @@ std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
 }
 
 // Rounds to nearest, halves away from zero. In double, where none of this rounds.
-ivec3 quantise(vec3 coefficient, double step) {
+ivec3 quantize(vec3 coefficient, double step) {
     const glm::dvec3 c(coefficient);
     return ivec3(glm::sign(c) * glm::floor(glm::abs(c) / step + 0.5));
 }
@@ -89,7 +89,7 @@ LightVector makeLightVector(const LightCube& cube, const LightSelection& selecti
     const std::vector<uint32_t> kept = select(coefficients, cube.size, selection);
     const auto fits = [&](double step) {
         glm::u64vec3 sum(0);
-        for (uint32_t i : kept) sum += glm::u64vec3(glm::abs(quantise(coefficients[i], step)));
+        for (uint32_t i : kept) sum += glm::u64vec3(glm::abs(quantize(coefficients[i], step)));
         return std::max({sum.x, sum.y, sum.z}) <= kLightSumLimit;
     };
     double step = double(std::numeric_limits<float>::min());
@@ -100,7 +100,7 @@ LightVector makeLightVector(const LightCube& cube, const LightSelection& selecti
     for (const vec3& c : coefficients) energy += lengthSquared(glm::dvec3(c));
     lost = energy;
     for (uint32_t i : kept) {
-        const ivec3 q = quantise(coefficients[i], step);
+        const ivec3 q = quantize(coefficients[i], step);
         if (q == ivec3(0)) continue;
         const glm::dvec3 c(coefficients[i]);
         lost += lengthSquared(c - step * glm::dvec3(q)) - lengthSquared(c);

@@ -1,4 +1,4 @@
-// The light in the Haar basis, quantised and sparse.
+// The light in the Haar basis, quantized and sparse.
 #pragma once
 
 #include "engine/light/light_cube.h"
@@ -16,10 +16,10 @@ constexpr uint32_t kLightSumLimit = (1u << 21) - 1;
 
 struct LightVector {
     int faceSize = 0;                           // F
-    float scale = 0;                            // coefficient = scale · quantised value; a power of two
+    float scale = 0;                            // coefficient = scale · quantized value; a power of two
     float error = 0;                            // of what was dropped and rounded, relative L2
     std::vector<uint16_t> indices;              // face·F² + y·F + x, rising
-    std::vector<std::array<int16_t, 3>> values; // quantised, in [-32767, 32767]
+    std::vector<std::array<int16_t, 3>> values; // quantized, in [-32767, 32767]
 };
 
 // CPU twin of the light passes:

@@ -1,4 +1,4 @@
-// Strokes: a painted environment is light with discs of colour over it.
+// Strokes: a painted environment is light with discs of color over it.
 #pragma once
 
 #include "engine/light/light_cube.h"

@@ -95,10 +95,10 @@ SunPosition sunPosition(const Moment& moment, double latitude, double longitude)
     const double meanLongitude = wrapped(280.46646 + century * (36000.76983 + century * 0.0003032));
     const double anomaly = 357.52911 + century * (35999.05029 - 0.0001537 * century);
     const double eccentricity = 0.016708634 - century * (0.000042037 + 0.0000001267 * century);
-    const double centre = sine(anomaly) * (1.914602 - century * (0.004817 + 0.000014 * century)) +
+    const double center = sine(anomaly) * (1.914602 - century * (0.004817 + 0.000014 * century)) +
                           sine(2 * anomaly) * (0.019993 - 0.000101 * century) + sine(3 * anomaly) * 0.000289;
     const double node = 125.04 - 1934.136 * century;
-    const double apparent = meanLongitude + centre - 0.00569 - 0.00478 * sine(node);
+    const double apparent = meanLongitude + center - 0.00569 - 0.00478 * sine(node);
     const double obliquity =
         23 + (26 + (21.448 - century * (46.815 + century * (0.00059 - century * 0.001813))) / 60) / 60 +
         0.00256 * cosine(node);

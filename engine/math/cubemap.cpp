@@ -29,16 +29,16 @@ vec3 cubeDirection(int face, float u, float v) {
 
 namespace {
 
-float texelCentre(int x, int size) { return (2.0f * float(x) + 1.0f) / float(size) - 1.0f; }
+float texelCenter(int x, int size) { return (2.0f * float(x) + 1.0f) / float(size) - 1.0f; }
 
 } // namespace
 
 vec3 cubeTexelDirection(int face, int x, int y, int size) {
-    return glm::normalize(cubeDirection(face, texelCentre(x, size), texelCentre(y, size)));
+    return glm::normalize(cubeDirection(face, texelCenter(x, size), texelCenter(y, size)));
 }
 
 float cubeTexelSolidAngle(int x, int y, int size) {
-    const float u = texelCentre(x, size), v = texelCentre(y, size);
+    const float u = texelCenter(x, size), v = texelCenter(y, size);
     const float squared = 1.0f + u * u + v * v;
     return 4.0f / (float(size) * float(size) * squared * std::sqrt(squared));
 }

@@ -2,7 +2,7 @@
 //
 // Faces 0 to 5 look along +X, -X, +Y, -Y, +Z, -Z (Vulkan 1.3 specification, table "Cube map face
 // selection"). On a face, u runs right and v down, both in [-1, 1]; texel (x, y) of a face of
-// `size` texels is centred at u = (2x + 1) / size - 1, v likewise.
+// `size` texels is centered at u = (2x + 1) / size - 1, v likewise.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -19,10 +19,10 @@ struct CubeFaceAxes {
 // Axes of `face`, 0 to 5.
 CubeFaceAxes cubeFaceAxes(int face);
 
-// Unnormalised direction of face coordinates (u, v); its length is sqrt(1 + u² + v²).
+// Unnormalized direction of face coordinates (u, v); its length is sqrt(1 + u² + v²).
 vec3 cubeDirection(int face, float u, float v);
 
-// Unit direction through the centre of a texel.
+// Unit direction through the center of a texel.
 vec3 cubeTexelDirection(int face, int x, int y, int size);
 
 // Solid angle of a texel by the midpoint rule: 4 / (size² (1 + u² + v²)^(3/2)), in steradian. Over a

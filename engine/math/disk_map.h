@@ -32,7 +32,7 @@ std::optional<vec3> diskMapDirection(DiskMapping mapping, vec2 coordinates);
 float diskMapSolidAngle(DiskMapping mapping, vec2 coordinates);
 
 // A direction with z at least kGrazingCosine: one at or below the horizon, as interpolated normals
-// give at silhouettes, is lifted to just above it and normalised. Every view lookup goes through it.
+// give at silhouettes, is lifted to just above it and normalized. Every view lookup goes through it.
 constexpr float kGrazingCosine = 1e-3f;
 vec3 liftAboveHorizon(vec3 local);
 

@@ -50,7 +50,7 @@ std::vector<std::string> materialNames(const Asset& asset) {
     return names;
 }
 
-void wear(Appearance& appearance, const Asset& asset, std::span<const WeightedMaterial> blend) {
+void bindMaterials(Appearance& appearance, const Asset& asset, std::span<const WeightedMaterial> blend) {
     RELUME_CHECK_EQ(appearance.size(), asset.parts.size());
     const std::vector<std::string> names = materialNames(asset);
     for (const WeightedMaterial& part : blend)
@@ -59,27 +59,27 @@ void wear(Appearance& appearance, const Asset& asset, std::span<const WeightedMa
                 fmt::format("no part has a material \"{}\"; did you mean \"{}\"? There are {}", part.name,
                             nearestName(part.name, std::vector<std::string_view>(names.begin(), names.end())),
                             fmt::join(names, ", ")));
-    bool worn = false;
+    bool bound = false;
     for (size_t i = 0; i < asset.parts.size(); i++)
         for (size_t set = 0; set < asset.parts[i].sets.size(); set++) {
             std::vector<float> weights = weightsIn(asset.parts[i].sets[set], blend);
             if (weights.empty()) continue;
             appearance[i] = {set, std::move(weights), false};
-            worn = true;
+            bound = true;
             break;
         }
-    if (!worn)
+    if (!bound)
         throw UsageError(
             fmt::format("no part has these materials in one set, where they could be blended: bake them as "
                         "one: {{\"set\": […]}}"));
 }
 
-std::vector<WornLayer> wornLayers(const AssetPart& part, const PartAppearance& appearance) {
+std::vector<BoundLayer> boundLayers(const AssetPart& part, const PartAppearance& appearance) {
     const MaterialSet& set = part.sets.at(appearance.set);
-    std::vector<WornLayer> layers;
+    std::vector<BoundLayer> layers;
     for (size_t m = 0; m < set.materials.size(); m++) {
         const AssetMaterial& material = set.materials[m];
-        WornLayer layer{material.layer};
+        BoundLayer layer{material.layer};
         if (appearance.painted) {
             if (m >= kPaintChannels) break;
             layer.channel = int(m);

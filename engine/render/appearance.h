@@ -1,5 +1,5 @@
-// What each part of an asset wears. Within a set a change costs nothing but itself: the next draw has it.
-// Another set's tuples must be relit first.
+// The materials that are bound to the parts of an asset. Within a set a change costs nothing but itself: the
+// next draw has it. Another set's tuples must be relit first.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -15,7 +15,7 @@ struct PartAppearance {
     size_t set = 0;
     // How much of each material of the set: a blend, whatever the weights sum to.
     std::vector<float> weights;
-    // By the part's material map or vertex colours instead: the weights of the first four materials there,
+    // By the part's material map or vertex colors instead: the weights of the first four materials there,
     // over their sum; where that is zero, the first material alone.
     bool painted = false;
 
@@ -27,30 +27,30 @@ using Appearance = std::vector<PartAppearance>; // one per part
 // Every part as it was baked to be: painted where it is, else in its first material.
 Appearance defaultAppearance(const Asset& asset);
 
-// All names that wear() knows, in order, each once.
+// All names that bindMaterials() knows, in order, each once.
 std::vector<std::string> materialNames(const Asset& asset);
 
-// Dresses every part that has materials of these names in one set, in the blend of these weights. Parts
-// without stay as they are. Throws UsageError for a name that no part has, naming the nearest, and for names
+// Binds the blend of these materials and weights to every part that has them all in one set. Other parts
+// stay as they are. Throws UsageError for a name that no part has, naming the nearest, and for names
 // that no part has in one set.
 struct WeightedMaterial {
     std::string name;
     float weight = 1;
 };
-void wear(Appearance& appearance, const Asset& asset, std::span<const WeightedMaterial> blend);
+void bindMaterials(Appearance& appearance, const Asset& asset, std::span<const WeightedMaterial> blend);
 
 // A layer of view maps that a part shows, and how much of it, is a product of three: `weight`; where
 // `channel` is 0 to 3, that channel of the paint over the sum of its channels; and where `textured`, the base
-// colour texture.
-struct WornLayer {
+// color texture.
+struct BoundLayer {
     int layer = 0;
     int channel = -1;
     bool textured = false;
     float weight = 1;
 };
-std::vector<WornLayer> wornLayers(const AssetPart& part, const PartAppearance& appearance);
+std::vector<BoundLayer> boundLayers(const AssetPart& part, const PartAppearance& appearance);
 
-// The factors of WornLayer from paint: channel / sum over the set's materials, or the first alone.
+// The factors of BoundLayer from paint: channel / sum over the set's materials, or the first alone.
 vec4 paintWeights(vec4 paint, size_t materials);
 
 } // namespace relume

@@ -11,7 +11,7 @@ std::optional<GroundFade> makeGroundFade(const Asset& asset) {
     const auto ground = std::ranges::find(asset.parts, "ground", &AssetPart::name);
     if (ground == asset.parts.end()) return std::nullopt;
     const Bounds object = objectBounds(asset), edges = boundsOf(ground->mesh);
-    const vec2 center(object.centre().x, object.centre().z), reach(object.extent().x, object.extent().z);
+    const vec2 center(object.center().x, object.center().z), reach(object.extent().x, object.extent().z);
     const float outer = std::min(
         {center.x - edges.low.x, edges.high.x - center.x, center.y - edges.low.z, edges.high.z - center.y});
     if (!(outer > 0)) return std::nullopt;

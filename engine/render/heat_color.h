@@ -1,4 +1,4 @@
-// Numbers as colours. GLSL twin: shaders/compare.frag.
+// Numbers as colors. GLSL twin: shaders/compare.frag.
 #pragma once
 
 #include "engine/math/vector.h"

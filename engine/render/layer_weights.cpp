@@ -2,10 +2,10 @@
 
 namespace relume {
 
-std::vector<vec3> layerWeights(const AssetPart& part, size_t set, std::span<const WornLayer> layers, vec2 uv,
+std::vector<vec3> layerWeights(const AssetPart& part, size_t set, std::span<const BoundLayer> layers, vec2 uv,
                                vec4 color) {
     std::vector<vec3> weights;
-    for (const WornLayer& layer : layers) {
+    for (const BoundLayer& layer : layers) {
         vec3 weight(layer.weight);
         if (layer.channel >= 0) {
             const vec4 paint = part.materialMap ? sample(*part.materialMap, uv) : color;

@@ -3,7 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/vk/upload.h"
 #include "shaders/light_haar_comp.h"
-#include "shaders/light_quantise_comp.h"
+#include "shaders/light_quantize_comp.h"
 #include "shaders/shared/render.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ LightPass::LightPass(const vk::Device& device, int faceSize)
     RELUME_CHECK_LE(coefficients(), kMaximumLightEntries);
     const vk::Constants size{uint32_t(faceSize)};
     mHaarProgram = vk::ComputeProgram(device, light_haar_comp_spirv, size, "light haar");
-    mQuantiseProgram = vk::ComputeProgram(device, light_quantise_comp_spirv, {}, "light quantise");
+    mQuantizeProgram = vk::ComputeProgram(device, light_quantize_comp_spirv, {}, "light quantize");
     mRadiance = vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light radiance");
     mCoefficients =
         vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light coefficients");
@@ -52,7 +52,7 @@ void LightPass::setCube(const LightCube& cube) {
 void LightPass::record(vk::Commands& commands, float rotation, const LightSelection& selection) {
     RELUME_CHECK(mLight || mHasCube);
     RELUME_CHECK(selection.threshold || selection.count > 0);
-    const shared::LightQuantisePush quantise{coefficients(),
+    const shared::LightQuantizePush quantize{coefficients(),
                                              kLightSumLimit,
                                              uint32_t(std::countr_zero(unsigned(mFaceSize))),
                                              selection.isAreaWeighted(),
@@ -70,8 +70,8 @@ void LightPass::record(vk::Commands& commands, float rotation, const LightSelect
         commands.dispatch(mHaarProgram, {mRadiance, mCoefficients}, 0, {1, 6, 3});
         commands.barrier(Stage::Compute, Stage::Compute);
     });
-    commands.pass("light quantise", [&] {
-        commands.dispatch(mQuantiseProgram, {mCoefficients, mTable, mStats, mWeights}, quantise, {1, 1, 1});
+    commands.pass("light quantize", [&] {
+        commands.dispatch(mQuantizeProgram, {mCoefficients, mTable, mStats, mWeights}, quantize, {1, 1, 1});
         commands.barrier(Stage::Compute, Stage::Compute);
         commands.barrier(Stage::Compute, Stage::Draw);
     });

@@ -1,5 +1,5 @@
-// Light change, first half: a light becomes the quantised coefficients that relighting multiplies with.
-// Everything stays on the device: sample → radiance → Haar → coefficients → quantise → table.
+// Light change, first half: a light becomes the quantized coefficients that relighting multiplies with.
+// Everything stays on the device: sample → radiance → Haar → coefficients → quantize → table.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -30,7 +30,7 @@ class LightPass {
     void setCube(const LightCube& cube);
 
     // Passes "light sample" (environments), "light sky", "light strokes", "light lamps", "light distant"
-    // (where there are any), "light haar", "light quantise". `rotation` in radians turns the light, as
+    // (where there are any), "light haar", "light quantize". `rotation` in radians turns the light, as
     // turned() does, but not a cube. Compute and draws may use the results at once. Recordings are to be
     // submitted in their order, and once: the table's changes are those since the recording before.
     void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {});
@@ -45,7 +45,7 @@ class LightPass {
     uint64_t recording() const { return mRecording; }
     uint64_t recordingBefore() const { return mRecordingBefore; }
 
-    // What selection and quantisation cost in the last submission of record(). Waits for the device.
+    // What selection and quantization cost in the last submission of record(). Waits for the device.
     LightStats readStats() const;
 
     // What the last submission of record() left, for tests and `relume verify`. They wait for the device.
@@ -57,7 +57,7 @@ class LightPass {
 
     const vk::Device& mDevice;
     int mFaceSize;
-    vk::ComputeProgram mHaarProgram, mQuantiseProgram;
+    vk::ComputeProgram mHaarProgram, mQuantizeProgram;
     LightSources mSources;
     std::optional<Light> mLight;
     bool mHasCube = false;

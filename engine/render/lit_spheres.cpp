@@ -200,7 +200,7 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
                 {texels(mLights),
                  {set.lightMaps.image, isPolar(DiskMapping(set.mapping)) ? mPolarSampler : mSampler},
                  mTupleTexels},
-                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGrey, set.firstImage, mTupleRows,
+                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGray, set.firstImage, mTupleRows,
                                      set.isTurned},
                 {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});
         }

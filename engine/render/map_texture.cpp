@@ -11,9 +11,9 @@ namespace relume {
 
 ViewMapTexture makeViewMapTexture(const vk::Device& device, const FactoredBrdf& brdf, std::string_view name) {
     ViewMapTexture packed;
-    packed.isGrey =
+    packed.isGray =
         std::ranges::all_of(brdf.viewMaps, [](const vec3& v) { return v.x == v.y && v.y == v.z; });
-    const int channels = packed.isGrey ? 1 : 3;
+    const int channels = packed.isGray ? 1 : 3;
     packed.imagesPerLayer = uint32_t(channels * brdf.terms + 3) / 4;
     const uint32_t images = uint32_t(brdf.layers) * packed.imagesPerLayer;
     if (images > device.limits().maxImageArrayLayers)

@@ -8,10 +8,10 @@
 namespace relume {
 
 // View maps packed by fours, since a lookup costs as much for one value as for four. Of a layer's K maps,
-// image i of the layer holds in its channels the terms 4i to 4i + 3 where all maps are grey; else values 4i
+// image i of the layer holds in its channels the terms 4i to 4i + 3 where all maps are gray; else values 4i
 // to 4i + 3 of those that lie term after term, red, green and blue of each. Channels left over are zero.
 struct ViewMapTexture {
-    bool isGrey = false;
+    bool isGray = false;
     uint32_t imagesPerLayer = 0;
     vk::Image image; // layer after layer, 32-bit float
 };

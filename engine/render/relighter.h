@@ -27,7 +27,7 @@ class Relighter {
     // device cannot relight a layout.
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
-    // Pass "relight": tuples of every part's worn set (none given: the first) under the light recorded
+    // Pass "relight": tuples of every part's bound set (none given: the first) under the light recorded
     // before. Draws may use them at once. Those of other sets stay as they are. Recordings are to be
     // submitted in their order, and once: tuples may be made from those of the light before.
     void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {});

@@ -64,9 +64,9 @@ TriangleClusters::TriangleClusters(const Mesh& mesh) {
                 shortest = std::min(shortest, float(edge));
             mPlanes.push_back(planeOf(triangle));
         }
-        const vec3 centre = bounds.centre();
-        const float radius = 1.0001f * bounds.radius() + 4 * kRounding * glm::length(centre);
-        mClusters.push_back({centre, radius, shortest});
+        const vec3 center = bounds.center();
+        const float radius = 1.0001f * bounds.radius() + 4 * kRounding * glm::length(center);
+        mClusters.push_back({center, radius, shortest});
     }
 }
 
@@ -80,12 +80,12 @@ bool TriangleClusters::showsBacksAlone(size_t number, const ClusterView& view) c
     if (!(height(first) > 0)) return false; // most that show fronts are done
     const Cluster& cluster = mClusters[number];
     const vec3 forward(glm::row(view.clipFromWorld, 3));
-    const float depth = glm::dot(forward, cluster.centre - view.eye);
+    const float depth = glm::dot(forward, cluster.center - view.eye);
     const float nearest = depth - cluster.radius, farthest = depth + cluster.radius;
     if (!(nearest > 0)) return false;
     // How much longer places are in the image than the depth says.
-    const float aslant = 1 + (glm::distance(cluster.centre, view.eye) + cluster.radius) / nearest;
-    const float reach = glm::length(view.eye) + glm::length(cluster.centre) + cluster.radius;
+    const float aslant = 1 + (glm::distance(cluster.center, view.eye) + cluster.radius) / nearest;
+    const float reach = glm::length(view.eye) + glm::length(cluster.center) + cluster.radius;
     const float away = view.pixelFraction / view.focalLength + kRounding * aslant * reach / nearest;
     const float least =
         farthest * farthest * farthest * (6 * away * aslant / nearest + 8 * away * away / cluster.shortest);
@@ -100,7 +100,7 @@ std::vector<TriangleRun> TriangleClusters::visible(const ClusterView& view) cons
     for (size_t i = 0; i < mClusters.size(); i++) {
         const Cluster& cluster = mClusters[i];
         const bool isBeyondOne = std::ranges::any_of(planes, [&](const vec4& plane) {
-            return glm::dot(vec3(plane), cluster.centre) + plane.w < -cluster.radius;
+            return glm::dot(vec3(plane), cluster.center) + plane.w < -cluster.radius;
         });
         if (isBeyondOne || (view.hidesBacks && showsBacksAlone(i, view))) continue;
         const auto first = uint32_t(i * kClusterTriangles);

@@ -18,7 +18,7 @@ struct TriangleRun {
     uint32_t first, count;
 };
 
-// Consecutive triangles by the few: those of a bake are neighbours that face alike (docs/view_speed.md).
+// Consecutive triangles by the few: those of a bake are neighbors that face alike (docs/view_speed.md).
 class TriangleClusters {
   public:
     TriangleClusters() = default;
@@ -30,7 +30,7 @@ class TriangleClusters {
 
   private:
     struct Cluster {
-        vec3 centre;
+        vec3 center;
         float radius;   // a little more, for rounding
         float shortest; // of its triangles' longest edges, those of no length aside
     };

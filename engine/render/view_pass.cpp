@@ -213,7 +213,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
                                         : shared::kUnpainted;
     const Texture white{1, 1, {0xffffffff}};
     part.baseColor =
-        makeSurfaceTexture(mDevice, source.baseColor.value_or(white), source.name + " base colour");
+        makeSurfaceTexture(mDevice, source.baseColor.value_or(white), source.name + " base color");
     part.materialMap =
         makeSurfaceTexture(mDevice, source.materialMap.value_or(white), source.name + " material map");
     part.normalMap =
@@ -230,7 +230,7 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
         mostLayers = std::max(mostLayers, 2 * set.materials.size());
     }
     part.layers = vk::Buffer(mDevice, sizeof(shared::ViewDetail) + mostLayers * sizeof(shared::ViewLayer),
-                             vk::BufferUse::Device, source.name + " worn layers");
+                             vk::BufferUse::Device, source.name + " bound layers");
     return part;
 }
 
@@ -254,19 +254,19 @@ void ViewPass::setAppearance(const Appearance& appearance) {
     RELUME_CHECK_EQ(appearance.size(), mParts.size());
     for (size_t i = 0; i < mParts.size(); i++) {
         Part& part = mParts[i];
-        part.worn = appearance[i];
-        part.wornLayers.clear();
-        for (const WornLayer& layer : wornLayers(mAsset.parts[i], part.worn))
-            part.wornLayers.push_back({uint32_t(layer.layer) * wornSet(part).viewMaps.imagesPerLayer,
-                                       layer.channel, layer.textured, layer.weight, 0, 0});
-        part.look = lookOf(part.wornLayers, part.isDetailed);
+        part.bound = appearance[i];
+        part.boundLayers.clear();
+        for (const BoundLayer& layer : boundLayers(mAsset.parts[i], part.bound))
+            part.boundLayers.push_back({uint32_t(layer.layer) * boundSet(part).viewMaps.imagesPerLayer,
+                                        layer.channel, layer.textured, layer.weight, 0, 0});
+        part.look = lookOf(part.boundLayers, part.isDetailed);
     }
 }
 
 const vk::GraphicsProgram& ViewPass::shadeProgram(const Set& set, const Shading& shading) {
     const bool isOfEdges = shading.pixels == Pixels::Edges;
     const vk::Constants constants = {set.terms,
-                                     uint32_t(set.viewMaps.isGrey),
+                                     uint32_t(set.viewMaps.isGray),
                                      shading.look,
                                      uint32_t(shading.allTerms),
                                      shading.estimate,
@@ -423,15 +423,15 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
     std::set<uint32_t> kernels, nodes;
     for (size_t i = 0; i < mParts.size(); i++) {
         Part& part = mParts[i];
-        const ResidualSet* residual = residualOf(i, part.worn.set, relighter);
+        const ResidualSet* residual = residualOf(i, part.bound.set, relighter);
         const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
-        if (!residual || !rays || part.surfaces == 0 || part.wornLayers.empty()) continue;
+        if (!residual || !rays || part.surfaces == 0 || part.boundLayers.empty()) continue;
         const vec2 size(float(mColor.options().width), float(mColor.options().height));
         const vec4 rectangle = 0.5f * (rays->rectangle + 1.0f) * vec4(size, size);
         addGridNodes(nodes, rays->corner, rays->right, rays->down, vec2(rectangle),
                      {rectangle.z, rectangle.w});
-        for (shared::ViewLayer& layer : part.wornLayers) {
-            const size_t number = layer.firstMap / wornSet(part).viewMaps.imagesPerLayer;
+        for (shared::ViewLayer& layer : part.boundLayers) {
+            const size_t number = layer.firstMap / boundSet(part).viewMaps.imagesPerLayer;
             const uint32_t kernel = relighter.spheres().kernel(residual->layers[number].get());
             layer.firstSlot = kernel * shared::kGridNodes;
             layer.harmonics = uint32_t(residual->layers[number]->harmonics);
@@ -446,10 +446,10 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
 void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, const Relighter& relighter,
                      Pixels pixels) {
     const Part& part = mParts[number];
-    const Set& set = wornSet(part);
+    const Set& set = boundSet(part);
     const LitSpheres& spheres = relighter.spheres();
-    const ResidualSet* residual = residualOf(number, part.worn.set, relighter);
-    const vk::Buffer& tuples = relighter.tuples(number, part.worn.set);
+    const ResidualSet* residual = residualOf(number, part.bound.set, relighter);
+    const vk::Buffer& tuples = relighter.tuples(number, part.bound.set);
     const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
     if (!rays || part.surfaces == 0) return;
     const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
@@ -459,18 +459,18 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                                      part.firstSurface,
                                      part.surfaces,
                                      uint32_t(set.mapping),
-                                     isSingle ? part.wornLayers[0].firstMap : 0,
-                                     isSingle ? part.wornLayers[0].weight : 0,
-                                     uint32_t(part.wornLayers.size()),
-                                     part.worn.painted ? part.paint : shared::kUnpainted,
+                                     isSingle ? part.boundLayers[0].firstMap : 0,
+                                     isSingle ? part.boundLayers[0].weight : 0,
+                                     uint32_t(part.boundLayers.size()),
+                                     part.bound.painted ? part.paint : shared::kUnpainted,
                                      set.materials,
                                      usesAll ? set.terms : uint32_t(mTerms),
-                                     isSingle ? part.wornLayers[0].firstSlot : 0,
+                                     isSingle ? part.boundLayers[0].firstSlot : 0,
                                      residual ? spheres.firstTuples(residual) : 0,
                                      residual ? spheres.firstWeight(residual) : 0,
                                      fades ? vec4(mGroundFade->center, mGroundFade->inner, mGroundFade->outer)
                                            : vec4(0)};
-    const uint32_t harmonics = isSingle && residual ? part.wornLayers[0].harmonics : mostHarmonics(residual);
+    const uint32_t harmonics = isSingle && residual ? part.boundLayers[0].harmonics : mostHarmonics(residual);
     commands.bind(shadeProgram(set, {part.look, usesAll, estimateOf(residual), harmonics, pixels}),
                   {{mSurfaces, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
@@ -516,9 +516,9 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
     if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)
-        if (!part.wornLayers.empty()) {
+        if (!part.boundLayers.empty()) {
             const auto detail = std::as_bytes(std::span(&part.detail, 1));
-            const auto layers = std::as_bytes(std::span(part.wornLayers));
+            const auto layers = std::as_bytes(std::span(part.boundLayers));
             std::vector<std::byte> bytes(detail.begin(), detail.end());
             bytes.insert(bytes.end(), layers.begin(), layers.end());
             commands.update(part.layers, bytes);

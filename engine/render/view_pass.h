@@ -23,7 +23,7 @@ struct ViewOptions {
     bool isUnshadowed = false;
 };
 
-// What an image shows instead of radiance: triangles' edges; normals, as normal maps are coloured; how much
+// What an image shows instead of radiance: triangles' edges; normals, as normal maps are colored; how much
 // smaller (red) or larger (blue) triangles are than the asset's median.
 enum class Inspect { Off, Wireframe, Normals, Density };
 
@@ -42,8 +42,8 @@ class ViewPass {
     // The sample count in use.
     int samples() const { return mSamples; }
 
-    // What parts wear from the next record() on; the default appearance until then. Nothing waits: the change
-    // travels with the commands.
+    // Binds materials to parts from the next record() on; the default appearance until then. Nothing waits:
+    // the change travels with the commands.
     void setAppearance(const Appearance& appearance);
 
     // From the next record() on every part shows the first `terms` of its K only; 0 or K and more: all.
@@ -94,10 +94,10 @@ class ViewPass {
         shared::ViewDetail detail;
         bool isDetailed; // by detail
         std::vector<Set> sets;
-        vk::Buffer layers; // shared::ViewDetail, and shared::ViewLayer, as many as can be worn
-        PartAppearance worn;
+        vk::Buffer layers; // shared::ViewDetail, and shared::ViewLayer, as many as can be bound
+        PartAppearance bound;
         uint32_t look = 0; // what that asks of the shader
-        std::vector<shared::ViewLayer> wornLayers;
+        std::vector<shared::ViewLayer> boundLayers;
     };
     // A camera, for an image of a size.
     struct Frame {
@@ -110,12 +110,12 @@ class ViewPass {
 
     Part makePart(const AssetPart& source, uint32_t firstSurface);
     Set makeSet(const MaterialSet& source, const std::string& name);
-    static const Set& wornSet(const Part& part) { return part.sets[part.worn.set]; }
+    static const Set& boundSet(const Part& part) { return part.sets[part.bound.set]; }
     // The pixels that a program shades: All with one sample a pixel; with several, Inner ones are shaded once
     // and Edges once per group of samples.
     enum class Pixels { All, Inner, Edges };
     // A shading tells a program what it shades, and how. `look`: shared::kSingleLook and so on; `estimate`:
-    // shared::kTermsAlone and so on; `harmonics`: of the worn layers' lit spheres, at most.
+    // shared::kTermsAlone and so on; `harmonics`: of the bound layers' lit spheres, at most.
     struct Shading {
         uint32_t look;
         bool allTerms;
@@ -140,7 +140,7 @@ class ViewPass {
     uint32_t estimateOf(const ResidualSet* residual) const;
     // Null if the part shows the K terms alone with this set bound.
     const ResidualSet* residualOf(size_t part, size_t set, const Relighter& relighter) const;
-    // Makes the lit spheres that the worn layers of all parts need.
+    // Makes the lit spheres that the bound layers of all parts need.
     void recordSpheres(vk::Commands& commands, const Frame& frame, const Relighter& relighter);
     void inspect(vk::Commands& commands, const Frame& frame, const Part& part);
     // None: it is not seen.

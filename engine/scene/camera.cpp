@@ -22,7 +22,7 @@ View viewOf(const Camera& camera) {
 
 mat4 Camera::clipFromWorld(float aspect, const Bounds& scene) const {
     const View view = viewOf(*this);
-    const float depth = glm::dot(scene.centre() - eye, view.forward), radius = scene.radius();
+    const float depth = glm::dot(scene.center() - eye, view.forward), radius = scene.radius();
     const float far = std::max(1.01f * (depth + radius), 1e-3f * radius);
     const float near = std::max(0.99f * (depth - radius), 1e-3f * far);
     const float yScale = 1 / std::tan(0.5f * verticalFov), xScale = yScale / aspect;
@@ -48,7 +48,7 @@ Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float d
                           std::cos(azimuth) * std::cos(rise));
     const float halfAngle = std::atan(std::tan(0.5f * verticalFov) * std::min(1.0f, aspect));
     const float reach = distance * bounds.radius() / std::sin(halfAngle);
-    return {bounds.centre() + reach * towardsEye, bounds.centre(), verticalFov};
+    return {bounds.center() + reach * towardsEye, bounds.center(), verticalFov};
 }
 
 Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect) {
@@ -59,7 +59,7 @@ Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect) {
     float reach = 0; // from which every corner is seen
     for (int corner = 0; corner < 8; corner++) {
         const vec3 place = glm::mix(bounds.low, bounds.high, vec3(corner & 1, corner >> 1 & 1, corner >> 2)) -
-                           bounds.centre();
+                           bounds.center();
         reach = std::max(
             {reach,
              std::abs(glm::dot(place, view.right)) / (tangent * aspect) - glm::dot(place, view.forward),

@@ -14,7 +14,7 @@ struct Camera {
     // `scene` bounds what is seen and decides the near and far planes.
     mat4 clipFromWorld(float aspect, const Bounds& scene) const;
 
-    // Unit direction through the centre of pixel (x, y), y down from the top.
+    // Unit direction through the center of pixel (x, y), y down from the top.
     vec3 pixelDirection(int x, int y, int width, int height) const {
         return directionAt({float(x) + 0.5f, float(y) + 0.5f}, width, height);
     }

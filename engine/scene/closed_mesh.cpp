@@ -72,7 +72,7 @@ std::vector<bool> findClosedTriangles(const Mesh& mesh) {
         first = end;
     }
     std::vector<double> volumes(mesh.triangleCount(), 0);
-    const glm::dvec3 middle(boundsOf(mesh).centre());
+    const glm::dvec3 middle(boundsOf(mesh).center());
     for (uint32_t t = 0; t < mesh.triangleCount(); t++)
         volumes[root(pieces, t)] += volumeBehind(mesh, t, middle);
 

@@ -10,7 +10,7 @@ namespace relume {
 
 constexpr int kMaxTerms = 32; // K
 
-// f_j(ωi, ωo) ≈ Σk lightMap_k(ωi) viewMap_jk(ωo), per colour channel; ωi and ωo in the local frame. The
+// f_j(ωi, ωo) ≈ Σk lightMap_k(ωi) viewMap_jk(ωo), per color channel; ωi and ωo in the local frame. The
 // layers j are BRDFs, or parts of one, that share their light maps: what is baked with them serves all. Maps
 // are `size` × `size` texels, row by row, term after term, layer after layer, already extended beyond the
 // disk's rim so that bilinear lookups near it need no special case.

@@ -35,7 +35,7 @@ struct Bounds {
 
     void add(vec3 point) { low = glm::min(low, point), high = glm::max(high, point); }
     void add(const Bounds& other) { low = glm::min(low, other.low), high = glm::max(high, other.high); }
-    vec3 centre() const { return 0.5f * (low + high); }
+    vec3 center() const { return 0.5f * (low + high); }
     vec3 extent() const { return high - low; }
     // Radius of the sphere around the box: the scene's unit of length.
     float radius() const { return 0.5f * glm::length(extent()); }

@@ -12,10 +12,10 @@ float concentrationOf(const SphereKernel& kernel) {
     double peak = 0, sum = 0, all = 0;
     for (size_t ring = 0; ring < kRings; ring++) {
         const vec3 value = kernel.values[ring];
-        const double grey = double(value.x + value.y + value.z);
+        const double gray = double(value.x + value.y + value.z);
         const double solidAngle = std::sin(double(kPi) * (double(ring) + 0.5) / double(kRings));
-        peak = std::max(peak, grey);
-        sum += grey * solidAngle, all += solidAngle;
+        peak = std::max(peak, gray);
+        sum += gray * solidAngle, all += solidAngle;
     }
     return sum > 0 ? float(std::max(peak * all / sum, 1.0)) : 1;
 }

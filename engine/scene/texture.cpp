@@ -49,7 +49,7 @@ Cover cover(int index, int size) {
 }
 
 // Where along one axis of `size` texels a coordinate falls: the texel before it, and how far it is beyond
-// that texel's centre.
+// that texel's center.
 struct Footprint {
     int before, after;
     float weight; // of `after`

@@ -15,11 +15,11 @@
 
 namespace relume {
 
-// A BRDF that a part can wear.
+// A BRDF that a part can binding.
 struct AssetMaterial {
     std::string name;        // As it is chosen by; unique within its part
     std::string description; // The BRDF: a JSON object {"model": …, parameters…}, as text.
-    // Of the set's view maps: all of f; or, if `hasBase`, f without what the part's base colour texture
+    // Of the set's view maps: all of f; or, if `hasBase`, f without what the part's base color texture
     // multiplies, and that in layer + 1.
     int layer = 0;
     bool hasBase = false;
@@ -82,7 +82,7 @@ struct Asset {
     int transportSamples = 1;    // light-map evaluations per lighting texel
     int bounces = 0;             // reflections between surfaces that the transport has, besides the last
     float visibilityOffset = 0;  // distance a vertex was lifted along its normal
-    float quantisationError = 0; // relative L2 over all rows, as measured during the bake
+    float quantizationError = 0; // relative L2 over all rows, as measured during the bake
     float truncationError = 0;   // relative L2 over all rows lost by keeping N, as measured during the bake
     std::optional<LayoutRecord> layout = std::nullopt; // none: rows as baked, or of before this was kept
     Mesh occluder;                                     // Positions and triangles that cast the shadows

@@ -35,7 +35,7 @@ void checkSettings(const Asset& asset, const std::string& name) {
     const int perSide = asset.visibilitySize / asset.faceSize;
     expectRange(asset.transportSamples, 1, perSide * perSide, name, "transport samples");
     expect(isSquare(asset.transportSamples), name, "a square number of transport samples");
-    expect(isMagnitude(asset.visibilityOffset) && isMagnitude(asset.quantisationError) &&
+    expect(isMagnitude(asset.visibilityOffset) && isMagnitude(asset.quantizationError) &&
                isMagnitude(asset.truncationError),
            name, "an offset and errors that are finite and not negative");
     if (asset.layout) {
@@ -98,7 +98,7 @@ void checkTexture(const Texture& texture, const Mesh& mesh, const std::string& w
 void checkPaint(const AssetPart& part, const std::string& where) {
     const Mesh& mesh = part.mesh;
     if (!mesh.uvs.empty()) expectCount(mesh.uvs.size(), mesh.vertexCount(), where, "texture coordinates");
-    if (!mesh.colors.empty()) expectCount(mesh.colors.size(), mesh.vertexCount(), where, "vertex colours");
+    if (!mesh.colors.empty()) expectCount(mesh.colors.size(), mesh.vertexCount(), where, "vertex colors");
     expect(std::ranges::all_of(mesh.uvs, [](vec2 uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }),
            where, "finite texture coordinates");
     expect(std::ranges::all_of(mesh.colors,
@@ -106,11 +106,11 @@ void checkPaint(const AssetPart& part, const std::string& where) {
                                    return glm::all(glm::greaterThanEqual(c, vec4(0))) &&
                                           glm::all(glm::lessThanEqual(c, vec4(1)));
                                }),
-           where, "vertex colours in [0, 1]");
+           where, "vertex colors in [0, 1]");
     if (part.baseColor) checkTexture(*part.baseColor, mesh, where);
     if (part.materialMap) checkTexture(*part.materialMap, mesh, where);
     expect(!part.tintedByColors || (!mesh.colors.empty() && !part.paintedByColors), where,
-           "vertex colours that do not paint, where they tint");
+           "vertex colors that do not paint, where they tint");
     const SurfaceDetail& detail = part.detail;
     if (detail.normalMap) checkTexture(*detail.normalMap, mesh, where);
     if (detail.emissionMap) checkTexture(*detail.emissionMap, mesh, where);
@@ -119,7 +119,7 @@ void checkPaint(const AssetPart& part, const std::string& where) {
                glm::all(glm::lessThanEqual(detail.emission, vec3(kLargestEmission))),
            where, "an emission of 0 to 1e6");
     expect(!part.paintedByColors || (!mesh.colors.empty() && !part.materialMap), where,
-           "vertex colours, and no material map, where colours paint");
+           "vertex colors, and no material map, where colors paint");
 }
 
 void checkMaterials(const AssetPart& part, const std::string& where) {
@@ -134,7 +134,7 @@ void checkMaterials(const AssetPart& part, const std::string& where) {
             layer += material.layers();
             expect(std::ranges::none_of(material.name, [](char c) { return uint8_t(c) < 0x20 || c == 0x7f; }),
                    where, "material names without control characters");
-            expect(!material.hasBase || part.hasBaseColor(), where, "a base colour for a material's base");
+            expect(!material.hasBase || part.hasBaseColor(), where, "a base color for a material's base");
         }
         expectRange(set.brdf.layers, layer, layer, where, "layers of view maps");
     }

@@ -261,7 +261,7 @@ std::vector<std::byte> encodeMeta(const Asset& asset, const AssetSizes& sizes,
     out.whole(uint64_t(asset.coefficients));
     out.whole(uint64_t(asset.transportSamples));
     out.real(asset.visibilityOffset);
-    out.real(asset.quantisationError);
+    out.real(asset.quantizationError);
     out.real(asset.truncationError);
     out.flag(asset.layout.has_value());
     if (asset.layout) {
@@ -312,7 +312,7 @@ AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name) 
     asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
     asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
     asset.visibilityOffset = in.real("visibilityOffset");
-    asset.quantisationError = in.real("quantisationError");
+    asset.quantizationError = in.real("quantizationError");
     asset.truncationError = in.real("truncationError");
     if (in.flag("layout")) {
         LayoutRecord& layout = asset.layout.emplace();

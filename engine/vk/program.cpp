@@ -41,8 +41,8 @@ class Module {
     VkShaderModule mModule = VK_NULL_HANDLE;
 };
 
-struct Specialisation {
-    explicit Specialisation(const Constants& constants) {
+struct Specialization {
+    explicit Specialization(const Constants& constants) {
         for (uint32_t i = 0; i < constants.size(); i++) entries.push_back({i, i * 4, 4});
         info = {uint32_t(entries.size()), entries.data(), constants.size() * 4, constants.data()};
     }
@@ -119,9 +119,9 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
                     device.limits().maxComputeWorkGroupInvocations);
 
     const Module module(device, used, name);
-    const Specialisation specialisation(constants);
+    const Specialization specialization(constants);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialisation.info);
+    create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialization.info);
     create.layout = mLayout;
     const VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
         VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO, nullptr,
@@ -145,10 +145,10 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     createLayout(device, interfaces, name);
 
     const Module vertex(device, usedVertex, name), fragment(device, usedFragment, name);
-    const Specialisation specialisation(constants);
+    const Specialization specialization(constants);
     const VkPipelineShaderStageCreateInfo stages[] = {
-        vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialisation.info),
-        fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT, specialisation.info)};
+        vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialization.info),
+        fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT, specialization.info)};
     const VkVertexInputBindingDescription tight{0, sizeof(vec3), VK_VERTEX_INPUT_RATE_VERTEX};
     const VkVertexInputAttributeDescription position{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};

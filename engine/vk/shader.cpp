@@ -47,15 +47,15 @@ uint32_t pushConstantBytes(spvc_compiler compiler, spvc_resources resources) {
 
 std::array<uint32_t, 3> groupSize(spvc_compiler compiler, const Constants& constants) {
     std::array<uint32_t, 3> size{1, 1, 1};
-    spvc_specialization_constant specialised[3]{};
-    spvc_compiler_get_work_group_size_specialization_constants(compiler, &specialised[0], &specialised[1],
-                                                               &specialised[2]);
+    spvc_specialization_constant specialized[3]{};
+    spvc_compiler_get_work_group_size_specialization_constants(compiler, &specialized[0], &specialized[1],
+                                                               &specialized[2]);
     for (unsigned axis = 0; axis < 3; axis++) {
         size[axis] =
             spvc_compiler_get_execution_mode_argument_by_index(compiler, SpvExecutionModeLocalSize, axis);
-        if (specialised[axis].id == 0) continue;
-        RELUME_CHECK_LT(specialised[axis].constant_id, constants.size());
-        size[axis] = constants[specialised[axis].constant_id];
+        if (specialized[axis].id == 0) continue;
+        RELUME_CHECK_LT(specialized[axis].constant_id, constants.size());
+        size[axis] = constants[specialized[axis].constant_id];
     }
     return size;
 }

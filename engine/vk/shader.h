@@ -14,10 +14,10 @@ struct ShaderInterface {
     std::map<uint32_t, VkDescriptorType> bindings; // of descriptor set 0, by binding number
     uint32_t pushConstantBytes = 0;
     std::array<uint32_t, 3> groupSize{1, 1,
-                                      1}; // compute only, with specialisation constants at their given values
+                                      1}; // compute only, with specialization constants at their given values
 };
 
-// Specialisation constants: element i is the value of constant_id i. Kernels number theirs from 0.
+// Specialization constants: element i is the value of constant_id i. Kernels number theirs from 0.
 using Constants = std::vector<uint32_t>;
 
 ShaderInterface reflect(std::span<const uint32_t> spirv, const Constants& constants);

@@ -294,7 +294,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     BakePlan plan{options};
     plan.asset = std::move(skeleton);
     describeTo(device, options, plan.asset);
-    plan.asset.truncationError = plan.asset.quantisationError = 0;
+    plan.asset.truncationError = plan.asset.quantizationError = 0;
     const bool didShareTerms = sharesTerms(plan.asset); // with bounces that were asked for, if any
 
     const Clock::time_point stage = Clock::now();

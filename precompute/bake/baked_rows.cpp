@@ -44,7 +44,7 @@ static float relative(double lost, double total) { return total > 0 ? float(std:
 
 void setErrors(const TransportLosses& losses, Asset& asset) {
     asset.truncationError = relative(losses.dropped, losses.total);
-    asset.quantisationError = relative(losses.quantised, losses.total - losses.dropped);
+    asset.quantizationError = relative(losses.quantized, losses.total - losses.dropped);
     if (!asset.layout) return;
     uint64_t vertices = 0; // each set's are of its own unit
     for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount() * part.sets.size();

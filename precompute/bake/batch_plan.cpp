@@ -19,7 +19,7 @@ constexpr uint64_t kHostBytesPerEntry = 32;
 uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
                    const BakeLimits& limits) {
     const auto size = uint64_t(options.visibilitySize);
-    // The rasteriser's layers: one byte a texel, before packing.
+    // The rasterizer's layers: one byte a texel, before packing.
     const bool isDrawn = options.visibilityMethod != VisibilityMethod::Traced;
     const uint64_t blockedBytes = isDrawn ? 6 * size * size : 0;
     const uint32_t layers = device.info().outputsLayers ? device.info().largestLayerCount : UINT32_MAX;

@@ -150,7 +150,7 @@ void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t fi
             TransportLosses& losses = baked.losses[row];
             losses.total += energies.total - energyOf(baked.transport, row);
             losses.dropped += energies.dropped;
-            losses.quantised += energies.quantised;
+            losses.quantized += energies.quantized;
         }
         rows.vertices = baked.transport.vertices;
         baked.transport = std::move(rows);

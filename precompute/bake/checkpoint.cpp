@@ -49,14 +49,14 @@ uint64_t recordChecksum(std::span<const std::byte> header, std::span<const std::
 }
 
 void putLosses(ByteWriter& out, const TransportLosses& losses) {
-    for (double sum : {losses.total, losses.dropped, losses.quantised, losses.layout})
+    for (double sum : {losses.total, losses.dropped, losses.quantized, losses.layout})
         out.put(std::bit_cast<uint64_t>(sum));
 }
 
 TransportLosses getLosses(ByteReader& in) {
     const auto next = [&] { return std::bit_cast<double>(in.get<uint64_t>()); };
-    const double total = next(), dropped = next(), quantised = next();
-    return {total, dropped, quantised, next()};
+    const double total = next(), dropped = next(), quantized = next();
+    return {total, dropped, quantized, next()};
 }
 
 void putChunk(ByteWriter& out, const ChunkEntry& entry) {

@@ -1,7 +1,7 @@
 #include "precompute/bake/coarse_rows.h"
 
 #include "precompute/bake/bounced_transport.h"
-#include "precompute/bake/coarse_neighbours.h"
+#include "precompute/bake/coarse_neighbors.h"
 #include "precompute/bake/coarse_vertices.h"
 #include "precompute/bake/row_interpolation.h"
 #include "precompute/bake/vertex_rows.h"
@@ -53,16 +53,15 @@ void CoarseRows::interpolate(const BakePlan& plan, std::span<const uint32_t> blo
                              const std::function<void(uint32_t block, StoredBlock stored)>& store,
                              BakeObserver& observer) const {
     const int faceSize = plan.asset.faceSize, kept = std::min(plan.asset.coefficients, kMostInterpolated);
-    std::vector<std::optional<CoarseNeighbours>> neighbours(mParts.size());
+    std::vector<std::optional<CoarseNeighbors>> neighbors(mParts.size());
     for (size_t part = 0; part < mParts.size(); part++)
         if (!mParts[part].vertices.empty())
-            neighbours[part].emplace(plan.asset.parts[part].mesh, mParts[part].vertices,
-                                     mParts[part].spacing);
+            neighbors[part].emplace(plan.asset.parts[part].mesh, mParts[part].vertices, mParts[part].spacing);
     const auto interpolated = [&](uint32_t block) {
         const BakeBlock& place = plan.blocks[block];
-        std::vector<std::vector<CoarseNeighbour>> of;
+        std::vector<std::vector<CoarseNeighbor>> of;
         for (uint32_t vertex = place.first; vertex < place.end; vertex++)
-            of.push_back(neighbours[place.part]->of(vertex));
+            of.push_back(neighbors[place.part]->of(vertex));
         BakedBlock made;
         for (size_t set = 0; set < plan.asset.parts[place.part].sets.size(); set++) {
             const BakedRows& from = mRows[plan.firstSet[place.part] + set];

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "precompute/bake/baked_rows.h"
-#include "precompute/bake/coarse_neighbours.h"
+#include "precompute/bake/coarse_neighbors.h"
 #include "precompute/transport/row_sum.h"
 
 namespace relume {
@@ -13,12 +13,12 @@ class RowInterpolator {
     // `coarse` outlives it. Rows keep the `kept` largest of `coefficients` coefficients.
     RowInterpolator(const BakedRows& coarse, int coefficients, int kept);
 
-    // Appends a vertex's rows: sums of its neighbours' times their shares, packed as any (packLargest); those
-    // of a single neighbour as they are. What they lost is taken to be what the neighbours did.
-    void append(std::span<const CoarseNeighbour> neighbours, BakedRows& rows);
+    // Appends a vertex's rows: sums of its neighbors' times their shares, packed as any (packLargest); those
+    // of a single neighbor as they are. What they lost is taken to be what the neighbors did.
+    void append(std::span<const CoarseNeighbor> neighbors, BakedRows& rows);
 
   private:
-    void appendSum(std::span<const CoarseNeighbour> neighbours, uint32_t term, BakedRows& rows);
+    void appendSum(std::span<const CoarseNeighbor> neighbors, uint32_t term, BakedRows& rows);
 
     const BakedRows& mCoarse;
     int mKept;

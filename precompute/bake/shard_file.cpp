@@ -34,7 +34,7 @@ void addLosses(ChunkWriter& file, std::span<const TransportLosses> losses) {
         const auto own = losses.first(std::min(losses.size(), kLossesPerChunk));
         ByteWriter out;
         for (const TransportLosses& loss : own)
-            for (double sum : {loss.total, loss.dropped, loss.quantised, loss.layout})
+            for (double sum : {loss.total, loss.dropped, loss.quantized, loss.layout})
                 out.put(std::bit_cast<uint64_t>(sum));
         file.add(kBlockLosses, kWholeFile, run, out.bytes());
         losses = losses.subspan(own.size());
@@ -146,7 +146,7 @@ std::vector<TransportLosses> ShardFile::losses(uint32_t blocks) const {
             TransportLosses& loss = losses.emplace_back();
             loss.total = next();
             loss.dropped = next();
-            loss.quantised = next();
+            loss.quantized = next();
             loss.layout = next();
         }
     }

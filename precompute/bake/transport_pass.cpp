@@ -3,7 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/vk/upload.h"
 #include "shaders/compact_comp.h"
-#include "shaders/quantise_comp.h"
+#include "shaders/quantize_comp.h"
 #include "shaders/row_starts_comp.h"
 #include "shaders/select_comp.h"
 #include "shaders/transport_comp.h"
@@ -112,14 +112,14 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
                    uint32_t(brdf.mapping), terms, tuning.lanes},
                   "transport"};
     mSelect = {device, select_comp_spirv, {mFaceSize, tuning.lanes}, "select"};
-    mQuantise = {device, quantise_comp_spirv, {mFaceSize}, "quantise"};
+    mQuantize = {device, quantize_comp_spirv, {mFaceSize}, "quantize"};
     mRowStarts = {device, row_starts_comp_spirv, {}, "row starts"};
     mCompact = {device, compact_comp_spirv, {}, "compact"};
 }
 
 std::vector<std::span<const uint32_t>> TransportPass::kernels() {
     return {transport_comp_spirv, transport_portable_comp_spirv, select_comp_spirv,
-            quantise_comp_spirv,  row_starts_comp_spirv,         compact_comp_spirv};
+            quantize_comp_spirv,  row_starts_comp_spirv,         compact_comp_spirv};
 }
 
 void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
@@ -152,11 +152,11 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
                               groupPerRow(mSelect, rowCount));
         });
         commands.barrier(Compute, Compute);
-        commands.pass("quantise", [&] {
-            commands.dispatch(mQuantise,
+        commands.pass("quantize", [&] {
+            commands.dispatch(mQuantize,
                               {mCoefficients, mSelected, mSelectedCounts, mValues, group.counts, group.scales,
                                group.statistics},
-                              rows, groupPerRow(mQuantise, rowCount));
+                              rows, groupPerRow(mQuantize, rowCount));
         });
     }
     const shared::RowsPush rows{count * group.terms, mKept, 0};
@@ -187,7 +187,7 @@ void TransportPass::collect(uint32_t count, SparseTransport& transport,
                 transport.rowStarts.push_back(transport.values.size());
                 transport.scales.push_back(group.scales.map<float>()[row]);
                 const shared::RowStatistics& sums = group.statistics.map<shared::RowStatistics>()[row];
-                losses.push_back({sums.total, sums.dropped, sums.quantised});
+                losses.push_back({sums.total, sums.dropped, sums.quantized});
             }
         }
 }

@@ -13,13 +13,13 @@ namespace relume {
 struct TransportLosses {
     double total = 0;     // of all coefficients
     double dropped = 0;   // lost by keeping N
-    double quantised = 0; // lost by quantisation
+    double quantized = 0; // lost by quantization
     double layout = 0;    // lost by the layout, weighed and in units as ClusterMatrix has them
 
     void add(const TransportLosses& other) {
         total += other.total;
         dropped += other.dropped;
-        quantised += other.quantised;
+        quantized += other.quantized;
         layout += other.layout;
     }
 };
@@ -32,7 +32,7 @@ struct TransportTuning {
     static TransportTuning of(const vk::Device& device);
 };
 
-// Evaluates, transforms, selects, quantises and compacts a batch of points at a time. Terms that do not
+// Evaluates, transforms, selects, quantizes and compacts a batch of points at a time. Terms that do not
 // fit a storage buffer together take turns, and so do points as tuning asks.
 class TransportPass {
   public:
@@ -76,7 +76,7 @@ class TransportPass {
     vk::Buffer mCorners;
     std::vector<TermGroup> mGroups;
     vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mSummaries;
-    vk::ComputeProgram mTransport, mSelect, mQuantise, mRowStarts, mCompact;
+    vk::ComputeProgram mTransport, mSelect, mQuantize, mRowStarts, mCompact;
 };
 
 } // namespace relume

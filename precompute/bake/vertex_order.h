@@ -1,4 +1,4 @@
-// The order of vertices in a bake: neighbours in space that face the same way share a cluster and a block.
+// The order of vertices in a bake: neighbors in space that face the same way share a cluster and a block.
 #pragma once
 
 #include "engine/scene/mesh.h"

@@ -72,9 +72,9 @@ std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance&
     std::vector<std::vector<vec3>> gains;
     for (size_t part = 0; part < asset.parts.size(); part++) {
         gains.emplace_back();
-        for (const WornLayer& worn : wornLayers(asset.parts[part], bound[part]))
+        for (const BoundLayer& shown : boundLayers(asset.parts[part], bound[part]))
             gains.back().push_back(
-                sourceGain(reflectedShare(asset.parts[part].sets[bound[part].set].brdf, worn.layer)));
+                sourceGain(reflectedShare(asset.parts[part].sets[bound[part].set].brdf, shown.layer)));
     }
     return gains;
 }
@@ -105,7 +105,7 @@ struct BounceGather::Room {
 BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
     : mAsset(asset), mBound(bound), mGains(sourceGains(asset, bound)), mTracer(meshesOf(asset)) {
     for (size_t part = 0; part < asset.parts.size(); part++) {
-        mLayers.push_back(wornLayers(asset.parts[part], bound[part]));
+        mLayers.push_back(boundLayers(asset.parts[part], bound[part]));
         for (size_t i = 0; i < mLayers[part].size(); i++) {
             const vec3 gain = mGains[part][i];
             if (gain != vec3(1))
@@ -136,10 +136,10 @@ bool BounceGather::find(vec3 origin, vec3 direction, float choice, Hit& hit) con
 
     hit.part = met->mesh;
     hit.vertex = choice < weights.x ? corners.x : choice < weights.x + weights.y ? corners.y : corners.z;
-    const size_t worn = mBound[hit.part].set;
-    const FactoredBrdf& brdf = part.sets[worn].brdf;
-    const std::vector<WornLayer>& layers = mLayers[hit.part];
-    const std::vector<vec3> shares = layerWeights(part, worn, layers, uv, color);
+    const size_t set = mBound[hit.part].set;
+    const FactoredBrdf& brdf = part.sets[set].brdf;
+    const std::vector<BoundLayer>& layers = mLayers[hit.part];
+    const std::vector<vec3> shares = layerWeights(part, set, layers, uv, color);
     const MapPlace place = placeInMap(brdf.size, brdf.mapping, outgoing);
     for (int term = 0; term < brdf.terms; term++) {
         vec3 view(0);

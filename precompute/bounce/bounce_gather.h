@@ -37,7 +37,7 @@ vec3 reflectedShare(const FactoredBrdf& brdf, int layer);
 // to 1, so that bounces die out.
 vec3 sourceGain(vec3 reflectedShare);
 
-// Returns those of the layers that parts wear in `bound`, per part.
+// Returns those of the layers that `bound` binds, per part.
 std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound);
 
 class BounceGather {
@@ -71,8 +71,8 @@ class BounceGather {
 
     const Asset& mAsset;
     Appearance mBound;
-    std::vector<std::vector<vec3>> mGains;       // sourceGains()
-    std::vector<std::vector<WornLayer>> mLayers; // per part: what lights others
+    std::vector<std::vector<vec3>> mGains;        // sourceGains()
+    std::vector<std::vector<BoundLayer>> mLayers; // per part: what lights others
     std::vector<HeldLayer> mHeld;
     RayTracer mTracer; // one mesh per part
 };

@@ -28,8 +28,8 @@ class AshikhminShirley final : public Brdf {
 
     nlohmann::json describe() const override {
         return {{"model", "ashikhmin-shirley"},
-                {"kd", colourToJson(mDiffuse)},
-                {"ks", colourToJson(mSpecular)},
+                {"kd", colorToJson(mDiffuse)},
+                {"ks", colorToJson(mSpecular)},
                 {"nu", numberToJson(mExponentU)},
                 {"nv", numberToJson(mExponentV)}};
     }
@@ -64,8 +64,8 @@ class AshikhminShirley final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makeAshikhminShirley(MaterialParameters& parameters) {
-    const vec3 diffuse = parameters.colour("kd", vec3(0.5f), {0, 1});
-    const vec3 specular = parameters.colour("ks", vec3(0.75f), {0, 1});
+    const vec3 diffuse = parameters.color("kd", vec3(0.5f), {0, 1});
+    const vec3 specular = parameters.color("ks", vec3(0.75f), {0, 1});
     const float exponentU = parameters.number("nu", 10, {0, 1e5f});
     const float exponentV = parameters.number("nv", 100, {0, 1e5f});
     return std::make_unique<AshikhminShirley>(diffuse, specular, exponentU, exponentV);

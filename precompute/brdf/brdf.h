@@ -15,11 +15,11 @@ class Brdf {
   public:
     virtual ~Brdf() = default;
 
-    // f(ωi, ωo) in sr⁻¹ per colour channel, without the cosine. Unit directions in the local frame,
+    // f(ωi, ωo) in sr⁻¹ per color channel, without the cosine. Unit directions in the local frame,
     // z along the normal, both with z > 0. Never negative, always finite.
     virtual vec3 evaluate(vec3 incoming, vec3 outgoing) const = 0;
 
-    // The part of f that a texture of the base colour (the diffuse albedo) multiplies, per channel: at most
+    // The part of f that a texture of the base color (the diffuse albedo) multiplies, per channel: at most
     // f, without rounding, so that the rest is never negative. Zero for a model that has no such part.
     virtual vec3 evaluateBase(vec3 /*incoming*/, vec3 /*outgoing*/) const { return vec3(0); }
 

@@ -25,8 +25,8 @@ class CookTorrance final : public Brdf {
 
     nlohmann::json describe() const override {
         return {{"model", "cook-torrance"},
-                {"diffuse", colourToJson(mDiffuse)},
-                {"f0", colourToJson(mReflectance)},
+                {"diffuse", colorToJson(mDiffuse)},
+                {"f0", colorToJson(mReflectance)},
                 {"roughness", numberToJson(mRoughness)}};
     }
 
@@ -51,8 +51,8 @@ class CookTorrance final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makeCookTorrance(MaterialParameters& parameters) {
-    const vec3 diffuse = parameters.colour("diffuse", vec3(0.3f), {0, 1});
-    const vec3 reflectance = parameters.colour("f0", vec3(0.04f), {0, 1});
+    const vec3 diffuse = parameters.color("diffuse", vec3(0.3f), {0, 1});
+    const vec3 reflectance = parameters.color("f0", vec3(0.04f), {0, 1});
     const float roughness = parameters.number("roughness", 0.3f, {0.02f, 1});
     return std::make_unique<CookTorrance>(diffuse, reflectance, roughness);
 }

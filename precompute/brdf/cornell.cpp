@@ -17,7 +17,7 @@ namespace {
 
 // Fewer cells than a MERL table has: some thousand samples say no more.
 constexpr int kHalves = 60, kDifferences = 30, kAzimuths = 36;
-constexpr size_t kNeighbours = 12;
+constexpr size_t kNeighbors = 12;
 // How much faster a BRDF changes with √θh than with θd, and with φd.
 constexpr float kHalfWeight = 4, kAzimuthWeight = 1;
 
@@ -39,33 +39,33 @@ vec3 directionAt(float theta, float phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-vec3 colourOf(const CornellSample& sample, const std::vector<vec3>& weights, size_t& negative) {
-    vec3 colour(0);
+vec3 colorOf(const CornellSample& sample, const std::vector<vec3>& weights, size_t& negative) {
+    vec3 color(0);
     for (size_t i = 0; i < weights.size(); i++) {
         negative += sample.values[i] < 0;
-        colour += weights[i] * std::max(sample.values[i], 0.0f);
+        color += weights[i] * std::max(sample.values[i], 0.0f);
     }
-    return colour;
+    return color;
 }
 
 // The samples and their mirror images in the plane of incidence.
 std::vector<Point> pointsOf(const CornellText& text, const std::string& name) {
     const std::vector<vec3> weights = srgbWeights(text.wavelengths);
-    std::vector<vec3> colours;
+    std::vector<vec3> colors;
     size_t negativeValues = 0, outsideGamut = 0;
     std::vector<float> brightness;
     for (const CornellSample& sample : text.samples) {
-        const vec3 colour = colourOf(sample, weights, negativeValues);
-        outsideGamut += std::min({colour.x, colour.y, colour.z}) < 0;
-        colours.push_back(glm::max(colour, vec3(0)));
-        brightness.push_back(std::max({colour.x, colour.y, colour.z}));
+        const vec3 color = colorOf(sample, weights, negativeValues);
+        outsideGamut += std::min({color.x, color.y, color.z}) < 0;
+        colors.push_back(glm::max(color, vec3(0)));
+        brightness.push_back(std::max({color.x, color.y, color.z}));
     }
     std::sort(brightness.begin(), brightness.end());
     if (!(brightness.back() > 0))
         throw Error(fmt::format("{}: no sample has a positive value; nothing to use", name));
     log(LogLevel::Info,
         fmt::format(
-            "{}: {} samples of {} wavelengths; {} values are negative ({:.2f} %), {} colours lie outside "
+            "{}: {} samples of {} wavelengths; {} values are negative ({:.2f} %), {} colors lie outside "
             "sRGB ({:.2f} %): taken as zero in the channel",
             name, text.samples.size(), weights.size(), negativeValues,
             100 * double(negativeValues) / double(text.samples.size() * weights.size()), outsideGamut,
@@ -73,9 +73,9 @@ std::vector<Point> pointsOf(const CornellText& text, const std::string& name) {
     // Zero has no logarithm: a thousandth of the middle sample stands for it.
     const vec3 floor(std::max(1e-3f * brightness[brightness.size() / 2], 1e-9f * brightness.back()));
     std::vector<Point> points;
-    for (size_t i = 0; i < colours.size(); i++) {
+    for (size_t i = 0; i < colors.size(); i++) {
         const auto& [thetaIn, phiIn, thetaOut, phiOut] = text.samples[i].angles;
-        const vec3 logarithm = glm::log(glm::max(colours[i], floor));
+        const vec3 logarithm = glm::log(glm::max(colors[i], floor));
         HalfDifference angles = halfDifference(directionAt(thetaIn, phiIn), directionAt(thetaOut, phiOut));
         points.push_back({positionOf(angles), logarithm});
         angles.azimuth = -angles.azimuth;
@@ -90,13 +90,13 @@ vec3 interpolate(const std::vector<Point>& points, vec4 position) {
         float squared;
         size_t point;
     };
-    std::array<Near, kNeighbours + 1> nearest;
+    std::array<Near, kNeighbors + 1> nearest;
     nearest.fill({INFINITY, 0});
     for (size_t i = 0; i < points.size(); i++) {
         const vec4 apart = points[i].position - position;
         const float squared = glm::dot(apart, apart);
         if (squared >= nearest.back().squared) continue;
-        size_t place = kNeighbours;
+        size_t place = kNeighbors;
         for (; place > 0 && nearest[place - 1].squared > squared; place--)
             nearest[place] = nearest[place - 1];
         nearest[place] = {squared, i};
@@ -104,7 +104,7 @@ vec3 interpolate(const std::vector<Point>& points, vec4 position) {
     const float radius = std::sqrt(nearest.back().squared) + 1e-6f;
     vec3 sum(0);
     float total = 0;
-    for (size_t i = 0; i < kNeighbours; i++) {
+    for (size_t i = 0; i < kNeighbors; i++) {
         const float distance = std::max(std::sqrt(nearest[i].squared), 1e-6f);
         const float ratio = (radius - distance) / distance, weight = ratio * ratio + 1e-6f;
         sum += points[nearest[i].point].logarithm * weight;
@@ -122,7 +122,7 @@ IsotropicTable parseCornell(std::string_view text, const std::string& name) {
         for (int difference = 0; difference < kDifferences; difference++)
             for (int azimuth = 0; azimuth < kAzimuths; azimuth++)
                 table[table.cell(half, difference, azimuth)] =
-                    interpolate(points, positionOf(table.centreOf(half, difference, azimuth)));
+                    interpolate(points, positionOf(table.centerOf(half, difference, azimuth)));
     });
     return table;
 }

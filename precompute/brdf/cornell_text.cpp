@@ -90,7 +90,7 @@ class Reader {
         }
         if (wavelengths.size() > count) fail("more wavelengths than the {} announced", count);
         if (wavelengths.size() == count && (wavelengths.front() > 450 || wavelengths.back() < 620))
-            fail("the wavelengths must reach from 450 nm or below to 620 nm or above, to make a colour");
+            fail("the wavelengths must reach from 450 nm or below to 620 nm or above, to make a color");
     }
 
     void readSample(size_t wavelengthCount) {

@@ -12,7 +12,7 @@ class Diffuse final : public Brdf {
     vec3 evaluateBase(vec3, vec3) const override { return mAlbedo / kPi; }
 
     nlohmann::json describe() const override {
-        return {{"model", "diffuse"}, {"albedo", colourToJson(mAlbedo)}};
+        return {{"model", "diffuse"}, {"albedo", colorToJson(mAlbedo)}};
     }
 
   private:
@@ -22,7 +22,7 @@ class Diffuse final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makeDiffuse(MaterialParameters& parameters) {
-    return std::make_unique<Diffuse>(parameters.colour("albedo", vec3(0.5f), {0, 1}));
+    return std::make_unique<Diffuse>(parameters.color("albedo", vec3(0.5f), {0, 1}));
 }
 
 } // namespace relume

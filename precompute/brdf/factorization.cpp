@@ -263,7 +263,7 @@ bool isPublished(Factorization method) {
 }
 
 TexelValue texelValueOf(Factorization method) {
-    return isPublished(method) ? TexelValue::Centre : TexelValue::Mean;
+    return isPublished(method) ? TexelValue::Center : TexelValue::Mean;
 }
 
 FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {

@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// ‖M - M̃‖ / ‖M‖ (Frobenius) over the texel centres, unweighted, mean over channels. `layer` is the table's
+// ‖M - M̃‖ / ‖M‖ (Frobenius) over the texel centers, unweighted, mean over channels. `layer` is the table's
 // own.
 std::vector<float> frobeniusResiduals(const BrdfTable& table, const FactoredBrdf& factored, int layer = 0);
 

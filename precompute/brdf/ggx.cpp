@@ -22,7 +22,7 @@ class GgxConductor final : public Brdf {
 
     nlohmann::json describe() const override {
         return {{"model", "ggx"},
-                {"f0", colourToJson(mReflectance)},
+                {"f0", colorToJson(mReflectance)},
                 {"roughness_u", numberToJson(mFacets.alphaU)},
                 {"roughness_v", numberToJson(mFacets.alphaV)}};
     }
@@ -35,7 +35,7 @@ class GgxConductor final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makeGgx(MaterialParameters& parameters) {
-    const vec3 reflectance = parameters.colour("f0", vec3(0.9f), {0, 1});
+    const vec3 reflectance = parameters.color("f0", vec3(0.9f), {0, 1});
     Ggx facets;
     facets.alphaU = parameters.number("roughness_u", 0.2f, {0.02f, 1});
     facets.alphaV = parameters.number("roughness_v", 0.2f, {0.02f, 1});

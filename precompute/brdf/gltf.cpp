@@ -11,8 +11,8 @@ constexpr float kMinAlpha = 0.02f;
 
 class Gltf final : public Brdf {
   public:
-    Gltf(vec3 baseColour, float metallic, float roughness)
-        : mBaseColour(baseColour), mMetallic(metallic), mRoughness(roughness),
+    Gltf(vec3 baseColor, float metallic, float roughness)
+        : mBaseColor(baseColor), mMetallic(metallic), mRoughness(roughness),
           mAlpha(std::max(roughness * roughness, kMinAlpha)) {}
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
@@ -26,7 +26,7 @@ class Gltf final : public Brdf {
 
     nlohmann::json describe() const override {
         return {{"model", "gltf"},
-                {"base_color", colourToJson(mBaseColour)},
+                {"base_color", colorToJson(mBaseColor)},
                 {"metallic", numberToJson(mMetallic)},
                 {"roughness", numberToJson(mRoughness)}};
     }
@@ -49,29 +49,29 @@ class Gltf final : public Brdf {
         }
     };
 
-    // Linear in the base colour: the diffuse base, and F0 of the metal in c (1 - w) + w.
+    // Linear in the base color: the diffuse base, and F0 of the metal in c (1 - w) + w.
     vec3 base(const Geometry& geometry) const {
-        return mBaseColour * ((1 - mMetallic) * geometry.through / kPi +
-                              mMetallic * (1 - geometry.weight) * geometry.facets);
+        return mBaseColor * ((1 - mMetallic) * geometry.through / kPi +
+                             mMetallic * (1 - geometry.weight) * geometry.facets);
     }
 
-    // The coat, and what a metal of any colour reflects.
+    // The coat, and what a metal of any color reflects.
     float rest(const Geometry& geometry) const {
         const float coat = kDielectric + (1 - kDielectric) * geometry.weight;
         return ((1 - mMetallic) * coat + mMetallic * geometry.weight) * geometry.facets;
     }
 
-    vec3 mBaseColour;
+    vec3 mBaseColor;
     float mMetallic, mRoughness, mAlpha;
 };
 
 } // namespace
 
 std::unique_ptr<Brdf> makeGltf(MaterialParameters& parameters) {
-    const vec3 baseColour = parameters.colour("base_color", vec3(0.8f), {0, 1});
+    const vec3 baseColor = parameters.color("base_color", vec3(0.8f), {0, 1});
     const float metallic = parameters.number("metallic", 0, {0, 1});
     const float roughness = parameters.number("roughness", 0.5f, {0, 1});
-    return std::make_unique<Gltf>(baseColour, metallic, roughness);
+    return std::make_unique<Gltf>(baseColor, metallic, roughness);
 }
 
 } // namespace relume

@@ -32,7 +32,7 @@ IsotropicTable::IsotropicTable(int halves, int differences, int azimuths)
     : mHalves(halves), mDifferences(differences), mAzimuths(azimuths),
       mValues(size_t(halves) * size_t(differences) * size_t(azimuths), vec3(0)) {}
 
-HalfDifference IsotropicTable::centreOf(int half, int difference, int azimuth) const {
+HalfDifference IsotropicTable::centerOf(int half, int difference, int azimuth) const {
     const float root = (float(half) + 0.5f) / float(mHalves);
     return {root * root * kPi / 2, (float(difference) + 0.5f) / float(mDifferences) * kPi / 2,
             (float(azimuth) + 0.5f) / float(mAzimuths) * kPi};

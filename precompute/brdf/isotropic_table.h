@@ -38,15 +38,15 @@ class IsotropicTable {
     }
     vec3& operator[](size_t cell) { return mValues[cell]; }
     const vec3& operator[](size_t cell) const { return mValues[cell]; }
-    HalfDifference centreOf(int half, int difference, int azimuth) const;
+    HalfDifference centerOf(int half, int difference, int azimuth) const;
 
     // The value of the cell that a pair of directions falls into.
     vec3 nearest(vec3 incoming, vec3 outgoing) const;
-    // Linear between the centres of the eight cells around.
+    // Linear between the centers of the eight cells around.
     vec3 interpolate(vec3 incoming, vec3 outgoing) const;
 
   private:
-    // In units of cells; centres are at whole numbers and a half.
+    // In units of cells; centers are at whole numbers and a half.
     vec3 place(vec3 incoming, vec3 outgoing) const;
 
     int mHalves, mDifferences, mAzimuths;

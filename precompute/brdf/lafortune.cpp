@@ -15,7 +15,7 @@ constexpr size_t kMaxLobes = 16;
 constexpr float kMaxPeak = 1e6f;
 
 struct Lobe {
-    vec3 x, y, z, exponent; // one of each per colour channel
+    vec3 x, y, z, exponent; // one of each per color channel
 };
 
 class Lafortune final : public Brdf {
@@ -42,11 +42,11 @@ class Lafortune final : public Brdf {
     nlohmann::json describe() const override {
         nlohmann::json lobes = nlohmann::json::array();
         for (const Lobe& lobe : mLobes)
-            lobes.push_back({{"cx", colourToJson(lobe.x)},
-                             {"cy", colourToJson(lobe.y)},
-                             {"cz", colourToJson(lobe.z)},
-                             {"n", colourToJson(lobe.exponent)}});
-        return {{"model", "lafortune"}, {"diffuse", colourToJson(mDiffuse)}, {"lobes", lobes}};
+            lobes.push_back({{"cx", colorToJson(lobe.x)},
+                             {"cy", colorToJson(lobe.y)},
+                             {"cz", colorToJson(lobe.z)},
+                             {"n", colorToJson(lobe.exponent)}});
+        return {{"model", "lafortune"}, {"diffuse", colorToJson(mDiffuse)}, {"lobes", lobes}};
     }
 
   private:
@@ -56,10 +56,10 @@ class Lafortune final : public Brdf {
 
 Lobe readLobe(MaterialParameters& parameters) {
     Lobe lobe;
-    lobe.x = parameters.requiredColour("cx", {-10, 10});
-    lobe.y = parameters.requiredColour("cy", {-10, 10});
-    lobe.z = parameters.requiredColour("cz", {-10, 10});
-    lobe.exponent = parameters.requiredColour("n", {0, 1e4f});
+    lobe.x = parameters.requiredColor("cx", {-10, 10});
+    lobe.y = parameters.requiredColor("cy", {-10, 10});
+    lobe.z = parameters.requiredColor("cz", {-10, 10});
+    lobe.exponent = parameters.requiredColor("n", {0, 1e4f});
     parameters.rejectUnknownKeys();
     return lobe;
 }
@@ -79,7 +79,7 @@ void checkPeak(const Lobe& lobe) {
 } // namespace
 
 std::unique_ptr<Brdf> makeLafortune(MaterialParameters& parameters) {
-    const vec3 diffuse = parameters.colour("diffuse", vec3(0), {0, 1});
+    const vec3 diffuse = parameters.color("diffuse", vec3(0), {0, 1});
     std::vector<Lobe> lobes;
     for (MaterialParameters& item : parameters.list("lobes", kMaxLobes)) {
         lobes.push_back(readLobe(item));

@@ -20,7 +20,7 @@ LowRank lowRank(std::span<const Eigen::MatrixXf> blocks, int terms);
 
 // Factors without negative entries, by hierarchical alternating least squares (Cichocki, Zdunek and Amari
 // 2007), started from the singular triplets (Boutsidis and Gallopoulos 2008). Blocks have no negative
-// entries. values[k] = ‖left_k‖ ‖right_k‖ of the products, falling; left and right are normalised as in
+// entries. values[k] = ‖left_k‖ ‖right_k‖ of the products, falling; left and right are normalized as in
 // lowRank(), but not orthogonal.
 LowRank nonNegativeLowRank(std::span<const Eigen::MatrixXf> blocks, int terms);
 

@@ -17,7 +17,7 @@ std::vector<MaterialSet> MaterialFactory::make(const std::string& material,
     for (const MaterialSet& set : known->second)
         for (const AssetMaterial& made : set.materials)
             if (isTextured && !made.hasBase)
-                log(LogLevel::Warning, fmt::format("{}: has no base colour that a texture could multiply; "
+                log(LogLevel::Warning, fmt::format("{}: has no base color that a texture could multiply; "
                                                    "the texture does not show in it",
                                                    made.name));
     return known->second;

@@ -10,13 +10,13 @@
 
 namespace relume {
 
-// Factors equal materials once, however many parts wear them and whatever they are called.
+// Factors equal materials once, however many parts have them and whatever they are called.
 class MaterialFactory {
   public:
     MaterialFactory(const FactorizationOptions& options, int mapSize, DiskMapping mapping)
         : mOptions(options), mMapSize(mapSize), mMapping(mapping) {}
 
-    // The sets that readMaterials() gives, without transport. For a part with a texture of base colours,
+    // The sets that readMaterials() gives, without transport. For a part with a texture of base colors,
     // BRDFs that have a base are split into it and the rest; the log names those without, in which the
     // texture does not show.
     std::vector<MaterialSet> make(const std::string& material, const std::filesystem::path& folder,

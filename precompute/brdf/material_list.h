@@ -1,4 +1,4 @@
-// The materials that a part can wear, as a text names them.
+// The materials that a part can binding, as a text names them.
 #pragma once
 
 #include "precompute/brdf/brdf.h"

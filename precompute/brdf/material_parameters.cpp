@@ -26,16 +26,16 @@ bool isNumberInRange(const json& value, ParameterRange range) {
     return number >= double(range.low) && number <= double(range.high);
 }
 
-std::string colourValues(ParameterRange range) {
+std::string colorValues(ParameterRange range) {
     return fmt::format("number from {} to {}, or [red, green, blue] of such", range.low, range.high);
 }
 
-vec3 readColour(const std::string& owner, const std::string& key, const json& value, ParameterRange range) {
+vec3 readColor(const std::string& owner, const std::string& key, const json& value, ParameterRange range) {
     if (isNumberInRange(value, range)) return vec3(value.get<float>());
     const auto inRange = [&](const json& item) { return isNumberInRange(item, range); };
     if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), inRange))
         throw UsageError(fmt::format("material {}: \"{}\" must be a {}, but is {}", owner, key,
-                                     colourValues(range), excerpt(value)));
+                                     colorValues(range), excerpt(value)));
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
@@ -64,20 +64,20 @@ float MaterialParameters::number(const std::string& key, float fallback, Paramet
     return value->get<float>();
 }
 
-vec3 MaterialParameters::colour(const std::string& key, vec3 fallback, ParameterRange range) {
-    const bool isGrey = fallback.x == fallback.y && fallback.y == fallback.z;
+vec3 MaterialParameters::color(const std::string& key, vec3 fallback, ParameterRange range) {
+    const bool isGray = fallback.x == fallback.y && fallback.y == fallback.z;
     const json* value =
-        find(key, colourValues(range), (isGrey ? numberToJson(fallback.x) : colourToJson(fallback)).dump());
-    return value ? readColour(mOwner, key, *value, range) : fallback;
+        find(key, colorValues(range), (isGray ? numberToJson(fallback.x) : colorToJson(fallback)).dump());
+    return value ? readColor(mOwner, key, *value, range) : fallback;
 }
 
-vec3 MaterialParameters::requiredColour(const std::string& key, ParameterRange range) {
-    const json* value = find(key, colourValues(range), "");
+vec3 MaterialParameters::requiredColor(const std::string& key, ParameterRange range) {
+    const json* value = find(key, colorValues(range), "");
     if (!value)
         throw UsageError(
             fmt::format("material {}: \"{}\" is missing; give a number from {} to {}, or [red, green, blue]",
                         mOwner, key, range.low, range.high));
-    return readColour(mOwner, key, *value, range);
+    return readColor(mOwner, key, *value, range);
 }
 
 std::string MaterialParameters::requiredText(const std::string& key) {
@@ -117,8 +117,8 @@ void MaterialParameters::rejectUnknownKeys() const {
 
 json numberToJson(float value) { return json::parse(fmt::format("{}", value)); }
 
-json colourToJson(vec3 colour) {
-    return json::array({numberToJson(colour.x), numberToJson(colour.y), numberToJson(colour.z)});
+json colorToJson(vec3 color) {
+    return json::array({numberToJson(color.x), numberToJson(color.y), numberToJson(color.z)});
 }
 
 } // namespace relume

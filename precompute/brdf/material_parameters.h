@@ -31,9 +31,9 @@ class MaterialParameters {
     // A number, or `fallback` where the key is absent.
     float number(const std::string& key, float fallback, ParameterRange range);
     // A number for all three channels, or an array of three, linear sRGB.
-    vec3 colour(const std::string& key, vec3 fallback, ParameterRange range);
+    vec3 color(const std::string& key, vec3 fallback, ParameterRange range);
     // The same without a default.
-    vec3 requiredColour(const std::string& key, ParameterRange range);
+    vec3 requiredColor(const std::string& key, ParameterRange range);
     // A text that must be there, or `fallback` where the key is absent.
     std::string requiredText(const std::string& key);
     std::string text(const std::string& key, const std::string& fallback);
@@ -58,6 +58,6 @@ class MaterialParameters {
 // The JSON number of fewest digits that reads back as the same float (0.1, not 0.10000000149011612).
 nlohmann::json numberToJson(float value);
 // An array of three.
-nlohmann::json colourToJson(vec3 colour);
+nlohmann::json colorToJson(vec3 color);
 
 } // namespace relume

@@ -46,7 +46,7 @@ std::vector<bool> cellsBelowHorizon(const IsotropicTable& table) {
     for (int half = 0; half < table.halves(); half++)
         for (int difference = 0; difference < table.differences(); difference++)
             for (int azimuth = 0; azimuth < table.azimuths(); azimuth++) {
-                const auto [wi, wo] = directionsOf(table.centreOf(half, difference, azimuth));
+                const auto [wi, wo] = directionsOf(table.centerOf(half, difference, azimuth));
                 isBelow[table.cell(half, difference, azimuth)] = std::min(wi.z, wo.z) <= 0;
             }
     return isBelow;
@@ -84,7 +84,7 @@ IsotropicTable parseMerl(std::span<const std::byte> bytes, const std::string& na
     log(LogLevel::Info,
         fmt::format(
             "{}: {} of {} cells are negative ({:.2f} %), {} of them above the horizon ({:.2f} %); filled "
-            "from their neighbours",
+            "from their neighbors",
             name, negative, kCellCount, percent(negative, kCellCount), negativeAbove,
             percent(negativeAbove, above)));
     log(LogLevel::Info,

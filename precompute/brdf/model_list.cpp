@@ -22,7 +22,7 @@ struct Model {
 constexpr Model kModels[] = {
     {"diffuse", "Lambert's", makeDiffuse},
     {"oren-nayar", "rough and diffuse; sigma in degrees (Oren and Nayar 1994, Fujii 2012)", makeOrenNayar},
-    {"phong", "normalised Phong, kd + ks at most 1 (Lafortune and Willems 1994)", makePhong},
+    {"phong", "normalized Phong, kd + ks at most 1 (Lafortune and Willems 1994)", makePhong},
     {"ashikhmin-shirley", "anisotropic Phong over a diffuse base (Ashikhmin and Shirley 2000)",
      makeAshikhminShirley},
     {"lafortune", "cosine lobes {cx, cy, cz, n} fitted to measurements (Lafortune et al. 1997)",

@@ -34,7 +34,7 @@ std::unique_ptr<Brdf> makeLafortune(MaterialParameters& parameters);
 
 // {"diffuse": a, "f0": F, "roughness": m}: Cook and Torrance, "A Reflectance Model for Computer Graphics",
 // ACM Transactions on Graphics 1(1), 1982: Beckmann's distribution of slope m, V-cavity masking, over a
-// diffuse base coupled as in makePlastic. The specular part is D F G / (4 cosθi cosθo), normalised as in
+// diffuse base coupled as in makePlastic. The specular part is D F G / (4 cosθi cosθo), normalized as in
 // Walter et al. 2007; the 1982 paper has π instead of 4. Default: diffuse .3, f0 .04, roughness .3.
 std::unique_ptr<Brdf> makeCookTorrance(MaterialParameters& parameters);
 

@@ -53,7 +53,7 @@ void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
 }
 
 // Unit columns, ordered by the sizes of their products.
-void normalise(LowRank& factors) {
+void normalize(LowRank& factors) {
     const Index terms = factors.left.cols();
     for (Index k = 0; k < terms; k++) {
         const double left = double(factors.left.col(k).norm()),
@@ -104,7 +104,7 @@ LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
         }
         sweep(factors.left, product, rightGram);
     }
-    normalise(factors);
+    normalize(factors);
     return factors;
 }
 

@@ -26,7 +26,7 @@ class OrenNayar final : public Brdf {
     vec3 evaluateBase(vec3 incoming, vec3 outgoing) const override { return evaluate(incoming, outgoing); }
 
     nlohmann::json describe() const override {
-        return {{"model", "oren-nayar"}, {"albedo", colourToJson(mAlbedo)}, {"sigma", numberToJson(mSigma)}};
+        return {{"model", "oren-nayar"}, {"albedo", colorToJson(mAlbedo)}, {"sigma", numberToJson(mSigma)}};
     }
 
   private:
@@ -38,7 +38,7 @@ class OrenNayar final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makeOrenNayar(MaterialParameters& parameters) {
-    const vec3 albedo = parameters.colour("albedo", vec3(0.5f), {0, 1});
+    const vec3 albedo = parameters.color("albedo", vec3(0.5f), {0, 1});
     const float sigma = parameters.number("sigma", 20, {0, 90});
     return std::make_unique<OrenNayar>(albedo, sigma);
 }

@@ -24,8 +24,8 @@ class Phong final : public Brdf {
 
     nlohmann::json describe() const override {
         return {{"model", "phong"},
-                {"kd", colourToJson(mDiffuse)},
-                {"ks", colourToJson(mSpecular)},
+                {"kd", colorToJson(mDiffuse)},
+                {"ks", colorToJson(mSpecular)},
                 {"exponent", numberToJson(mExponent)}};
     }
 
@@ -37,8 +37,8 @@ class Phong final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makePhong(MaterialParameters& parameters) {
-    const vec3 diffuse = parameters.colour("kd", vec3(0.4f), {0, 1});
-    const vec3 specular = parameters.colour("ks", vec3(0.3f), {0, 1});
+    const vec3 diffuse = parameters.color("kd", vec3(0.4f), {0, 1});
+    const vec3 specular = parameters.color("ks", vec3(0.3f), {0, 1});
     for (int c = 0; c < 3; c++)
         if (diffuse[c] + specular[c] > 1.00001f) // what decimals that add to one may round to
             throw UsageError(

@@ -27,8 +27,8 @@ class Plastic final : public Brdf {
 
     nlohmann::json describe() const override {
         return {{"model", "plastic"},
-                {"diffuse", colourToJson(mDiffuse)},
-                {"f0", colourToJson(mReflectance)},
+                {"diffuse", colorToJson(mDiffuse)},
+                {"f0", colorToJson(mReflectance)},
                 {"roughness", numberToJson(mRoughness)}};
     }
 
@@ -40,8 +40,8 @@ class Plastic final : public Brdf {
 } // namespace
 
 std::unique_ptr<Brdf> makePlastic(MaterialParameters& parameters) {
-    const vec3 diffuse = parameters.colour("diffuse", vec3(0.5f), {0, 1});
-    vec3 reflectance = parameters.colour("f0", vec3(0.04f), {0, 1});
+    const vec3 diffuse = parameters.color("diffuse", vec3(0.5f), {0, 1});
+    vec3 reflectance = parameters.color("f0", vec3(0.04f), {0, 1});
     const float index = parameters.number("index", 1.5f, {1, 5});
     if (parameters.has("index")) {
         if (parameters.has("f0")) throw UsageError("material plastic: give \"f0\" or \"index\", not both");

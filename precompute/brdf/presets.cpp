@@ -6,17 +6,17 @@ namespace {
 
 // Metals' F0 are Adobe's, in linear Rec. 709 ("Metal material references" of the Standard Material: Ag, Al,
 // Au, Cr, Cu), iron's is that of Google's Filament ("Material properties"). Highlights are as wide as maps of
-// 48 by 48 texels and some terms can hold; the narrowest, chrome's, wants 16 terms or more. Colours of
+// 48 by 48 texels and some terms can hold; the narrowest, chrome's, wants 16 terms or more. Colors of
 // paints, woods and stones are by eye.
 //
 // Clay and skin: fits of Lafortune's model (Lafortune et al. 1997) to measurements at Cornell, attributed to
 // Westin; the values as in pbrt, version 1.
 constexpr PresetDefinition kPresets[] = {
-    {"grey-diffuse", "Lambertian, albedo 0.5", R"({"model": "diffuse", "albedo": 0.5})"},
+    {"gray-diffuse", "Lambertian, albedo 0.5", R"({"model": "diffuse", "albedo": 0.5})"},
     {"white-diffuse", "Lambertian, albedo 0.8, for grounds", R"({"model": "diffuse", "albedo": 0.8})"},
     {"ashikhmin-shirley", "brushed metal, anisotropic: kd 0.5, ks 0.75, nu 10, nv 100",
      R"({"model": "ashikhmin-shirley", "kd": 0.5, "ks": 0.75, "nu": 10, "nv": 100})"},
-    {"clay", "blue-grey pottery clay, Lafortune's three lobes fitted to measurements", R"({
+    {"clay", "blue-gray pottery clay, Lafortune's three lobes fitted to measurements", R"({
         "model": "lafortune",
         "diffuse": [0.383626, 0.260749, 0.274207],
         "lobes": [
@@ -82,7 +82,7 @@ constexpr PresetDefinition kPresets[] = {
      R"({"model": "gltf", "base_color": [0.8, 0.79, 0.76], "metallic": 0, "roughness": 0.4})"},
     {"paint-matte", "white matte paint",
      R"({"model": "oren-nayar", "albedo": [0.8, 0.79, 0.76], "sigma": 20})"},
-    {"concrete", "grey concrete, rough",
+    {"concrete", "gray concrete, rough",
      R"({"model": "oren-nayar", "albedo": [0.38, 0.37, 0.35], "sigma": 30})"},
     {"plaster", "white plaster, rough",
      R"({"model": "oren-nayar", "albedo": [0.75, 0.73, 0.7], "sigma": 25})"},

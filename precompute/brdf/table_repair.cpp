@@ -11,9 +11,9 @@ namespace {
 constexpr float kReliableCosine = 0.17364818f; // of 80 degrees
 constexpr float kFresnelRise = 2.6f;
 
-// Calls visit(cell) for up to six neighbours.
+// Calls visit(cell) for up to six neighbors.
 template <typename Visit>
-void forNeighbours(const IsotropicTable& table, size_t cell, const Visit& visit) {
+void forNeighbors(const IsotropicTable& table, size_t cell, const Visit& visit) {
     const int azimuths = table.azimuths(), differences = table.differences();
     const int azimuth = int(cell % size_t(azimuths)), row = int(cell / size_t(azimuths));
     const int half = row / differences, difference = row % differences;
@@ -33,10 +33,10 @@ void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
     std::vector<size_t> layer, next;
     std::vector<bool> isFound(isMissing.size());
     const auto findMissing = [&](size_t cell, std::vector<size_t>& found) {
-        forNeighbours(table, cell, [&](size_t neighbour) {
-            if (!isMissing[neighbour] || isFound[neighbour]) return;
-            isFound[neighbour] = true;
-            found.push_back(neighbour);
+        forNeighbors(table, cell, [&](size_t neighbor) {
+            if (!isMissing[neighbor] || isFound[neighbor]) return;
+            isFound[neighbor] = true;
+            found.push_back(neighbor);
         });
     };
     for (size_t cell = 0; cell < isMissing.size(); cell++)
@@ -45,9 +45,9 @@ void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
         for (const size_t cell : layer) {
             vec3 sum(0);
             float count = 0;
-            forNeighbours(table, cell, [&](size_t neighbour) {
-                if (isMissing[neighbour]) return;
-                sum += table[neighbour];
+            forNeighbors(table, cell, [&](size_t neighbor) {
+                if (isMissing[neighbor]) return;
+                sum += table[neighbor];
                 count++;
             });
             table[cell] = sum / count;
@@ -67,7 +67,7 @@ GrazingRepair limitGrazing(IsotropicTable& table) {
         for (int difference = 0; difference < table.differences(); difference++)
             for (int azimuth = 0; azimuth < table.azimuths(); azimuth++) {
                 vec3& value = table[table.cell(half, difference, azimuth)];
-                const auto [wi, wo] = directionsOf(table.centreOf(half, difference, azimuth));
+                const auto [wi, wo] = directionsOf(table.centerOf(half, difference, azimuth));
                 const float upper = std::max({wi.z, wo.z, 1e-3f}), lower = std::min(wi.z, wo.z);
                 if (lower >= kReliableCosine) {
                     reliable[size_t(azimuth)] = value * upper;

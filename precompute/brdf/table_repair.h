@@ -5,7 +5,7 @@
 
 namespace relume {
 
-// Gives every cell of `isMissing` (one entry per cell, not all true) the mean of its neighbours that have a
+// Gives every cell of `isMissing` (one entry per cell, not all true) the mean of its neighbors that have a
 // value, from the edge of what is missing inwards.
 void fillMissing(IsotropicTable& table, std::vector<bool> isMissing);
 

@@ -16,12 +16,12 @@ namespace {
 void listDirections(BrdfTable& table) {
     for (int y = 0; y < table.size; y++)
         for (int x = 0; x < table.size; x++) {
-            const vec2 centre = (vec2(float(x), float(y)) + 0.5f) / float(table.size);
-            const auto direction = diskMapDirection(table.mapping, centre);
+            const vec2 center = (vec2(float(x), float(y)) + 0.5f) / float(table.size);
+            const auto direction = diskMapDirection(table.mapping, center);
             if (!direction) continue;
             table.texels.push_back({x, y});
             table.directions.push_back(*direction);
-            table.solidAngles.push_back(diskMapSolidAngle(table.mapping, centre) /
+            table.solidAngles.push_back(diskMapSolidAngle(table.mapping, center) /
                                         float(table.size * table.size));
         }
 }
@@ -89,7 +89,7 @@ class Tabulator {
         return vec3(sum / weights);
     }
 
-    // Of a place in a texel's unit square; its centre's where the place is outside the disk or all but
+    // Of a place in a texel's unit square; its center's where the place is outside the disk or all but
     // grazing.
     vec3 directionIn(int texel, vec2 place) const {
         const auto direction = diskMapDirection(mTable.mapping, (vec2(mTable.texels[size_t(texel)]) + place) /

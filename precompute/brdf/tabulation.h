@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// channel[c](i, o) = f_c(ωi, ωo), or its mean around there, for the n texel centres that lie inside the map's
+// channel[c](i, o) = f_c(ωi, ωo), or its mean around there, for the n texel centers that lie inside the map's
 // domain.
 struct BrdfTable {
     int size = 0; // S
@@ -25,16 +25,16 @@ struct BrdfTable {
 // Side of a map, S. The largest makes three matrices of 41 MB (orthographic) or 67 MB (polar).
 constexpr int kMinMapSize = 4, kMaxMapSize = 64;
 
-// What of a BRDF: a base colour texture multiplies the base and leaves the rest.
+// What of a BRDF: a base color texture multiplies the base and leaves the rest.
 enum class BrdfPart { All, Rest, Base };
 
-// What stands in for f over a pair of texels: its value at their centres, or the mean of f cosθi cosθo over
+// What stands in for f over a pair of texels: its value at their centers, or the mean of f cosθi cosθo over
 // four pairs of places in them, divided by that of cosθi cosθo. The mean costs four times as much and, unlike
 // the value, does not let ridges of f near grazing, narrower than a texel, spread over all of it.
-enum class TexelValue { Centre, Mean };
+enum class TexelValue { Center, Mean };
 
 // Throws UsageError for a size outside these.
-BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value = TexelValue::Centre,
+BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value = TexelValue::Center,
                    BrdfPart part = BrdfPart::All);
 
 // For every texel of the map, row by row, the index of the nearest direction's texel: itself inside the

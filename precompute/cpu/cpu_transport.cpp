@@ -92,7 +92,7 @@ void addLookup(const float* map, const Lookups& lookups, int i, float* texel) {
     for (int j = 0; j < Stride; j++) texel[j] += (wa * a[j] + wb * b[j]) + (wc * c[j] + wd * d[j]);
 }
 
-// One Haar step on four neighbours of the curve, as in haarForward: three details and the average.
+// One Haar step on four neighbors of the curve, as in haarForward: three details and the average.
 template <int Stride>
 void haarStep(const float* quad, float* details, float* average) {
     float copy[4 * Stride]; // details may lie where the quad does

@@ -1,5 +1,5 @@
 // The order in which the CPU baker walks a cube face: along a Morton curve, so that every aligned square
-// whose side is a power of two is a run of neighbours.
+// whose side is a power of two is a run of neighbors.
 #pragma once
 
 #include "engine/math/vector.h"

@@ -63,7 +63,7 @@ double rowBytes(const Asset& asset, const ErrorGrid& grid, size_t terms, double 
                      kRowBytes = sizeof(float) + sizeof(uint64_t);
     double bytes = 0;
     for (size_t part = 0; part < asset.parts.size(); part++) {
-        const auto& entries = grid.entries[part]; // of the worn set: others are taken to have as many
+        const auto& entries = grid.entries[part]; // of the bound set: others are taken to have as many
         for (const MaterialSet& set : asset.parts[part].sets)
             for (size_t term = 0; term < std::min(terms, size_t(set.brdf.terms)); term++)
                 bytes +=

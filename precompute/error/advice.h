@@ -29,7 +29,7 @@ struct AdvisedBake {
 // What can be had of meshes as they are, or as they are refined.
 struct MeshAdvice {
     uint64_t vertices = 0;
-    std::vector<double> leastErrors; // by K, from 1: with all coefficients and nothing quantised
+    std::vector<double> leastErrors; // by K, from 1: with all coefficients and nothing quantized
     // Rows of the fewest bytes; bases of the least K that leaves them some of the error. None where the error
     // is not reached.
     std::optional<AdvisedBake> bases, rows;

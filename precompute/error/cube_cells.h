@@ -10,7 +10,7 @@
 namespace relume {
 
 // Face after face, each along mortonPlace: the 4^n cells in a cell of a cube 2^n times as coarse are
-// neighbours.
+// neighbors.
 struct CubeCells {
     int size; // cells a side of a face, a power of two
     std::vector<vec3> directions;

@@ -32,7 +32,7 @@ std::vector<SeenPoint> listPoints(std::span<const SeenPoints> points) {
     return list;
 }
 
-// Of one row, at every tried N: what the light gives, and entries that are left after quantising.
+// Of one row, at every tried N: what the light gives, and entries that are left after quantizing.
 struct Ladder {
     std::array<vec3, kRungs> tuples{};
     std::array<float, kRungs> entries{};
@@ -60,7 +60,7 @@ Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light)
         for (; next < order.size() && next < size_t(kTriedCoefficients[rung]); next++) {
             const vec3 coefficient = coefficients[order[next]];
             sum += glm::dvec3(coefficient * light[order[next]]);
-            entries += quantiseCoefficient(coefficient, scale) != ivec3(0);
+            entries += quantizeCoefficient(coefficient, scale) != ivec3(0);
         }
         ladder.tuples[rung] = vec3(sum);
         ladder.entries[rung] = entries;
@@ -123,14 +123,14 @@ class VertexLadders {
     std::map<Key, std::vector<Ladder>> mLadders;
 };
 
-const FactoredBrdf& wornFactors(const Asset& asset, const Appearance& appearance, size_t part) {
+const FactoredBrdf& boundFactors(const Asset& asset, const Appearance& appearance, size_t part) {
     return asset.parts[part].sets[appearance[part].set].brdf;
 }
 
 // Per term.
 std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size_t part,
                           const SurfacePoint& point) {
-    return pointViews(wornFactors(asset, appearance, part), wornLayers(asset.parts[part], appearance[part]),
+    return pointViews(boundFactors(asset, appearance, part), boundLayers(asset.parts[part], appearance[part]),
                       point.layerWeights(), point.outgoing);
 }
 
@@ -151,7 +151,7 @@ std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, con
 // alone.
 std::vector<ResidualSet> residualsOfPrefixes(const Asset& asset, const Appearance& appearance, size_t part) {
     if (!asset.parts[part].sets[appearance[part].set].residual) return {};
-    FactoredBrdf factors = wornFactors(asset, appearance, part);
+    FactoredBrdf factors = boundFactors(asset, appearance, part);
     std::vector<ResidualSet> prefixes;
     for (; factors.terms > 0; factors.terms--) {
         factors.lightMaps.resize(size_t(factors.terms) * factors.mapTexels());
@@ -171,12 +171,12 @@ std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance
     const CpuVisibility visibility(mergedMesh(asset), kTruthFaceSize);
     const float offset = kFullMeshShadowOffset * boundsOf(asset).radius();
     MaterialBrdfs brdfs;
-    const DressedAsset dressed(asset, appearance, ReferenceBrdf::Exact, brdfs);
+    const BoundAsset bound(asset, appearance, ReferenceBrdf::Exact, brdfs);
     const std::vector<SeenPoint> list = listPoints(points);
     std::vector<vec3> radiance(list.size());
     SharedProgress shared(progress, 0, 1, list.size());
     tbb::parallel_for(size_t(0), list.size(), [&](size_t i) {
-        const SurfacePoint point = dressed.pointAt(*list[i].hit, list[i].eye);
+        const SurfacePoint point = bound.pointAt(*list[i].hit, list[i].eye);
         std::vector<uint64_t> bits(visibility.texels() / 64);
         visibility.trace(point.position + offset * point.normal, point.normal, bits);
         glm::dvec3 sum(0);
@@ -224,7 +224,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
     vertices.addEntries(grid);
 
     MaterialBrdfs brdfs;
-    const DressedAsset dressed(asset, appearance, ReferenceBrdf::Exact, brdfs);
+    const BoundAsset bound(asset, appearance, ReferenceBrdf::Exact, brdfs);
     const BakedTransport transport(asset);
     const std::span<const vec3> cube(light.cube.radiance);
     std::vector<std::vector<ResidualSet>> prefixes;
@@ -234,16 +234,16 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
     grid.errors.resize(size_t(grid.terms));
     for (size_t i = 0; i < list.size(); i++) {
         const RayHit& hit = *list[i].hit;
-        const SurfacePoint point = dressed.pointAt(hit, list[i].eye);
-        const SurfacePoint baked = dressed.bakedPointAt(hit, list[i].eye);
+        const SurfacePoint point = bound.pointAt(hit, list[i].eye);
+        const SurfacePoint baked = bound.bakedPointAt(hit, list[i].eye);
         const std::vector<vec3> views = viewsAt(asset, appearance, hit.mesh, baked);
         const std::vector<ResidualSet>& ofPrefixes = prefixes[hit.mesh];
         UnshadowedLight unshadowed;
         if (!ofPrefixes.empty())
             unshadowed =
                 sumUnshadowed(transport, point, baked,
-                              point.frame.n == baked.frame.n ? baked : dressed.limitPointAt(hit, list[i].eye),
-                              wornFactors(asset, appearance, hit.mesh), {&cube, 1})
+                              point.frame.n == baked.frame.n ? baked : bound.limitPointAt(hit, list[i].eye),
+                              boundFactors(asset, appearance, hit.mesh), {&cube, 1})
                     .front();
         std::array<std::vector<vec3>, kRungs> tuples;
         for (size_t rung = 0; rung < kRungs; rung++)

@@ -22,13 +22,13 @@ std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance
 constexpr std::array<int, 16> kTriedCoefficients = {8,   12,  16,  24,  32,  48,  64,   96,
                                                     128, 192, 256, 384, 512, 768, 1536, 6 * 64 * 64};
 
-// Transport in rows, before quantisation.
+// Transport in rows, before quantization.
 struct ErrorGrid {
     int terms = 0;    // of the part with most
     double level = 0; // root mean square of the exact radiance
     // Root mean square against it, relative to that, of K = term + 1, by term and tried N.
     std::vector<std::array<double, kTriedCoefficients.size()>> errors;
-    // Per part and term, by tried N: entries of a row that quantisation leaves, mean over sampled vertices.
+    // Per part and term, by tried N: entries of a row that quantization leaves, mean over sampled vertices.
     std::vector<std::vector<std::array<double, kTriedCoefficients.size()>>> entries;
     std::vector<double> shares; // of the points, per part
 };

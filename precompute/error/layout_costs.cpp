@@ -47,17 +47,17 @@ std::vector<uint32_t> chooseBlocks(const BakePlan& plan, uint32_t part) {
 
 // Mean square of the difference in radiance of two tuples of the same vertices, seen from the eyes in front
 // of them as pixels do: in proportion to the cosine.
-double squaredDifference(const AssetPart& part, const PartAppearance& worn,
+double squaredDifference(const AssetPart& part, const PartAppearance& bound,
                          std::span<const uint32_t> vertices, std::span<const vec3> a, std::span<const vec3> b,
                          std::span<const vec3> eyes) {
-    const auto terms = size_t(part.sets[worn.set].brdf.terms);
+    const auto terms = size_t(part.sets[bound.set].brdf.terms);
     double sum = 0, weights = 0;
     for (size_t i = 0; i < vertices.size(); i++)
         for (const vec3 eye : eyes) {
             const double cosine = double(glm::dot(part.mesh.normals[vertices[i]],
                                                   glm::normalize(eye - part.mesh.positions[vertices[i]])));
             if (!(cosine > 0)) continue;
-            const std::vector<vec3> views = vertexViews(part, worn, vertices[i], eye);
+            const std::vector<vec3> views = vertexViews(part, bound, vertices[i], eye);
             glm::dvec3 first(0), second(0);
             for (size_t term = 0; term < terms; term++) {
                 first += glm::dvec3(views[term] * a[i * terms + term]);
@@ -91,7 +91,7 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
     const auto tell = [&](size_t more) { progress(double(done += more) / double(pieces)); };
     for (uint32_t number = 0; number < plan.asset.parts.size(); number++) {
         const AssetPart& part = plan.asset.parts[number];
-        const PartAppearance& worn = appearance[number];
+        const PartAppearance& bound = appearance[number];
         RowSink sink(plan, number);
         BakeTimes times;
         const std::vector<uint32_t> blocks = chooseBlocks(plan, number);
@@ -112,15 +112,15 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
         sampled.mesh.positions.resize(sink.vertices.size());
         for (size_t set = 0; set < part.sets.size(); set++)
             sampled.sets.push_back({part.sets[set].materials, part.sets[set].brdf, sink.rows[set].transport});
-        const std::vector<vec3> exact = relight(sampled.sets[worn.set].transport, light);
+        const std::vector<vec3> exact = relight(sampled.sets[bound.set].transport, light);
         for (size_t i = 0; i < kTriedLayoutErrors.size(); i++) {
             Asset bases = sample;
             LayoutOptions layout;
             layout.error = kTriedLayoutErrors[i];
             costs.bytes[i] += scale * double(convertLayout(bases, layout).bytesAfter);
             squares[i] += grid.shares[number] *
-                          squaredDifference(part, worn, sink.vertices, exact,
-                                            relight(bases.parts[0].sets[worn.set].transport, light), eyes);
+                          squaredDifference(part, bound, sink.vertices, exact,
+                                            relight(bases.parts[0].sets[bound.set].transport, light), eyes);
             tell(1);
         }
     }

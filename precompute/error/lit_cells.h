@@ -10,7 +10,7 @@ namespace relume {
 struct LitCell {
     uint32_t texel; // of the lighting cube, row by row
     float weight;   // visible share · cosine · solid angle
-    vec3 local;     // unit direction of its centre, z > 0
+    vec3 local;     // unit direction of its center, z > 0
 };
 
 // `cells` are the evaluations of transport, 1, 4 or 16 a texel of `lighting`; `bits` as CpuVisibility gives

@@ -63,10 +63,10 @@ struct StageTracer::Tuples {
     }
 };
 
-// What a part wears at a point of it, seen from the eye.
-struct StageTracer::Wear {
+// The materials bound at a point of a part, seen from the eye.
+struct StageTracer::Binding {
     const FactoredBrdf* brdf;
-    std::vector<WornLayer> layers;
+    std::vector<BoundLayer> layers;
     std::vector<vec3> weights;   // of the layers
     std::vector<vec3> views;     // per term: view maps times weights, summed
     const ResidualSet* residual; // null: terms alone
@@ -91,7 +91,7 @@ struct StageTracer::Vertices {
 StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const StageOptions& options,
                          const BakeOptions& baked)
     : mAsset(asset), mAppearance(appearance), mOptions(options),
-      mDressed(asset, appearance, ReferenceBrdf::Exact, mBrdfs), mBaked(asset), mTruth(kTruthFaceSize),
+      mBound(asset, appearance, ReferenceBrdf::Exact, mBrdfs), mBaked(asset), mTruth(kTruthFaceSize),
       mFull(mergedMesh(asset), asset.visibilitySize), mFullFine(mergedMesh(asset), kTruthVisibility),
       mFullOffset(kFullMeshShadowOffset * boundsOf(asset).radius()), mMeshes(partMeshes(asset)),
       mSurfaces(mMeshes) {
@@ -99,7 +99,7 @@ StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const
     RELUME_CHECK(options.bounces >= asset.bounces && options.bounces <= kMostBounces);
     for (size_t part = 0; part < asset.parts.size(); part++)
         mTables.emplace_back(asset.parts[part].sets[appearance[part].set],
-                             wornLayers(asset.parts[part], appearance[part]), baked.factorization.method,
+                             boundLayers(asset.parts[part], appearance[part]), baked.factorization.method,
                              mBrdfs);
 }
 
@@ -146,35 +146,35 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
     return tuples;
 }
 
-StageTracer::Wear StageTracer::wearAt(size_t number, const SurfacePoint& baked) const {
+StageTracer::Binding StageTracer::bindingAt(size_t number, const SurfacePoint& baked) const {
     const AssetPart& part = mAsset.parts[number];
     const MaterialSet& set = part.sets[mAppearance[number].set];
     const FactoredBrdf& brdf = set.brdf;
     const ResidualSet* residual = mOptions.addsResidual ? set.residual.get() : nullptr;
-    Wear wear{&brdf, wornLayers(part, mAppearance[number]), baked.layerWeights(), {}, residual};
-    wear.views = pointViews(brdf, wear.layers, wear.weights, baked.outgoing);
-    return wear;
+    Binding binding{&brdf, boundLayers(part, mAppearance[number]), baked.layerWeights(), {}, residual};
+    binding.views = pointViews(brdf, binding.layers, binding.weights, baked.outgoing);
+    return binding;
 }
 
 std::vector<UnshadowedLight> StageTracer::unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
-                                                       const SurfacePoint& limit, const Wear& wear,
+                                                       const SurfacePoint& limit, const Binding& binding,
                                                        std::span<const Light> lights) const {
-    if (!wear.residual) return std::vector<UnshadowedLight>(lights.size());
+    if (!binding.residual) return std::vector<UnshadowedLight>(lights.size());
     std::vector<std::span<const vec3>> cubes;
     for (const Light& light : lights) cubes.emplace_back(light.coarse);
-    return sumUnshadowed(mBaked, point, baked, limit, *wear.brdf, cubes);
+    return sumUnshadowed(mBaked, point, baked, limit, *binding.brdf, cubes);
 }
 
-void StageTracer::traceVertices(const RayHit& hit, const Wear& wear,
+void StageTracer::traceVertices(const RayHit& hit, const Binding& binding,
                                 std::span<const UnshadowedLight> unshadowed, const Vertices& vertices,
                                 std::span<StageRadiance> result) const {
-    const size_t terms = wear.views.size();
+    const size_t terms = binding.views.size();
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
     constexpr size_t kFirst = size_t(ErrorSource::Drawing) + 1;
     for (size_t light = 0; light < result.size(); light++) {
         for (size_t stage = 0; stage < Tuples::kStages; stage++)
             result[light][kFirst + stage] =
-                estimateRadiance(wear.residual, wear.views,
+                estimateRadiance(binding.residual, binding.views,
                                  vertices.interpolate(hit, corners, light, stage, terms), unshadowed[light]);
         result[light][0] = result[light][kFirst];
     }
@@ -183,22 +183,23 @@ void StageTracer::traceVertices(const RayHit& hit, const Wear& wear,
 // The point's own direct transport: of the K terms, then of the whole table, then of the BRDF itself. Bounced
 // light is the vertices' still.
 std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const SurfacePoint& point,
-                                                 const SurfacePoint& own, const Wear& wear,
+                                                 const SurfacePoint& own, const Binding& binding,
                                                  std::span<const UnshadowedLight> unshadowed,
                                                  const Vertices& vertices, std::span<const uint64_t> baked,
                                                  std::span<const Light> lights,
                                                  std::span<StageRadiance> result) const {
-    const FactoredBrdf& brdf = *wear.brdf;
+    const FactoredBrdf& brdf = *binding.brdf;
     const std::vector<LitCell> lit = mBaked.lit(baked, own.frame),
                                seen = point.frame.n == own.frame.n ? lit : mBaked.lit(baked, point.frame);
     const std::vector<MapPlace> places = placesOf(lit, brdf.size, brdf.mapping),
                                 seenPlaces = point.frame.n == own.frame.n
                                                  ? places
                                                  : placesOf(seen, brdf.size, brdf.mapping);
-    const std::vector<vec3> table = mTables[hit.mesh].lightMap(wear.layers, wear.weights, point.outgoing);
+    const std::vector<vec3> table =
+        mTables[hit.mesh].lightMap(binding.layers, binding.weights, point.outgoing);
 
     constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 2;
-    const size_t terms = wear.views.size();
+    const size_t terms = binding.views.size();
     std::vector<glm::dvec3> tuples(lights.size() * terms);
     std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
     for (size_t i = 0; i < lit.size(); i++) {
@@ -222,7 +223,7 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
         const auto first = tuples.begin() + std::ptrdiff_t(light * terms);
         std::vector<vec3> tuple(first, first + std::ptrdiff_t(terms));
         const auto estimate = [&] {
-            return estimateRadiance(wear.residual, wear.views, tuple, unshadowed[light]);
+            return estimateRadiance(binding.residual, binding.views, tuple, unshadowed[light]);
         };
         const vec3 direct = estimate();
         const std::vector<vec3> bounced = vertices.interpolate(hit, corners, light, Tuples::kBounced, terms);
@@ -273,7 +274,7 @@ void StageTracer::tracePaths(const SurfacePoint& point, uint32_t number, std::sp
                              std::span<const vec3> bounced, std::span<StageRadiance> result) const {
     constexpr auto kBounces = size_t(ErrorSource::Bounces), kMoreBounces = size_t(ErrorSource::MoreBounces);
     for (size_t light = 0; light < lights.size(); light++) {
-        const PathScene scene{mDressed, mSurfaces, mSurfaces, mMeshes, lights[light].paths, mFullOffset};
+        const PathScene scene{mBound, mSurfaces, mSurfaces, mMeshes, lights[light].paths, mFullOffset};
         std::array<vec3, kMostBounces> byBounces{};
         for (int path = 0; path < kStagePaths && mOptions.bounces > 0; path++) {
             HashedNumbers random(number, uint32_t(path));
@@ -313,17 +314,17 @@ StageTracer::trace(std::span<const RayHit> points, vec3 eye, std::span<const Sta
     SharedProgress pointProgress(progress, kVertexShare, 1, points.size());
     tbb::parallel_for(size_t(0), points.size(), [&](size_t i) {
         const RayHit& hit = points[i];
-        const SurfacePoint point = mDressed.pointAt(hit, eye);
+        const SurfacePoint point = mBound.pointAt(hit, eye);
         std::vector<StageRadiance> stages(lights.size());
-        const SurfacePoint own = mDressed.bakedPointAt(hit, eye);
+        const SurfacePoint own = mBound.bakedPointAt(hit, eye);
         const bool isMapped = point.frame.n != own.frame.n;
         const std::vector<uint64_t> baked = mBaked.visibility(point.position, point.normal);
-        const Wear wear = wearAt(hit.mesh, own);
+        const Binding binding = bindingAt(hit.mesh, own);
         const std::vector<UnshadowedLight> unshadowed =
-            unshadowedAt(point, own, isMapped ? mDressed.limitPointAt(hit, eye) : own, wear, lights);
-        traceVertices(hit, wear, unshadowed, vertices, stages);
+            unshadowedAt(point, own, isMapped ? mBound.limitPointAt(hit, eye) : own, binding, lights);
+        traceVertices(hit, binding, unshadowed, vertices, stages);
         const std::vector<vec3> bounced =
-            traceOwnTransport(hit, point, own, wear, unshadowed, vertices, baked, lights, stages);
+            traceOwnTransport(hit, point, own, binding, unshadowed, vertices, baked, lights, stages);
         traceTruth(point, baked, lights, bounced, stages);
         tracePaths(point, uint32_t(i), lights, bounced, stages);
         for (StageRadiance& ofLight : stages)

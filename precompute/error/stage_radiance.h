@@ -8,7 +8,7 @@
 #include "precompute/error/error_source.h"
 #include "precompute/error/tabulated_brdf.h"
 #include "precompute/error/unshadowed_light.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 
 #include <functional>
 
@@ -26,7 +26,7 @@ constexpr int kStagePaths = 512;      // a point and light, where light bounces
 
 // A light at every stage.
 struct StageLight {
-    LightVector drawn; // the coarse one, selected and quantised
+    LightVector drawn; // the coarse one, selected and quantized
     LightCube coarse;  // F texels a side: what the bake can be lit by
     LightCube fine;    // kTruthFaceSize; may be negative
 };
@@ -59,21 +59,21 @@ class StageTracer {
     struct Light;
     struct Tuples;
     struct Vertices;
-    struct Wear;
+    struct Binding;
 
     Light prepare(const StageLight& light) const;
     Tuples vertexTuples(size_t part, uint32_t vertex, std::span<const Light> lights) const;
     // `baked`: the point in the frame of its transport.
-    Wear wearAt(size_t part, const SurfacePoint& baked) const;
+    Binding bindingAt(size_t part, const SurfacePoint& baked) const;
     // Per light; of nothing where terms are drawn alone.
     std::vector<UnshadowedLight> unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
-                                              const SurfacePoint& limit, const Wear& wear,
+                                              const SurfacePoint& limit, const Binding& binding,
                                               std::span<const Light> lights) const;
-    void traceVertices(const RayHit& hit, const Wear& wear, std::span<const UnshadowedLight> unshadowed,
+    void traceVertices(const RayHit& hit, const Binding& binding, std::span<const UnshadowedLight> unshadowed,
                        const Vertices& vertices, std::span<StageRadiance> result) const;
     // Returns, per light, what baked bounces add to the estimate.
     std::vector<vec3> traceOwnTransport(const RayHit& hit, const SurfacePoint& point, const SurfacePoint& own,
-                                        const Wear& wear, std::span<const UnshadowedLight> unshadowed,
+                                        const Binding& binding, std::span<const UnshadowedLight> unshadowed,
                                         const Vertices& vertices, std::span<const uint64_t> baked,
                                         std::span<const Light> lights, std::span<StageRadiance> result) const;
     void traceTruth(const SurfacePoint& point, std::span<const uint64_t> baked, std::span<const Light> lights,
@@ -86,8 +86,8 @@ class StageTracer {
     const Appearance& mAppearance;
     StageOptions mOptions;
     MaterialBrdfs mBrdfs;
-    DressedAsset mDressed;
-    std::vector<TabulatedBrdf> mTables; // per part, of the worn set
+    BoundAsset mBound;
+    std::vector<TabulatedBrdf> mTables; // per part, of the bound set
     BakedTransport mBaked;
     CubeCells mTruth;
     CpuVisibility mFull;     // the mesh itself, with as many rays as the bake's

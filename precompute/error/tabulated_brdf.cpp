@@ -4,14 +4,14 @@
 
 namespace relume {
 
-TabulatedBrdf::TabulatedBrdf(const MaterialSet& set, std::span<const WornLayer> layers, Factorization method,
+TabulatedBrdf::TabulatedBrdf(const MaterialSet& set, std::span<const BoundLayer> layers, Factorization method,
                              MaterialBrdfs& brdfs)
     : mSize(set.brdf.size), mMapping(set.brdf.mapping) {
-    const auto isWorn = [&](int layer) {
-        return std::ranges::any_of(layers, [&](const WornLayer& worn) { return worn.layer == layer; });
+    const auto isBound = [&](int layer) {
+        return std::ranges::any_of(layers, [&](const BoundLayer& bound) { return bound.layer == layer; });
     };
     const auto add = [&](const AssetMaterial& material, int layer, BrdfPart part) {
-        if (!isWorn(layer)) return;
+        if (!isBound(layer)) return;
         BrdfTable table = tabulate(*brdfs.of(material), mSize, mMapping, texelValueOf(method), part);
         if (mNearest.empty()) mNearest = nearestDirections(table), mDirections = table.directions.size();
         mLayers.emplace(layer, std::move(table.channels));
@@ -22,7 +22,7 @@ TabulatedBrdf::TabulatedBrdf(const MaterialSet& set, std::span<const WornLayer> 
     }
 }
 
-std::vector<vec3> TabulatedBrdf::lightMap(std::span<const WornLayer> layers, std::span<const vec3> weights,
+std::vector<vec3> TabulatedBrdf::lightMap(std::span<const BoundLayer> layers, std::span<const vec3> weights,
                                           vec3 outgoing) const {
     const MapPlace place = placeInMap(mSize, mMapping, outgoing);
     const vec2 w = place.weight;

@@ -14,13 +14,13 @@ class TabulatedBrdf {
   public:
     // Of these layers the tables that `set` was factored from, by this method. Throws as makeBrdf() and
     // tabulate() do.
-    TabulatedBrdf(const MaterialSet& set, std::span<const WornLayer> layers, Factorization method,
+    TabulatedBrdf(const MaterialSet& set, std::span<const BoundLayer> layers, Factorization method,
                   MaterialBrdfs& brdfs);
 
     // f(·, outgoing) as a light map of S × S texels, extended beyond the disk as light maps are, summed over
     // `layers`, among those it was made with, times their weights. `outgoing` in the local frame, above the
     // horizon.
-    std::vector<vec3> lightMap(std::span<const WornLayer> layers, std::span<const vec3> weights,
+    std::vector<vec3> lightMap(std::span<const BoundLayer> layers, std::span<const vec3> weights,
                                vec3 outgoing) const;
 
   private:
@@ -29,7 +29,7 @@ class TabulatedBrdf {
     DiskMapping mMapping;
     size_t mDirections = 0;
     std::vector<int> mNearest;       // of each texel, the direction whose values it has
-    std::map<int, Channels> mLayers; // by WornLayer::layer
+    std::map<int, Channels> mLayers; // by BoundLayer::layer
 };
 
 } // namespace relume

@@ -4,7 +4,7 @@
 
 #include "engine/scene/residual.h"
 #include "precompute/error/baked_transport.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 
 namespace relume {
 
@@ -16,7 +16,7 @@ struct UnshadowedLight {
 
 // Returns the sums for each light, which is 6 F² texels row by row. `baked`: the point in the
 // frame that the factors are of; `limit`: what limits it where a normal map gives another
-// (DressedAsset::limitPointAt).
+// (BoundAsset::limitPointAt).
 std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, const SurfacePoint& point,
                                            const SurfacePoint& baked, const SurfacePoint& limit,
                                            const FactoredBrdf& factors,

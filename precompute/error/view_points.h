@@ -7,7 +7,7 @@
 
 namespace relume {
 
-// All that the pixel centres of an image see, row by row.
+// All that the pixel centers of an image see, row by row.
 struct ViewPoints {
     int width = 0, height = 0;
     std::vector<size_t> pixels; // y · width + x

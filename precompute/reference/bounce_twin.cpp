@@ -38,7 +38,7 @@ void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const st
     const vec3 outgoing = liftAboveHorizon(frame.toLocal(-direction));
     const size_t set = bound[hit.mesh].set;
     const FactoredBrdf& brdf = part.sets[set].brdf;
-    const std::vector<WornLayer> layers = wornLayers(part, bound[hit.mesh]);
+    const std::vector<BoundLayer> layers = boundLayers(part, bound[hit.mesh]);
     const std::vector<vec3> shares = layerWeights(part, set, layers, uv, color);
     for (size_t i = 0; i < layers.size(); i++) {
         for (int term = 0; term < brdf.terms; term++) {

@@ -1,7 +1,7 @@
 // The radiance that a point reflects of light that other surfaces send it, by tracing paths.
 #pragma once
 
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 #include "precompute/reference/light_distribution.h"
 #include "precompute/reference/sampled_reflection.h"
 
@@ -11,7 +11,7 @@ namespace relume {
 
 // What paths meet. Refers to all of it.
 struct PathScene {
-    const DressedAsset& asset;
+    const BoundAsset& asset;
     const RayTracer& surfaces; // of the asset's partMeshes()
     const RayTracer& occluder; // what casts shadows
     std::span<const Mesh* const> meshes;

@@ -31,7 +31,7 @@ void ProgressiveReference::restart(const Camera& camera, const LightCube& light,
     expectSamples(samples);
     const size_t pixels = size_t(width) * size_t(height);
     mPasses = 0;
-    mDressed.reset();
+    mBound.reset();
     mLight.emplace(light);
     if (width != mWidth || height != mHeight || size_t(samples) != mSamples || !isSame(camera, mCamera)) {
         mCamera = camera, mWidth = width, mHeight = height, mSamples = size_t(samples);
@@ -40,7 +40,7 @@ void ProgressiveReference::restart(const Camera& camera, const LightCube& light,
     }
     for (auto& half : mHalves) half.assign(pixels, glm::dvec3(0));
     mSample.resize(pixels);
-    mDressed.emplace(mAsset, appearance, mKind, mBrdfs);
+    mBound.emplace(mAsset, appearance, mKind, mBrdfs);
 }
 
 void ProgressiveReference::findSurfaces(int y) {
@@ -73,18 +73,18 @@ void ProgressiveReference::sampleRow(int y) {
         const std::optional<RayHit>& hit = surfacesOf(pixel)[sampleOf(pixel)];
         if (!hit) continue;
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
-        const SurfacePoint point = mDressed->pointAt(*hit, mCamera.eye);
+        const SurfacePoint point = mBound->pointAt(*hit, mCamera.eye);
         mSample[pixel] = point.emitted + sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
         if (mKind != ReferenceBrdf::Exact) continue;
         std::array<vec3, kMostBounces> byBounces{};
-        sampleBounces({*mDressed, mTracer, mTracer, mMeshes, *mLight, mShadowOffset}, point,
+        sampleBounces({*mBound, mTracer, mTracer, mMeshes, *mLight, mShadowOffset}, point,
                       std::span(byBounces).first(size_t(mBounces)), random);
         for (const vec3 radiance : byBounces) mSample[pixel] += radiance;
     }
 }
 
 bool ProgressiveReference::addPass(std::stop_token stop) {
-    RELUME_CHECK(mDressed);
+    RELUME_CHECK(mBound);
     std::atomic<bool> isStopped = false;
     tbb::parallel_for(0, mHeight, [&](int y) {
         if (stop.stop_requested()) isStopped = true;

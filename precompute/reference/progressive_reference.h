@@ -3,7 +3,7 @@
 
 #include "engine/image/image.h"
 #include "engine/scene/camera.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 #include "precompute/reference/light_distribution.h"
 
 #include <array>
@@ -87,7 +87,7 @@ class ProgressiveReference {
     Camera mCamera;
     int mWidth = 0, mHeight = 0;
     size_t mSamples = 1; // a pixel
-    std::optional<DressedAsset> mDressed;
+    std::optional<BoundAsset> mBound;
     std::optional<LightDistribution> mLight;
     int mPasses = 0;
     std::vector<uint8_t> mRowsSeen;                 // per row: whether its surfaces are found

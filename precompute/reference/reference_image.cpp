@@ -3,7 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/math/cubemap.h"
 #include "engine/transport/asset_check.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
 #include "precompute/reference/residual_twin.h"
@@ -37,9 +37,9 @@ struct Renderer {
     const Camera& camera;
     const ReferenceOptions& options;
     std::vector<LightSample> lights;
-    DressedAsset asset;
-    std::optional<DressedAsset> terms;     // with ReferenceBrdf::Residual: the asset in its K terms
-    std::vector<bool> hasNonnegativeTerms; // per part, of the set that it wears
+    BoundAsset asset;
+    std::optional<BoundAsset> terms;       // with ReferenceBrdf::Residual: the asset in its K terms
+    std::vector<bool> hasNonnegativeTerms; // per part, of its bound set
     RayTracer surfaces;                    // one mesh per part
     RayTracer occluder;
     float shadowOffset;
@@ -185,7 +185,7 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
     const Appearance appearance = options.appearance.empty() ? defaultAppearance(asset) : options.appearance;
     MaterialBrdfs brdfs;
     const bool isEstimate = options.brdf == ReferenceBrdf::Residual;
-    std::optional<DressedAsset> terms;
+    std::optional<BoundAsset> terms;
     std::vector<bool> hasNonnegativeTerms;
     if (isEstimate) {
         terms.emplace(asset, appearance, ReferenceBrdf::Factored, brdfs);
@@ -196,7 +196,7 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
         camera,
         options,
         std::move(lights),
-        DressedAsset(asset, appearance, isEstimate ? ReferenceBrdf::Exact : options.brdf, brdfs),
+        BoundAsset(asset, appearance, isEstimate ? ReferenceBrdf::Exact : options.brdf, brdfs),
         std::move(terms),
         std::move(hasNonnegativeTerms),
         RayTracer(meshes),

@@ -6,7 +6,7 @@
 #include "engine/render/ground_fade.h"
 #include "engine/render/pixel_samples.h"
 #include "engine/scene/camera.h"
-#include "precompute/reference/worn_brdf.h"
+#include "precompute/reference/bound_brdf.h"
 
 #include <functional>
 

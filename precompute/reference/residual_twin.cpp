@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kLeastShare = 0.25f;                      // of r E, that an estimate has at least
 constexpr float kLeastView = 1e-4f;                       // of every view map, in ratios
-constexpr float kLeastOfGrey = 0.8f, kMostOfGrey = 1.25f; // of a channel's ratio, of that of luminance
+constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // of a channel's ratio, of that of luminance
 
 } // namespace
 
@@ -29,9 +29,9 @@ vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples,
     if (isBounced)
         return sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1)) +
                glm::max(sums.shadowed - sums.terms, vec3(0));
-    const float grey = std::max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
+    const float gray = std::max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
     const vec3 ratio =
-        glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGrey * grey), vec3(kMostOfGrey * grey));
+        glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGray * gray), vec3(kMostOfGray * gray));
     return sums.exact * glm::min(ratio, vec3(1));
 }
 

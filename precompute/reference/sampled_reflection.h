@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/math/hashed_numbers.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 #include "precompute/reference/light_distribution.h"
 
 namespace relume {

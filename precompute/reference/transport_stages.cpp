@@ -12,7 +12,7 @@
 namespace relume {
 
 std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size) {
-    // Ray by ray in tiles of 16 x 16: neighbours trace faster together.
+    // Ray by ray in tiles of 16 x 16: neighbors trace faster together.
     const int tile = std::min(size, 16);
     RELUME_CHECK(size > 0 && size % tile == 0);
     std::vector<uint8_t> visibility(size_t(kCubeFaces) * size_t(size) * size_t(size), 0);
@@ -113,10 +113,10 @@ PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint1
         row.scale = std::max({row.scale, magnitude.x, magnitude.y, magnitude.z});
     }
     for (uint16_t index : selected) {
-        const ivec3 quantised = quantiseCoefficient(coefficients[index], row.scale);
-        if (quantised == ivec3(0)) continue;
+        const ivec3 quantized = quantizeCoefficient(coefficients[index], row.scale);
+        if (quantized == ivec3(0)) continue;
         row.indices.push_back(index);
-        row.values.push_back(packCoefficient(quantised));
+        row.values.push_back(packCoefficient(quantized));
     }
     return row;
 }

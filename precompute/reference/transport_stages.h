@@ -1,4 +1,4 @@
-// The CPU twin of every stage of the bake, one vertex at a time: naive on purpose, never optimised.
+// The CPU twin of every stage of the bake, one vertex at a time: naive on purpose, never optimized.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -13,7 +13,7 @@
 
 namespace relume {
 
-// 6 · size² values, 1 where the direction through the texel's centre is free and above the horizon of
+// 6 · size² values, 1 where the direction through the texel's center is free and above the horizon of
 // `normal` (cubeTexelDirection · normal > 0), else 0. Rays start at `origin` (already lifted).
 std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size);
 
@@ -30,7 +30,7 @@ void haarFaces(std::vector<vec3>& cube, int faceSize);
 // are never kept).
 std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count);
 
-// Returns the row of `selected`: quantised against its largest |component|, zeros dropped.
+// Returns the row of `selected`: quantized against its largest |component|, zeros dropped.
 PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected);
 
 } // namespace relume

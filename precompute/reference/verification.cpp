@@ -10,7 +10,7 @@
 #include "precompute/bounce/bounce_gather.h"
 #include "precompute/brdf/factorization_error.h"
 #include "precompute/reference/bounce_twin.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 #include "precompute/reference/relight_twin.h"
 #include "precompute/reference/transport_stages.h"
 #include "precompute/reference/vertex_check.h"
@@ -37,7 +37,7 @@ struct ErrorSum {
 
 struct Sums {
     uint64_t mismatched = 0, hemisphere = 0;
-    ErrorSum transport, wavelet, quantisation, layout, total, bounce;
+    ErrorSum transport, wavelet, quantization, layout, total, bounce;
     double brdf = 0;
 };
 
@@ -190,7 +190,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
         for (uint16_t index : selectLargest(found, asset.coefficients)) kept[index] = true;
         for (size_t i = 0; i < expected.size(); i++) {
             sums.wavelet.add(kept[i] ? found[i] : vec3(0), found[i]);
-            if (kept[i]) sums.quantisation.add(stored[i], found[i]);
+            if (kept[i]) sums.quantization.add(stored[i], found[i]);
         }
     }
 }
@@ -286,7 +286,7 @@ Verification verify(const vk::Device& device, const Asset& asset, const Environm
     result.visibilityMismatch = double(sums.mismatched) / double(std::max<uint64_t>(sums.hemisphere, 1));
     result.transportError = sums.transport.relative();
     result.waveletError = sums.wavelet.relative();
-    result.quantisationError = sums.quantisation.relative();
+    result.quantizationError = sums.quantization.relative();
     result.brdfError = sums.brdf / samples;
     result.relightBits = countRelightDifferences(device, asset, prepared, rotation);
     result.bounceError = sums.bounce.relative();

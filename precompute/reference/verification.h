@@ -14,7 +14,7 @@ struct Verification {
     double transportError = 0;     // all coefficients: device against CPU twin on the device's visibility
     double layoutError = 0;        // the asset's transport against all coefficients: what its layout loses
     double waveletError = 0;       // of rows: lost by keeping N
-    double quantisationError = 0;  // of rows: against the coefficients they keep
+    double quantizationError = 0;  // of rows: against the coefficients they keep
     double bounceError = 0;   // of bounced rows, where light bounces: against the twin of the last bounce
     double brdfError = 0;     // cos-weighted relative RMS of the K terms, mean over samples' materials
     uint64_t relightBits = 0; // vertices, of all, whose K-tuple differs between device and CPU

@@ -1,4 +1,4 @@
-// Everything that explains the colour of one vertex.
+// Everything that explains the color of one vertex.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -7,14 +7,14 @@
 
 namespace relume {
 
-// F is the asset's faceSize, K the terms of the worn set. Solid angles are in the transport, so that a
+// F is the asset's faceSize, K the terms of the bound set. Solid angles are in the transport, so that a
 // radiance is Σ over texels of transport · mean radiance of the texel.
 struct VertexProbe {
     // 6 · F²: share of the visibility texels in a lighting texel that are free and above the horizon.
     std::vector<float> visibility;
     std::vector<vec3> tuple; // K: light-modulated, as relight() gives it but for rounding
     std::vector<vec3>
-        views;           // K: of the worn layers, seen from the eye: view maps times layer weights, summed
+        views;           // K: of the bound layers, seen from the eye: view maps times layer weights, summed
     LightCube transport; // Σ over terms of views · transport, as the asset keeps it; can be negative
     vec3 radiance;       // Σ views · tuple: what is drawn, but not clamped at zero
     vec3 fullRadiance;   // Σ transport · light: the same under all of the light, nothing dropped or rounded

@@ -5,7 +5,7 @@
 
 namespace relume {
 
-std::vector<vec3> pointViews(const FactoredBrdf& brdf, std::span<const WornLayer> layers,
+std::vector<vec3> pointViews(const FactoredBrdf& brdf, std::span<const BoundLayer> layers,
                              std::span<const vec3> weights, vec3 outgoing) {
     const MapPlace place = placeInMap(brdf.size, brdf.mapping, outgoing);
     std::vector<vec3> views(size_t(brdf.terms), vec3(0));
@@ -20,7 +20,7 @@ std::vector<vec3> vertexViews(const AssetPart& part, const PartAppearance& appea
     const Mesh& mesh = part.mesh;
     const vec3 outgoing =
         liftAboveHorizon(frameOf(mesh, vertex).toLocal(glm::normalize(eye - mesh.positions[vertex])));
-    const std::vector<WornLayer> layers = wornLayers(part, appearance);
+    const std::vector<BoundLayer> layers = boundLayers(part, appearance);
     const std::vector<vec3> weights =
         layerWeights(part, appearance.set, layers, mesh.uvs.empty() ? vec2(0) : mesh.uvs[vertex],
                      mesh.colors.empty() ? vec4(0) : mesh.colors[vertex]);

@@ -1,4 +1,4 @@
-// Rasterised against traced visibility, on vertices of an asset.
+// Rasterized against traced visibility, on vertices of an asset.
 #pragma once
 
 #include "engine/image/image.h"
@@ -12,11 +12,11 @@ namespace relume {
 struct VisibilityComparison {
     uint64_t hemisphere = 0; // texels above the horizons of all vertices
     uint64_t different = 0;  // of these
-    // Of these, where the traced visibility of all eight neighbours in the face is the texel's own: no
+    // Of these, where the traced visibility of all eight neighbors in the face is the texel's own: no
     // silhouette passes near.
     uint64_t inside = 0;
     // The vertex with the most different texels, as a picture of its cube unfolded: +Y above and -Y below the
-    // row -X, +Z, +X, -Z. White: seen, black: blocked, grey: below the horizon, red in a ring: different.
+    // row -X, +Z, +X, -Z. White: seen, black: blocked, gray: below the horizon, red in a ring: different.
     Image picture;
 
     double share() const { return hemisphere > 0 ? double(different) / double(hemisphere) : 0; }

@@ -16,8 +16,8 @@ struct Edge {
     auto operator<=>(const Edge&) const = default;
 };
 
-// Adds a vertex in the middle of edges[i], as vertex vertexCount() + i: position, uv and colour are the mean
-// of the ends', normal and tangent are their normalised sums. Triangles with one, two or three of `edges`
+// Adds a vertex in the middle of edges[i], as vertex vertexCount() + i: position, uv and color are the mean
+// of the ends', normal and tangent are their normalized sums. Triangles with one, two or three of `edges`
 // become two, three or four, so that all stay joined and the surface is what it was. `edges` are distinct
 // edges of the mesh, which has normals.
 void splitEdges(Mesh& mesh, std::span<const Edge> edges);

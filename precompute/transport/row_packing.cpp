@@ -34,10 +34,10 @@ PackedRow packLargest(const std::vector<vec3>& coefficients, int count) {
         row.scale = std::max({row.scale, magnitude.x, magnitude.y, magnitude.z});
     }
     for (const uint16_t index : kept) {
-        const ivec3 quantised = quantiseCoefficient(coefficients[index], row.scale);
-        if (quantised == ivec3(0)) continue;
+        const ivec3 quantized = quantizeCoefficient(coefficients[index], row.scale);
+        if (quantized == ivec3(0)) continue;
         row.indices.push_back(index);
-        row.values.push_back(packCoefficient(quantised));
+        row.values.push_back(packCoefficient(quantized));
     }
     return row;
 }

@@ -8,7 +8,7 @@
 
 namespace relume {
 
-// One row: its coefficients, quantised against the largest |component|, without those that became zero.
+// One row: its coefficients, quantized against the largest |component|, without those that became zero.
 struct PackedRow {
     float scale = 0;
     std::vector<uint16_t> indices; // rising
@@ -16,7 +16,7 @@ struct PackedRow {
 };
 
 // Keeps the `count` of at most 65,536 coefficients that have the largest r² + g² + b² (of equal ones the
-// first), and none that is zero: the same row as shaders/select.comp and quantise.comp make.
+// first), and none that is zero: the same row as shaders/select.comp and quantize.comp make.
 PackedRow packLargest(const std::vector<vec3>& coefficients, int count);
 
 } // namespace relume

@@ -27,7 +27,7 @@ PackedRow RowSum::pack(int kept, Energies* energies) {
             const vec3 value = values[row.indices[i]],
                        lost = value - row.scale * kCoefficientUnit * vec3(unpackCoefficient(row.values[i]));
             keptEnergy += double(glm::dot(value, value));
-            energies->quantised += double(glm::dot(lost, lost));
+            energies->quantized += double(glm::dot(lost, lost));
         }
         energies->dropped = std::max(0.0, energies->total - keptEnergy);
     }

@@ -29,7 +29,7 @@ class RowSum {
     // Returns the sum's `kept` largest coefficients, as packLargest() takes them; `energies`, if any: sums of
     // squares of the coefficients, of those that are dropped, and of what quantization changes of the others.
     struct Energies {
-        double total = 0, dropped = 0, quantised = 0;
+        double total = 0, dropped = 0, quantized = 0;
     };
     PackedRow pack(int kept, Energies* energies = nullptr);
 

@@ -69,7 +69,7 @@ std::array<int, shared::kBvhWidth> assignSlots(const TreeNode& node) {
     };
     std::vector<Wish> wishes;
     for (unsigned child = 0; child < node.childCount; child++) {
-        const vec3 towards = 0.5f * (lowOf(node.bounds[child]) + highOf(node.bounds[child])) - all.centre();
+        const vec3 towards = 0.5f * (lowOf(node.bounds[child]) + highOf(node.bounds[child])) - all.center();
         for (unsigned slot = 0; slot < shared::kBvhWidth; slot++) {
             const vec3 octant = vec3(slot & 1, slot >> 1 & 1, slot >> 2 & 1) * 2.0f - 1.0f;
             wishes.push_back({-glm::dot(towards, octant), child, slot});

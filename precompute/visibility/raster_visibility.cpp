@@ -57,7 +57,7 @@ void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backF
             box.add(mesh.positions[indices.back()]);
         }
         shared::TriangleCluster& cluster = clusters.emplace_back();
-        cluster = {box.centre(), 0.5f * (box.high - box.low), vec3(0), vec3(0), 2, firstIndex, count};
+        cluster = {box.center(), 0.5f * (box.high - box.low), vec3(0), vec3(0), 2, firstIndex, count};
         if (!backFacesOnly) continue;
         // meshoptimizer's cone is where back faces only are seen: those of the reversed triangles are front
         // faces.

@@ -1,4 +1,4 @@
-// Visibility cubes by rasterising the occluder from every point, many points a submission.
+// Visibility cubes by rasterizing the occluder from every point, many points a submission.
 #pragma once
 
 #include "precompute/visibility/visibility.h"

@@ -26,7 +26,7 @@ inline shared::BakePoint bakePoint(const Mesh& mesh, size_t vertex, float offset
 inline uint64_t visibilityBytes(uint32_t size) { return 6ull * size * size / 8; }
 
 // Fills a buffer with one bit per texel: 6 · size² bits a point, face after face, row by row, bit i of a
-// word being texel i of its 32. A bit is set where the direction through the texel's centre is free and above
+// word being texel i of its 32. A bit is set where the direction through the texel's center is free and above
 // the point's horizon.
 //
 // Self-intersection: points are lifted off the surface (visibilityOffset) and what is nearer than
@@ -47,7 +47,7 @@ class Visibility {
 // SPIR-V of some kernels.
 using Kernels = std::vector<std::span<const uint32_t>>;
 
-// How visibility is found: by the fixed-function rasteriser or by rays in a compute shader.
+// How visibility is found: by the fixed-function rasterizer or by rays in a compute shader.
 enum class VisibilityMethod { Raster, Traced };
 std::string_view visibilityMethodName(VisibilityMethod method); // "raster", "traced"
 

@@ -11,7 +11,7 @@ const mat3 kFaceAxes[6] = mat3[6](
     mat3(vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1)),
     mat3(vec3(-1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)));
 
-// Unnormalised direction of face coordinates u (right) and v (down), both in [-1, 1].
+// Unnormalized direction of face coordinates u (right) and v (down), both in [-1, 1].
 vec3 cubeDirection(uint face, vec2 uv) { return kFaceAxes[face] * vec3(uv, 1); }
 
 // The face that a direction, of any length but zero, passes through.

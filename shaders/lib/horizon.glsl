@@ -2,10 +2,10 @@
 #ifndef RELUME_LIB_HORIZON_GLSL
 #define RELUME_LIB_HORIZON_GLSL
 
-// Bit i: whether the centre of texel x + i of row y, on a face of `size` texels, is above the horizon of
+// Bit i: whether the center of texel x + i of row y, on a face of `size` texels, is above the horizon of
 // `normal`, which is in the face's coordinates.
 uint aboveHorizon(vec3 normal, uint x, uint y, uint size) {
-    // The cosine is linear along a row, up to the direction's length: its sign needs no normalisation.
+    // The cosine is linear along a row, up to the direction's length: its sign needs no normalization.
     const float texelWidth = 2.0 / float(size);
     const float v = (float(y) + 0.5) * texelWidth - 1;
     const float rowStart = normal.y * v + normal.z + normal.x * ((float(x) + 0.5) * texelWidth - 1);

@@ -17,11 +17,11 @@ CapTexel capTexel(uint place, uint sideBits) {
 
 vec2 middleOf(CapTexel texel) { return texel.low + 0.5 * texel.width; }
 
-// `centre`, in the frame of the texel's face, to `side`: as in LightCap.
-float capCoverage(CapTexel texel, vec3 centre, float inner, float outer, uint side) {
-    // Nothing of a texel is further from its centre than this: projection to the sphere brings points together.
+// `center`, in the frame of the texel's face, to `side`: as in LightCap.
+float capCoverage(CapTexel texel, vec3 center, float inner, float outer, uint side) {
+    // Nothing of a texel is further from its center than this: projection to the sphere brings points together.
     const float reach = 0.5 * sqrt(2.0) * texel.width;
-    const float away = distance(normalize(vec3(middleOf(texel), 1)), centre);
+    const float away = distance(normalize(vec3(middleOf(texel), 1)), center);
     if (away - reach >= outer) return 0;
     if (away + reach <= inner) return 1;
     const float cell = texel.width / float(side);
@@ -31,7 +31,7 @@ float capCoverage(CapTexel texel, vec3 centre, float inner, float outer, uint si
             const vec2 uv = texel.low + (vec2(i, j) + 0.5) * cell;
             const float squared = 1 + dot(uv, uv), root = sqrt(squared);
             const float weight = 1 / (squared * root);
-            covered += weight * clamp((outer - distance(vec3(uv, 1) / root, centre)) / (outer - inner), 0, 1);
+            covered += weight * clamp((outer - distance(vec3(uv, 1) / root, center)) / (outer - inner), 0, 1);
             weights += weight;
         }
     return covered / weights;

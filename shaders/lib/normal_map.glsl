@@ -4,7 +4,7 @@
 #define RELUME_LIB_NORMAL_MAP_GLSL
 
 // Returns a mapped normal, turned towards the eye where it would look away from it. C++ twin:
-// precompute/reference/dressed_asset.cpp.
+// precompute/reference/bound_asset.cpp.
 vec3 facingNormal(vec3 normal, vec3 view) {
     const float kLeastCosine = 0.05;
     return normalize(normal + max(kLeastCosine - dot(normal, view), 0) * view);

@@ -15,7 +15,7 @@ ivec3 unpackCoefficient(uint word) {
 }
 
 // Rounds to nearest, halves away from zero; `scale` maps to the maxima.
-ivec3 quantiseCoefficient(vec3 value, float scale) {
+ivec3 quantizeCoefficient(vec3 value, float scale) {
     precise vec3 steps = value / scale * vec3(kCoefficientMaximum);
     return ivec3(sign(steps) * floor(abs(steps) + 0.5));
 }

@@ -99,13 +99,13 @@ vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms, bool
 // the ratio. Each channel's is clamped to a range around the luminance's, and that to a part of the irradiance's:
 // errors of storage would color and blacken what little light reaches. Bounced light has colors of its own; where T is
 // above S, it is what is above.
-const float kLeastView = 1e-4, kLeastOfGrey = 0.8, kMostOfGrey = 1.25;
+const float kLeastView = 1e-4, kLeastOfGray = 0.8, kMostOfGray = 1.25;
 vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples, bool isBounced) {
     const vec3 all = terms + kLeastView * unshadowedTuples, lit = shadowed + kLeastView * tuples;
     const vec3 ratio = lit / max(all, vec3(1e-30));
     if (isBounced) return exact * clamp(ratio, 0, 1) + max(shadowed - terms, 0);
-    const float grey = max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
-    return exact * min(clamp(ratio, kLeastOfGrey * grey, kMostOfGrey * grey), 1);
+    const float gray = max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
+    return exact * min(clamp(ratio, kLeastOfGray * gray, kMostOfGray * gray), 1);
 }
 
 #endif

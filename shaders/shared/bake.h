@@ -13,9 +13,9 @@ struct BakePoint {
 };
 RELUME_SHARED_SIZE(BakePoint, 36)
 
-// A few neighbouring triangles of the occluder: one indirect draw, instanced over the layers it touches.
+// A few neighboring triangles of the occluder: one indirect draw, instanced over the layers it touches.
 struct TriangleCluster {
-    vec3 centre, extent; // Bounding box: the middle, and half its size
+    vec3 center, extent; // Bounding box: the middle, and half its size
     // Normal cone: a point p where dot(normalize(apex - p), axis) ≥ cutoff sees front faces only. The cutoff
     // is above 1 where front faces are drawn too.
     vec3 apex, axis;
@@ -78,7 +78,7 @@ RELUME_SHARED_SIZE(RowsPush, 12)
 struct RowStatistics {
     float total;     // of all coefficients
     float dropped;   // lost by keeping N
-    float quantised; // lost by quantisation
+    float quantized; // lost by quantization
 };
 RELUME_SHARED_SIZE(RowStatistics, 12)
 

@@ -11,8 +11,8 @@ const float kLeastRadiance = 8.0779356694631609e-28f;
 
 // A disc on the sphere of directions, as it is averaged over texels: engine/light/cap.h.
 struct LightCap {
-    vec3 centres[6]; // unit vector, in each face's frame: right, down, forward
-    float inner;     // covered up to this distance (of unit vectors) from the centre,
+    vec3 centers[6]; // unit vector, in each face's frame: right, down, forward
+    float inner;     // covered up to this distance (of unit vectors) from the center,
     float outer;     // less and less up to this, and not at all beyond
     uint side;       // sub-cells of a texel's side
     float amount;    // of a lamp: its solid angle; of a stroke: its opacity

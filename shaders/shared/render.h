@@ -22,7 +22,7 @@ struct LightSamplePush {
 };
 RELUME_SHARED_SIZE(LightSamplePush, 24)
 
-struct LightQuantisePush {
+struct LightQuantizePush {
     uint coefficients; // 6 · F²
     uint sumLimit;     // kLightSumLimit
     uint sideBits;     // log2 F
@@ -30,9 +30,9 @@ struct LightQuantisePush {
     uint count;        // of kept entries; 0: by share
     float share;       // of the largest weight that a kept entry has
 };
-RELUME_SHARED_SIZE(LightQuantisePush, 24)
+RELUME_SHARED_SIZE(LightQuantizePush, 24)
 
-// One quantised light coefficient: r and g in the halves of a word (r lowest), b in a word of its own.
+// One quantized light coefficient: r and g in the halves of a word (r lowest), b in a word of its own.
 struct PackedLight {
     uint redGreen;
     int blue;
@@ -41,7 +41,7 @@ RELUME_SHARED_SIZE(PackedLight, 8)
 
 // What belongs to all coefficients of a light.
 struct LightStats {
-    float scale;  // coefficient = scale · quantised value; a power of two, or 0
+    float scale;  // coefficient = scale · quantized value; a power of two, or 0
     float energy; // Σ c², in units of scale², of the light before,
     float lost;   // and of what selection and rounding took
     uint kept;    // entries that are not zero
@@ -109,7 +109,7 @@ struct ViewVertex {
     vec3 position;
     vec3 normal;  // Unit length
     vec2 uv;      // of the part's textures, if it has any
-    vec4 color;   // as paint, if the part is painted by colours
+    vec4 color;   // as paint, if the part is painted by colors
     vec3 tangent; // Unit length if the part has tangents
     float unused;
 };
@@ -120,7 +120,7 @@ const uint kVertexTexels = 4; // of a ViewVertex
 struct ViewLayer {
     uint firstMap;   // of the layer's K maps in the part's texture
     int channel;     // of the paint that multiplies it; -1: none
-    uint isTextured; // 1: the base colour texture multiplies it
+    uint isTextured; // 1: the base color texture multiplies it
     float weight;
     uint firstSlot;   // of its lit spheres, by node
     uint harmonics;   // of their view's azimuth
@@ -132,11 +132,11 @@ RELUME_SHARED_SIZE(ViewLayer, 28)
 struct ViewDetail {
     vec3 emission;     // radiance, times the emission map
     float normalScale; // of the normal map's x and y; 0: there is none
-    uint isTinted;     // 1: vertex colours multiply the base colour
+    uint isTinted;     // 1: vertex colors multiply the base color
 };
 RELUME_SHARED_SIZE(ViewDetail, 20)
 
-// What a draw's fragments look at, the least that serves what a part wears.
+// What a draw's fragments look at, the least that serves the materials bound to a part.
 const uint kSingleLook = 0;  // one layer and a constant
 const uint kLayersLook = 1;  // several layers and constants
 const uint kSurfaceLook = 2; // paint, a texture or a detail as well
@@ -163,7 +163,7 @@ const uint kSampleX8 = 0xfb135d79u, kSampleY8 = 0x1f7d39b5u;
 // The pixels that a part may cover, and where they look.
 struct ViewRays {
     vec3 eye;
-    vec3 corner, right, down; // a pixel's direction: corner + x · right + y · down, not normalised
+    vec3 corner, right, down; // a pixel's direction: corner + x · right + y · down, not normalized
     vec4 rectangle;           // of these pixels, in clip space: left, top, right, bottom
 };
 RELUME_SHARED_SIZE(ViewRays, 64)
@@ -174,9 +174,9 @@ struct ViewShadePush {
     uint mapping;   // of the view maps: DiskMapping
     uint firstMap;  // kSingleLook: of the layer,
     float weight;   // and how much of it
-    uint layers;    // that are worn
+    uint layers;    // that are bound
     uint paint;     // kUnpainted, kPaintedByMap or kPaintedByColors
-    uint materials; // of the worn set: no more than these share the paint
+    uint materials; // of the bound set: no more than these share the paint
     uint terms;     // that are summed, the first ones: 1 to K
     // Used by the residual alone:
     uint firstSlot;   // kSingleLook: of the layer
@@ -209,7 +209,7 @@ const uint kCompareSplit = 0, kCompareDifference = 1;
 struct ComparePush {
     uint mode;
     float split; // column that the second image begins at
-    float scale; // of differences: 1 is the hottest colour
+    float scale; // of differences: 1 is the hottest color
 };
 RELUME_SHARED_SIZE(ComparePush, 12)
 

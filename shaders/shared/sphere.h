@@ -32,7 +32,7 @@ RELUME_SHARED_SIZE(SphereCubePush, 4)
 struct UnshadowedTuplesPush {
     uint mapping;    // of the light maps: DiskMapping
     uint terms;      // K
-    uint isGrey;     // ViewMapTexture::isGrey
+    uint isGray;     // ViewMapTexture::isGray
     uint firstImage; // of the set's, three for each four terms
     uint rows;       // of an image: kTupleRings or, if any set is turned, kTurnedRows
     uint isTurned;   // 1: for each of kTupleTurns

@@ -175,7 +175,7 @@ TEST_CASE("cli: brdf measures terms, after each of them, and draws them") {
 }
 
 TEST_CASE(
-    "cli: materials of a bake are worn, blended by weights over their sum, and named when there are none") {
+    "cli: materials of a bake are bound, blended by weights over their sum, and named when there are none") {
     const TemporaryFolder folder;
     const std::string bake = std::string(kSmallBake) + R"(-m clay -m '{"name": "a=1", "model": "plastic"}' )";
     REQUIRE_EQ(runRelume(folder, bake + "-o set.relume").exitCode, 0);

@@ -31,7 +31,7 @@ void checkCapture(const std::vector<ReadSpan>& spans) {
     checkNesting(spans);
     checkCpuSpans(spans);
     for (int frame = 0; frame < kFrames; frame++)
-        for (const char* name : {"light sample", "light haar", "light quantise", "relight", "view"})
+        for (const char* name : {"light sample", "light haar", "light quantize", "relight", "view"})
             onlySpan(spans, "GPU", frame, name);
     checkPassesFillFrames(spans, kFrames);
 }

@@ -36,7 +36,7 @@ TEST_CASE("bake: every stage agrees with its CPU twin and Embree") {
     const Verification found = verify(device, asset, prepareForSampling(makeSky()), 0.3f, 40);
     CHECK_LE(found.visibilityMismatch, 0.005);
     CHECK_LE(found.transportError, 1e-4);
-    CHECK_LE(found.quantisationError, 0.01);
+    CHECK_LE(found.quantizationError, 0.01);
     CHECK_EQ(found.relightBits, 0u);
     CHECK_GT(found.waveletError, 0.02);
     CHECK_LT(found.waveletError, 0.35);

@@ -55,6 +55,6 @@ TEST_CASE("cpu baker: its rows are the device's, up to silhouettes and exchanges
     CHECK_LE(std::sqrt(difference), 0.02 * std::sqrt(size));
     CHECK(std::sqrt(losses.dropped / losses.total) ==
           doctest::Approx(double(asset.truncationError)).epsilon(0.01));
-    CHECK(std::sqrt(losses.quantised / (losses.total - losses.dropped)) ==
-          doctest::Approx(double(asset.quantisationError)).epsilon(0.01));
+    CHECK(std::sqrt(losses.quantized / (losses.total - losses.dropped)) ==
+          doctest::Approx(double(asset.quantizationError)).epsilon(0.01));
 }

@@ -117,7 +117,7 @@ TEST_CASE("light pass: an environment agrees with the CPU twin") {
         }
 }
 
-TEST_CASE("light pass: a cube is quantised as by the CPU twin") {
+TEST_CASE("light pass: a cube is quantized as by the CPU twin") {
     const TestDevice device;
     LightPass pass(device, 64);
     for (const int threshold : {0, 1, 300, 1024}) {
@@ -148,7 +148,7 @@ TEST_CASE("light pass: the range guard coarsens as the CPU twin does") {
     }
 }
 
-TEST_CASE("light pass: any cube is quantised to the CPU twin's bits, however bright") {
+TEST_CASE("light pass: any cube is quantized to the CPU twin's bits, however bright") {
     const TestDevice device;
     LightPass pass(device, 32);
     std::mt19937 random(11);

@@ -89,7 +89,7 @@ TEST_CASE("timing capture: 100 frames nest, fill their GPU time, and stand on th
             for (const char* name : {"frame", "record", "submit", "wait", "read back"})
                 test::onlySpan(spans, "CPU", frame, name);
             test::onlySpan(spans, "GPU", frame, "view");
-            for (const char* name : {"light sample", "light haar", "light quantise", "relight"})
+            for (const char* name : {"light sample", "light haar", "light quantize", "relight"})
                 if (frame % 2 == 0) test::onlySpan(spans, "GPU", frame, name);
         }
         const std::vector<test::ReadSpan> table = test::readTimingTable(csvTable(trace));

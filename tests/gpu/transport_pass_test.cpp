@@ -1,4 +1,4 @@
-// Transport, Haar, selection, quantisation and compaction on the device against their CPU twins.
+// Transport, Haar, selection, quantization and compaction on the device against their CPU twins.
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
 #include "engine/vk/upload.h"
@@ -134,7 +134,7 @@ void checkCase(const vk::Device& device, const Case& c) {
                 dropped += glm::dot(expected[i], expected[i]);
         }
         CHECK_LT(worst, step);
-        // Rounding swaps neighbours in magnitude, and values at the edge of zero: a few of them.
+        // Rounding swaps neighbors in magnitude, and values at the edge of zero: a few of them.
         CHECK_LE(differentlyKept, 2 + packed.indices.size() / 50);
     }
     CHECK(losses.total == doctest::Approx(total).epsilon(1e-3));
@@ -153,7 +153,7 @@ TEST_CASE("transport pass: every size and sampling gives its CPU twin's rows") {
         checkCase(device, c);
 }
 
-TEST_CASE("transport pass: lossless selection keeps every coefficient that does not quantise to zero") {
+TEST_CASE("transport pass: lossless selection keeps every coefficient that does not quantize to zero") {
     const TestDevice device;
     checkCase(device, {64, 128, 1, 6 * 64 * 64, 1});
     checkCase(device, {32, 64, 1, 6 * 32 * 32, 3});
@@ -195,7 +195,7 @@ void checkSame(const Rows& a, const Rows& b) {
     CHECK(a.transport.values == b.transport.values);
     CHECK_EQ(a.losses.total, b.losses.total);
     CHECK_EQ(a.losses.dropped, b.losses.dropped);
-    CHECK_EQ(a.losses.quantised, b.losses.quantised);
+    CHECK_EQ(a.losses.quantized, b.losses.quantized);
 }
 
 } // namespace

@@ -58,7 +58,7 @@ Texture randomTexture(int width, int height, bool srgb, uint32_t seed) {
     return texture;
 }
 
-// A sphere with two sets of materials, some with a base, a base colour texture, and paint of either kind;
+// A sphere with two sets of materials, some with a base, a base color texture, and paint of either kind;
 // over a plane in one plain material.
 Asset makePaintedAsset(bool byColors) {
     std::mt19937 random(9);
@@ -240,11 +240,11 @@ class HostView {
 
     const MaterialSet& setOf(size_t part) const { return mAsset.parts[part].sets[mAppearance[part].set]; }
 
-    // How much of every layer of the worn set, worked out from the definitions in appearance.h.
+    // How much of every layer of the bound set, worked out from the definitions in appearance.h.
     std::vector<vec3> layerWeights(size_t index, std::optional<vec4> baseColor, std::optional<vec4> map,
                                    vec4 color) const {
         const MaterialSet& set = setOf(index);
-        const PartAppearance& worn = mAppearance[index];
+        const PartAppearance& bound = mAppearance[index];
         vec4 paint = map.value_or(color);
         float sum = 0;
         for (size_t m = 0; m < std::min<size_t>(set.materials.size(), 4); m++) sum += paint[int(m)];
@@ -253,7 +253,7 @@ class HostView {
         for (size_t m = 0; m < set.materials.size(); m++) {
             const AssetMaterial& material = set.materials[m];
             const float painted = sum > 0 ? paint[int(m)] / sum : float(m == 0);
-            const float weight = worn.painted ? painted : worn.weights[m];
+            const float weight = bound.painted ? painted : bound.weights[m];
             weights[size_t(material.layer)] = vec3(weight);
             if (material.hasBase) weights[size_t(material.layer) + 1] = weight * base;
         }
@@ -344,21 +344,21 @@ constexpr float kFiltered = 0.01f; // tolerance where textures are looked up
 
 } // namespace
 
-TEST_CASE("view pass: materials of a set are worn alone, blended, and swapped for another set's") {
+TEST_CASE("view pass: materials of a set are bound alone, blended, and swapped for another set's") {
     const TestDevice device;
     const Asset asset = makePaintedAsset(true);
-    const auto worn = [&](std::vector<WeightedMaterial> blend) {
+    const auto bound = [&](std::vector<WeightedMaterial> blend) {
         Appearance appearance = defaultAppearance(asset);
-        wear(appearance, asset, blend);
+        bindMaterials(appearance, asset, blend);
         return appearance;
     };
-    checkAgainstHost(device, asset, worn({{"matt"}}));
-    checkAgainstHost(device, asset, worn({{"gloss", 0.25f}, {"matt", 0.75f}}));
-    checkAgainstHost(device, asset, worn({{"coated"}}), kFiltered); // rest and textured base
-    checkAgainstHost(device, asset, worn({{"other"}}), kFiltered);
+    checkAgainstHost(device, asset, bound({{"matt"}}));
+    checkAgainstHost(device, asset, bound({{"gloss", 0.25f}, {"matt", 0.75f}}));
+    checkAgainstHost(device, asset, bound({{"coated"}}), kFiltered); // rest and textured base
+    checkAgainstHost(device, asset, bound({{"other"}}), kFiltered);
 }
 
-TEST_CASE("view pass: materials are painted by vertex colours and by a map") {
+TEST_CASE("view pass: materials are painted by vertex colors and by a map") {
     const TestDevice device;
     for (bool byColors : {true, false}) {
         const Asset asset = makePaintedAsset(byColors);
@@ -430,8 +430,8 @@ TEST_CASE("view pass: a swap takes the next draw, in one submission, and costs n
     ViewPass view(device, asset, {.width = 64, .height = 48});
     const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, 64.0f / 48);
     Appearance matt = defaultAppearance(asset), gloss = matt;
-    wear(matt, asset, std::vector<WeightedMaterial>{{"matt"}});
-    wear(gloss, asset, std::vector<WeightedMaterial>{{"gloss"}});
+    bindMaterials(matt, asset, std::vector<WeightedMaterial>{{"matt"}});
+    bindMaterials(gloss, asset, std::vector<WeightedMaterial>{{"gloss"}});
     view.setAppearance(matt);
     const Image first = view.render(camera, scene.relighter);
     view.setAppearance(gloss);
@@ -455,7 +455,7 @@ TEST_CASE("view pass: agrees with the CPU at every number of terms") {
     checkPlain(device, makeAsset(31, 12));
 }
 
-TEST_CASE("view pass: grey view maps, four terms a lookup, agree with the CPU") {
+TEST_CASE("view pass: gray view maps, four terms a lookup, agree with the CPU") {
     const TestDevice device;
     for (const auto& [first, second] : {std::pair(6, 4), std::pair(16, 1)}) {
         Asset asset = makeAsset(first, second);
@@ -591,9 +591,9 @@ TEST_CASE("view pass: leaving clusters of triangles out changes no pixel") {
         std::vector<Camera> cameras = {
             {surface + 0.02f * normal, surface, 0.8f}, // nearer than the near plane of some of it
             {surface - 0.05f * normal, surface, 2.0f}, // inside
-            {bounds.centre(), bounds.centre() + vec3(1, 0.3f, 0.2f), 1.2f},
-            {bounds.centre() + vec3(0, 0, 30), bounds.centre(), 0.1f},
-            {bounds.centre() + vec3(3, 0, 0), bounds.centre() + vec3(9, 0, 0), 0.8f}}; // all behind
+            {bounds.center(), bounds.center() + vec3(1, 0.3f, 0.2f), 1.2f},
+            {bounds.center() + vec3(0, 0, 30), bounds.center(), 0.1f},
+            {bounds.center() + vec3(3, 0, 0), bounds.center() + vec3(9, 0, 0), 0.8f}}; // all behind
         for (int i = 0; i < 8; i++)
             cameras.push_back(orbitCamera(bounds, 0.8f * float(i), 0.3f * float(i) - 1,
                                           0.3f + 0.1f * float(i), 0.8f, 1.5f));

@@ -1,4 +1,4 @@
-// Rasterised and traced visibility against closed forms, against Embree and against each other.
+// Rasterized and traced visibility against closed forms, against Embree and against each other.
 #include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/ground.h"
@@ -149,13 +149,13 @@ TEST_CASE("visibility: agrees with Embree but at silhouettes") {
             size_t mismatched = 0;
             for (size_t point = 0; point < points.size(); point++)
                 mismatched += differences(cubes[point], expected[point]);
-            // Rays do as Embree's do; the rasteriser rounds corners to a fraction of a texel.
+            // Rays do as Embree's do; the rasterizer rounds corners to a fraction of a texel.
             CHECK_LT(double(mismatched) / hemispheres, method == VisibilityMethod::Traced ? 2e-5 : 0.005);
         }
     }
 }
 
-TEST_CASE("visibility: traced and rasterised differ only at silhouettes") {
+TEST_CASE("visibility: traced and rasterized differ only at silhouettes") {
     const TestDevice device;
     if (!canUse(device, VisibilityMethod::Traced)) return;
     constexpr int kSize = 128;
@@ -171,7 +171,7 @@ TEST_CASE("visibility: traced and rasterised differ only at silhouettes") {
             for (int texel = 0; texel < 6 * kSize * kSize; texel++) {
                 if (traced[point][size_t(texel)] == raster[point][size_t(texel)]) continue;
                 different++;
-                // A silhouette passes through the texel: one of its neighbours in the face is not like it.
+                // A silhouette passes through the texel: one of its neighbors in the face is not like it.
                 const int face = texel / (kSize * kSize), y = texel / kSize % kSize, x = texel % kSize;
                 bool border = x == 0 || y == 0 || x == kSize - 1 || y == kSize - 1;
                 for (int dy = -1; dy <= 1 && !border; dy++)
@@ -199,7 +199,7 @@ TEST_CASE("visibility: no ray slips out of a closed mesh") {
 }
 
 TEST_CASE("visibility: traced rays through corners and along edges are blocked") {
-    // A wall whose corners all lie on the centres of texels: every ray of the face meets a corner, none an
+    // A wall whose corners all lie on the centers of texels: every ray of the face meets a corner, none an
     // inside.
     const TestDevice device;
     if (!canUse(device, VisibilityMethod::Traced)) return;

@@ -71,9 +71,9 @@ class MaterialTest {
     ViewPass mView;
 };
 
-Appearance wearing(const Asset& asset, const std::string& name) {
+Appearance boundTo(const Asset& asset, const std::string& name) {
     Appearance appearance = defaultAppearance(asset);
-    wear(appearance, asset, std::vector<WeightedMaterial>{{name}});
+    bindMaterials(appearance, asset, std::vector<WeightedMaterial>{{name}});
     return appearance;
 }
 
@@ -169,15 +169,15 @@ TEST_CASE("image: every material of a set, and a blend, is its reference") {
     REQUIRE(test.asset().parts[0].sets.size() == 1);
     std::vector<Image> images;
     for (const std::string name : {"clay", "gold", "red-plastic"}) {
-        const double error = test.error(wearing(test.asset(), name));
+        const double error = test.error(boundTo(test.asset(), name));
         MESSAGE(name, " in a set of three: relative RMSE ", error);
         CHECK_LE(error, 0.16);
-        images.push_back(test.draw(wearing(test.asset(), name)));
+        images.push_back(test.draw(boundTo(test.asset(), name)));
     }
     CHECK_GT(compareImages(images[0], images[1]).relativeRmse, 0.2);
     CHECK_GT(compareImages(images[0], images[2]).relativeRmse, 0.2);
     Appearance blend = defaultAppearance(test.asset());
-    wear(blend, test.asset(), std::vector<WeightedMaterial>{{"clay", 0.5f}, {"gold", 0.5f}});
+    bindMaterials(blend, test.asset(), std::vector<WeightedMaterial>{{"clay", 0.5f}, {"gold", 0.5f}});
     CHECK_LE(test.error(blend), 0.16);
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("image: materials baked separately are swapped without reloading") {
     MaterialTest test(sphereScene(R"({"separate": ["clay", "red-plastic"]})"), 8, kBeforeSphere);
     REQUIRE(test.asset().parts[0].sets.size() == 2);
     for (const std::string name : {"red-plastic", "clay"}) {
-        const double error = test.error(wearing(test.asset(), name));
+        const double error = test.error(boundTo(test.asset(), name));
         MESSAGE(name, " on its own: relative RMSE ", error);
         CHECK_LE(error, 0.12);
     }

@@ -26,7 +26,7 @@ Asset bakeKnot(const vk::Device& device, const std::string& material, const Bake
 Asset bakeDiffuseKnot(const vk::Device& device, int coefficients) {
     BakeOptions options;
     options.coefficients = coefficients;
-    return bakeKnot(device, "grey-diffuse", options);
+    return bakeKnot(device, "gray-diffuse", options);
 }
 
 Camera viewOf(const Asset& asset) {

@@ -143,7 +143,7 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
 
 TEST_CASE("image: a diffuse material has no residual, and light that is none gives none") {
     const TestDevice device;
-    const Asset diffuse = bakeKnot(device, "grey-diffuse", Factorization::Environment);
+    const Asset diffuse = bakeKnot(device, "gray-diffuse", Factorization::Environment);
     CHECK_FALSE(diffuse.parts[0].sets[0].residual);
     const Asset gold = bakeKnot(device, "gold", Factorization::NonNegative);
     const LightCube dark{64, std::vector<vec3>(6 * 64 * 64, vec3(0))};

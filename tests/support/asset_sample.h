@@ -24,11 +24,11 @@ inline SparseTransport sampleTransport(uint32_t vertices, uint32_t terms, int fa
         const int length = row % 7 == 3 ? 0 : perRow;
         int index = gap(random);
         for (int i = 0; i < length && index < 6 * faceSize * faceSize; i++, index += 1 + gap(random)) {
-            const float grey = gauss(random);
+            const float gray = gauss(random);
             const vec3 value =
-                glm::clamp(vec3(grey, 0.8f * grey, 0.5f * grey + 0.02f * gauss(random)), -1.0f, 1.0f);
+                glm::clamp(vec3(gray, 0.8f * gray, 0.5f * gray + 0.02f * gauss(random)), -1.0f, 1.0f);
             transport.indices.push_back(uint16_t(index));
-            transport.values.push_back(packCoefficient(quantiseCoefficient(value, 1)));
+            transport.values.push_back(packCoefficient(quantizeCoefficient(value, 1)));
         }
         transport.scales.push_back(length == 0 ? 0.0f : std::abs(gauss(random)));
         transport.rowStarts.push_back(transport.values.size());
@@ -119,7 +119,7 @@ inline Asset sampleAsset(uint32_t seed = 1) {
     asset.transportSamples = 4;
     asset.visibilityOffset = 0.1f;
     asset.truncationError = 0.21f;
-    asset.quantisationError = 1e-3f;
+    asset.quantizationError = 1e-3f;
     asset.parts.push_back(samplePart(19, 3, asset.faceSize, asset.coefficients, random));
     asset.parts.push_back(samplePart(11, 1, asset.faceSize, asset.coefficients, random));
     asset.parts[1].name = "ground \xc3\xa9\"\n";
@@ -136,7 +136,7 @@ inline Asset sampleAsset(uint32_t seed = 1) {
     for (uint32_t i = 0; i < 19; i++) rich.mesh.uvs.push_back({float(i) / 7, -float(i)});
     rich.baseColor = Texture{2, 3, {1, 2, 3, 4, 5, 0xff000000}, true};
     rich.materialMap = Texture{1, 1, {0x12345678}, false};
-    // The second is painted by its colours.
+    // The second is painted by its colors.
     for (uint32_t i = 0; i < 11; i++) asset.parts[1].mesh.colors.push_back(vec4(float(i) / 10));
     for (const vec3& normal : asset.parts[1].mesh.normals)
         asset.parts[1].mesh.tangents.push_back(tangentFrame(normal, {1, 2, 3}).s);

@@ -72,7 +72,7 @@ inline std::string oldMeta(const Asset& asset, std::span<const uint64_t> setEntr
         {"coefficients", asset.coefficients},
         {"transportSamples", asset.transportSamples},
         {"visibilityOffset", asset.visibilityOffset},
-        {"quantisationError", asset.quantisationError},
+        {"quantisationError", asset.quantizationError},
         {"truncationError", asset.truncationError},
         {"occluder",
          {{"vertices", asset.occluder.vertexCount()}, {"triangles", asset.occluder.triangleCount()}}},

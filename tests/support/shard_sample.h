@@ -11,7 +11,7 @@ namespace relume::test {
 inline Asset shardedAsset() {
     std::mt19937 random(5);
     Asset asset = sampleAsset();
-    asset.truncationError = asset.quantisationError = 0;
+    asset.truncationError = asset.quantizationError = 0;
     asset.parts = {samplePart(300, 3, asset.faceSize, 4, random),
                    samplePart(70, 1, asset.faceSize, 3, random)};
     asset.parts[0].sets.push_back(samplePart(300, 2, asset.faceSize, 5, random).sets[0]);

@@ -1,4 +1,4 @@
-// What parts wear: names, blends, paint.
+// Materials bound to parts: names, blends, paint.
 #include "engine/base/error.h"
 #include "engine/render/appearance.h"
 #include "tests/support/asset_sample.h"
@@ -11,9 +11,9 @@ using namespace relume::test;
 namespace {
 
 // Part 0: a set of "matt" (layer 0) and "glossy" (1, and its base 2), and one of "other"; part 1: "matt".
-Appearance dressed(const Asset& asset, const std::vector<WeightedMaterial>& blend) {
+Appearance bound(const Asset& asset, const std::vector<WeightedMaterial>& blend) {
     Appearance appearance = defaultAppearance(asset);
-    wear(appearance, asset, blend);
+    bindMaterials(appearance, asset, blend);
     return appearance;
 }
 
@@ -24,18 +24,18 @@ TEST_CASE("appearance: parts begin as they were baked to be") {
     const Appearance appearance = defaultAppearance(asset);
     REQUIRE(appearance.size() == 2);
     CHECK(appearance[0].painted); // by its material map
-    CHECK(appearance[1].painted); // by its colours
+    CHECK(appearance[1].painted); // by its colors
     CHECK(appearance[0].weights == std::vector<float>{1, 0});
     CHECK(materialNames(asset) == std::vector<std::string>{"matt", "glossy", "other"});
 }
 
-TEST_CASE("appearance: a material is worn wherever a part has it, and nowhere else") {
+TEST_CASE("appearance: a material is bound wherever a part has it, and nowhere else") {
     const Asset asset = sampleAsset();
-    const Appearance matt = dressed(asset, {{"matt"}});
+    const Appearance matt = bound(asset, {{"matt"}});
     CHECK(matt[0].set == 0);
     CHECK_FALSE(matt[0].painted);
     CHECK_FALSE(matt[1].painted);
-    const Appearance other = dressed(asset, {{"other"}});
+    const Appearance other = bound(asset, {{"other"}});
     CHECK(other[0].set == 1);
     CHECK(other[0].weights == std::vector<float>{1});
     CHECK(other[1].painted); // as before
@@ -43,17 +43,16 @@ TEST_CASE("appearance: a material is worn wherever a part has it, and nowhere el
 
 TEST_CASE("appearance: blends need materials of one set, and names that exist") {
     const Asset asset = sampleAsset();
-    const Appearance blend = dressed(asset, {{"matt", 0.25f}, {"glossy", 0.5f}});
+    const Appearance blend = bound(asset, {{"matt", 0.25f}, {"glossy", 0.5f}});
     CHECK(blend[0].weights == std::vector<float>{0.25f, 0.5f});
-    CHECK_THROWS_WITH_AS(dressed(asset, {{"matt", 0.5f}, {"other", 0.5f}}), doctest::Contains("in one set"),
+    CHECK_THROWS_WITH_AS(bound(asset, {{"matt", 0.5f}, {"other", 0.5f}}), doctest::Contains("in one set"),
                          UsageError);
-    CHECK_THROWS_WITH_AS(dressed(asset, {{"glosy"}}), doctest::Contains("did you mean \"glossy\""),
-                         UsageError);
+    CHECK_THROWS_WITH_AS(bound(asset, {{"glosy"}}), doctest::Contains("did you mean \"glossy\""), UsageError);
 }
 
-TEST_CASE("appearance: worn layers are those of the worn materials, bases textured, paint by channel") {
+TEST_CASE("appearance: bound layers are those of the bound materials, bases textured, paint by channel") {
     const Asset asset = sampleAsset();
-    const auto layers = wornLayers(asset.parts[0], dressed(asset, {{"matt", 0}, {"glossy", 0.5f}})[0]);
+    const auto layers = boundLayers(asset.parts[0], bound(asset, {{"matt", 0}, {"glossy", 0.5f}})[0]);
     REQUIRE(layers.size() == 2);
     CHECK(layers[0].layer == 1);
     CHECK_FALSE(layers[0].textured);
@@ -61,7 +60,7 @@ TEST_CASE("appearance: worn layers are those of the worn materials, bases textur
     CHECK(layers[1].textured);
     CHECK(layers[1].weight == 0.5f);
     CHECK(layers[1].channel == -1);
-    const auto painted = wornLayers(asset.parts[0], defaultAppearance(asset)[0]);
+    const auto painted = boundLayers(asset.parts[0], defaultAppearance(asset)[0]);
     REQUIRE(painted.size() == 3);
     CHECK(painted[0].channel == 0);
     CHECK(painted[2].channel == 1);

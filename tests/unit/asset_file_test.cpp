@@ -110,7 +110,7 @@ void checkSame(const Asset& a, const Asset& b) {
     CHECK(a.coefficients == b.coefficients);
     CHECK(a.transportSamples == b.transportSamples);
     CHECK(a.visibilityOffset == b.visibilityOffset);
-    CHECK(a.quantisationError == b.quantisationError);
+    CHECK(a.quantizationError == b.quantizationError);
     CHECK(a.truncationError == b.truncationError);
     REQUIRE(a.layout.has_value() == b.layout.has_value());
     if (a.layout) {
@@ -310,7 +310,7 @@ TEST_CASE("asset file: a vertex of the most terms and coefficients is one run") 
     checkSame(decodeAsset(bytes, "file"), asset);
 }
 
-TEST_CASE("asset file: stored coefficients stand one to one for packed ones, grey ones have few bits") {
+TEST_CASE("asset file: stored coefficients stand one to one for packed ones, gray ones have few bits") {
     std::mt19937 random(5);
     for (int i = 0; i < 100000; i++) {
         const uint32_t word = uint32_t(random());

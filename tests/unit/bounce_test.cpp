@@ -3,7 +3,7 @@
 #include "engine/math/haar.h"
 #include "precompute/bounce/bounce_gather.h"
 #include "precompute/reference/bounce_twin.h"
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 #include "precompute/transport/row_sum.h"
 #include "tests/support/bowl.h"
 #include "tests/support/diffuse_asset.h"

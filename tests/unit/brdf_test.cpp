@@ -173,10 +173,10 @@ TEST_CASE("brdf: every material is reciprocal, finite and never negative, down t
     }
 }
 
-TEST_CASE("brdf: the base colour's part is at most all, and alone scales with the base colour") {
+TEST_CASE("brdf: the base color's part is at most all, and alone scales with the base color") {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform(0, 1);
-    // Material, parameter of the base colour, the same with half of it.
+    // Material, parameter of the base color, the same with half of it.
     const std::vector<std::array<std::string, 2>> pairs = {
         {R"({"model": "diffuse", "albedo": [0.8, 0.4, 0.2]})",
          R"({"model": "diffuse", "albedo": [0.4, 0.2, 0.1]})"},

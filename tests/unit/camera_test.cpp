@@ -21,7 +21,7 @@ vec3 project(const mat4& clip, vec3 point) {
 
 } // namespace
 
-TEST_CASE("camera: what lies along a pixel's direction projects to that pixel's centre") {
+TEST_CASE("camera: what lies along a pixel's direction projects to that pixel's center") {
     const Bounds bounds = box({-1, -2, -3}, {4, 3, 2});
     const int width = 64, height = 36;
     const float aspect = float(width) / float(height);
@@ -57,11 +57,11 @@ TEST_CASE("camera: y runs down, x to the right, depth from 0 to 1 across the sce
 
 TEST_CASE("camera: orbits start at +Z and turn towards +X") {
     const Bounds bounds = box({1, 2, 3}, {3, 4, 5});
-    const vec3 centre = bounds.centre();
-    CHECK(glm::distance(glm::normalize(orbitCamera(bounds, 0, 0, 1, 0.6f, 1).eye - centre), vec3(0, 0, 1)) <
+    const vec3 center = bounds.center();
+    CHECK(glm::distance(glm::normalize(orbitCamera(bounds, 0, 0, 1, 0.6f, 1).eye - center), vec3(0, 0, 1)) <
           1e-6f);
-    CHECK(orbitCamera(bounds, 0.3f, 0, 1, 0.6f, 1).eye.x > centre.x);
-    CHECK(orbitCamera(bounds, 0, 0.3f, 1, 0.6f, 1).eye.y > centre.y);
+    CHECK(orbitCamera(bounds, 0.3f, 0, 1, 0.6f, 1).eye.x > center.x);
+    CHECK(orbitCamera(bounds, 0, 0.3f, 1, 0.6f, 1).eye.y > center.y);
     const Camera above = orbitCamera(bounds, 0.7f, kPi / 2, 1, 0.6f, 1);
     CHECK(std::isfinite(above.clipFromWorld(1, bounds)[0][0]));
 }
@@ -71,10 +71,10 @@ TEST_CASE("camera: the bounding sphere just fits, in wide and in tall images") {
     for (float aspect : {0.5f, 1.0f, 16.0f / 9}) {
         const Camera fitted = orbitCamera(bounds, 1, 0.2f, 1, 0.6f, aspect);
         const float limit = std::atan(std::tan(0.3f) * std::min(1.0f, aspect));
-        CHECK(bounds.radius() / glm::distance(fitted.eye, bounds.centre()) ==
+        CHECK(bounds.radius() / glm::distance(fitted.eye, bounds.center()) ==
               doctest::Approx(std::sin(limit)));
         const Camera standard = defaultCamera(bounds, 0.6f, aspect);
-        CHECK(standard.eye.y > bounds.centre().y);
+        CHECK(standard.eye.y > bounds.center().y);
     }
 }
 

@@ -106,7 +106,7 @@ TEST_CASE("numbered triangles: each begins with the vertex of its number, and is
     }
 }
 
-TEST_CASE("numbered triangles: neighbours share vertices while devices hold them") {
+TEST_CASE("numbered triangles: neighbors share vertices while devices hold them") {
     const Mesh mesh = makePlane(1, 100);
     const NumberedTriangles numbered = numberTriangles(mesh);
     // Vertices made where the last 32 are held; no order makes fewer than one a triangle.

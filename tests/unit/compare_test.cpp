@@ -10,9 +10,9 @@ using namespace relume;
 
 namespace {
 
-Image constant(int width, int height, vec3 colour) {
+Image constant(int width, int height, vec3 color) {
     Image image(width, height);
-    for (vec4& pixel : image.pixels) pixel = vec4(colour, 1);
+    for (vec4& pixel : image.pixels) pixel = vec4(color, 1);
     return image;
 }
 
@@ -24,7 +24,7 @@ Image randomImage(unsigned seed) {
     return image;
 }
 
-// A dark disc on grey, moved right by `shift` pixels.
+// A dark disc on gray, moved right by `shift` pixels.
 Image disc(float shift) {
     Image image(64, 64);
     for (int y = 0; y < image.height; y++)
@@ -64,7 +64,7 @@ TEST_CASE("compare: refuses what cannot be compared") {
     CHECK_THROWS_AS(compareImages(constant(2, 2, vec3(1)), broken), Error);
 }
 
-TEST_CASE("flip: constant images differ as their colours do") {
+TEST_CASE("flip: constant images differ as their colors do") {
     // The paper's scale: green against blue is 1; black against white is 100 in lightness alone.
     const double largest = flipError(constant(16, 16, vec3(0, 1, 0)), constant(16, 16, vec3(0, 0, 1)));
     CHECK(largest == doctest::Approx(1).epsilon(1e-4));
@@ -91,6 +91,6 @@ TEST_CASE("flip: fine noise that the eye blurs counts less than a coarse pattern
                 image.at(x, y) = vec4(vec3((x / cell + y / cell) % 2 ? 0.6f : 0.4f), 1);
         return image;
     };
-    const Image grey = constant(64, 64, vec3(0.5f));
-    CHECK(flipError(checkers(1), grey) < 0.5 * flipError(checkers(16), grey));
+    const Image gray = constant(64, 64, vec3(0.5f));
+    CHECK(flipError(checkers(1), gray) < 0.5 * flipError(checkers(16), gray));
 }

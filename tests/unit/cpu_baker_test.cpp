@@ -109,7 +109,7 @@ void checkCase(const Case& c) {
                     difference += double(glm::dot(a[i] - b[i], a[i] - b[i]));
                     size += double(glm::dot(b[i], b[i]));
                 }
-                // A silhouette's texel, an exchange at the N-th place, a step of quantisation.
+                // A silhouette's texel, an exchange at the N-th place, a step of quantization.
                 CHECK_LE(std::sqrt(difference), 3e-3 * std::sqrt(size));
                 std::vector<bool> isKept(count, false);
                 for (uint16_t index : twin.terms[term].selected) isKept[index] = true;
@@ -240,5 +240,5 @@ TEST_CASE("cpu baker: any number of threads gives the same rows") {
     CHECK(alone.values == together.values);
     CHECK_EQ(lossesAlone.total, lossesTogether.total);
     CHECK_EQ(lossesAlone.dropped, lossesTogether.dropped);
-    CHECK_EQ(lossesAlone.quantised, lossesTogether.quantised);
+    CHECK_EQ(lossesAlone.quantized, lossesTogether.quantized);
 }

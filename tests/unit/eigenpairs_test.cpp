@@ -124,8 +124,8 @@ TEST_CASE("eigenpairs: of Ashikhmin-Shirley, clay and skin at 48 x 48 agree with
         const BrdfTable table = tabulate(*makeBrdf(material), 48, DiskMapping::Orthographic);
         const FactoredBrdf factored = factorize(table, {kCount, Factorization::Paper});
         REQUIRE(factored.terms == kCount);
-        const bool isGrey = table.channels[0] == table.channels[2];
-        for (size_t c = 0; c < (isGrey ? 1 : 3); c++) {
+        const bool isGray = table.channels[0] == table.channels[2];
+        for (size_t c = 0; c < (isGray ? 1 : 3); c++) {
             const MatrixXd exact = (table.channels[c] + table.channels[c].transpose()).cast<double>() / 2;
             Spectra::DenseSymMatProd<double> product(exact);
             Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> library(product, kCount + 4, 80);

@@ -91,8 +91,8 @@ TEST_CASE("environment: a pixel's direction leads back to it") {
     const Environment map = constant(40, 20, vec3(0));
     for (int y = 0; y < 20; y++)
         for (int x = 0; x < 40; x++) {
-            const vec2 centre(float(x) + 0.5f, float(y) + 0.5f);
-            CHECK(glm::length(map.place(3.0f * map.direction(centre.x, centre.y)) - centre) < 1e-3f);
+            const vec2 center(float(x) + 0.5f, float(y) + 0.5f);
+            CHECK(glm::length(map.place(3.0f * map.direction(center.x, center.y)) - center) < 1e-3f);
         }
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("environment: lookups are bilinear and wrap in longitude") {
     CHECK(constant(1, 1, vec3(5)).lookup({1, 2, 3}).x == 5);
 }
 
-TEST_CASE("environment: a latlong with its rows on the poles is resampled to pixel centres") {
+TEST_CASE("environment: a latlong with its rows on the poles is resampled to pixel centers") {
     Image image(64, 33);
     const Imath::Box2i window({0, 0}, {63, 32});
     for (int y = 0; y < image.height; y++)
@@ -141,7 +141,7 @@ TEST_CASE("environment: a cube becomes a latlong of the same directions") {
     CHECK(readEnvironment(folder.path() / "point.exr").width == 4);
 }
 
-TEST_CASE("environment: a file without a projection is a latlong with pixel centres") {
+TEST_CASE("environment: a file without a projection is a latlong with pixel centers") {
     Image image(4, 2);
     image.at(1, 0) = vec4(1, 2, 3, 1);
     image.at(2, 1) = vec4(-1, 1e30f, 2, 1);

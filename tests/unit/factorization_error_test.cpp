@@ -104,7 +104,7 @@ TEST_CASE("factorization errors: none where the BRDF is what its terms are") {
                 CHECK(errors[0].back() < 1e-5f);
             }
     }
-    const auto diffuse = makeBrdf("grey-diffuse");
+    const auto diffuse = makeBrdf("gray-diffuse");
     const FactoredBrdf factored = factorize(tabulate(*diffuse, 16, DiskMapping::EqualArea), {1});
     const LayerOf layer{&factored};
     CHECK(radianceErrors(*diffuse, std::span(&layer, 1), constantLight(32), {20})[0][0] < 1e-5f);

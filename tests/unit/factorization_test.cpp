@@ -35,7 +35,7 @@ MatrixXf reconstruct(const FactoredBrdf& brdf, const BrdfTable& table, int chann
 
 // A table of 12 directions (4 × 4 texels) with any matrix.
 BrdfTable tableWith(const MatrixXf& matrix) {
-    BrdfTable table = tableOf("grey-diffuse", 4);
+    BrdfTable table = tableOf("gray-diffuse", 4);
     REQUIRE(table.directions.size() == size_t(matrix.rows()));
     for (MatrixXf& channel : table.channels) channel = matrix;
     table.asymmetry = (matrix - matrix.transpose()).norm() / matrix.norm();
@@ -281,7 +281,7 @@ TEST_CASE("factorization: of a wanted error the fewest terms, as many as allowed
     }
     CHECK(factorize(table, {5, Factorization::Environment, 1e-3f}).terms == 5);
     // The worst layer decides.
-    const std::vector<BrdfTable> both = {tableOf("grey-diffuse", 16, DiskMapping::EqualArea), table};
+    const std::vector<BrdfTable> both = {tableOf("gray-diffuse", 16, DiskMapping::EqualArea), table};
     const FactoredBrdf joint = factorize(both, {32, Factorization::Environment, 0.1f});
     for (int layer = 0; layer < 2; layer++)
         CHECK(expectedErrors(both[size_t(layer)], joint, layer).back() <= 0.1f);

@@ -280,7 +280,7 @@ TEST_CASE("glTF parts: materials that lie") {
     CHECK(says(failureOf(glb), "number 1 of its materials"));
 }
 
-TEST_CASE("glTF parts: one small image that many materials wear does not become gigabytes") {
+TEST_CASE("glTF parts: one small image that many materials have does not become gigabytes") {
     TexturedGlb glb;
     constexpr int kSide = 2048, kMaterials = 21; // 21 · 2048² texels, of 4 bytes
     const std::string png = samplePng({kSide, kSide, std::vector<uint32_t>(kSide * kSide, 0xff808080), true});

@@ -8,7 +8,7 @@
 
 using namespace relume;
 
-TEST_CASE("ground: under the object's lowest point, centred, in its units") {
+TEST_CASE("ground: under the object's lowest point, centered, in its units") {
     Bounds object;
     object.add({1, 5, -2});
     object.add({3, 9, -1}); // the largest extent is 4, upwards
@@ -19,8 +19,8 @@ TEST_CASE("ground: under the object's lowest point, centred, in its units") {
     CHECK(bounds.high.y == 5.0f);
     CHECK(bounds.extent().x == doctest::Approx(12));
     CHECK(bounds.extent().z == doctest::Approx(12));
-    CHECK(bounds.centre().x == doctest::Approx(2));
-    CHECK(bounds.centre().z == doctest::Approx(-1.5));
+    CHECK(bounds.center().x == doctest::Approx(2));
+    CHECK(bounds.center().z == doctest::Approx(-1.5));
     for (const vec3& normal : ground.normals) CHECK(normal == vec3(0, 1, 0));
 }
 

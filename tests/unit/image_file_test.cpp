@@ -124,8 +124,8 @@ TEST_CASE("image file: pixels that are not finite become 0") {
 }
 
 TEST_CASE("image file: OpenEXR halves, tiles, offset windows and single channels") {
-    const ImageFile colour = readHalves(Imf::Header(6, 4), {"R", "G", "B"});
-    CHECK(colour.image.at(2, 3) == vec4(32, 33, 34, 1));
+    const ImageFile color = readHalves(Imf::Header(6, 4), {"R", "G", "B"});
+    CHECK(color.image.at(2, 3) == vec4(32, 33, 34, 1));
 
     Imf::Header tiled(6, 4);
     tiled.setTileDescription(Imf::TileDescription(4, 2));

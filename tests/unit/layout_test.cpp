@@ -19,7 +19,7 @@ namespace {
 constexpr int kFace = 8;
 constexpr size_t kCoefficients = 6 * kFace * kFace;
 
-FactoredBrdf factors(int terms, bool isGrey) {
+FactoredBrdf factors(int terms, bool isGray) {
     std::mt19937 random(7);
     FactoredBrdf brdf;
     brdf.size = 4;
@@ -27,15 +27,15 @@ FactoredBrdf factors(int terms, bool isGrey) {
     const auto number = [&] { return float(random() % 2001) * 1e-3f - 1; };
     for (int term = 0; term < terms; term++)
         for (size_t i = 0; i < brdf.mapTexels(); i++) {
-            const float grey = number();
-            brdf.lightMaps.push_back(isGrey ? vec3(grey)
-                                            : vec3(grey, 0.8f * grey, 0.5f * grey + 0.02f * number()));
+            const float gray = number();
+            brdf.lightMaps.push_back(isGray ? vec3(gray)
+                                            : vec3(gray, 0.8f * gray, 0.5f * gray + 0.02f * number()));
         }
     return brdf;
 }
 
 // Rows of a smooth field: a few patterns of light, in amounts that change slowly from vertex to vertex.
-SparseTransport smoothRows(uint32_t vertices, uint32_t terms, uint32_t seed, bool isGrey = true,
+SparseTransport smoothRows(uint32_t vertices, uint32_t terms, uint32_t seed, bool isGray = true,
                            int kept = 60) {
     std::mt19937 random(seed);
     const auto number = [&] { return float(random() % 2001) * 1e-3f - 1; };
@@ -60,8 +60,8 @@ SparseTransport smoothRows(uint32_t vertices, uint32_t terms, uint32_t seed, boo
         std::ranges::sort(entries, {}, [](auto& entry) { return entry.second; });
         rows.scales.push_back(0.1f);
         for (const auto& [value, index] : entries) {
-            const vec3 color = isGrey ? vec3(1) : vec3(1, 0.8f, 0.5f + 0.02f * number());
-            const uint32_t packed = packCoefficient(quantiseCoefficient(0.2f * value * color, 1));
+            const vec3 color = isGray ? vec3(1) : vec3(1, 0.8f, 0.5f + 0.02f * number());
+            const uint32_t packed = packCoefficient(quantizeCoefficient(0.2f * value * color, 1));
             if (packed == 0) continue;
             rows.indices.push_back(index);
             rows.values.push_back(packed);
@@ -71,13 +71,13 @@ SparseTransport smoothRows(uint32_t vertices, uint32_t terms, uint32_t seed, boo
     return rows;
 }
 
-Asset assetOf(SparseTransport rows, bool isGrey = true) {
+Asset assetOf(SparseTransport rows, bool isGray = true) {
     Asset asset = test::sampleAsset();
     asset.parts.resize(1);
     std::mt19937 random(1);
     asset.coefficients = 60;
     asset.parts[0] = test::samplePart(rows.vertices, int(rows.terms), kFace, asset.coefficients, random);
-    asset.parts[0].sets[0].brdf.lightMaps = factors(int(rows.terms), isGrey).lightMaps;
+    asset.parts[0].sets[0].brdf.lightMaps = factors(int(rows.terms), isGray).lightMaps;
     asset.parts[0].sets[0].transport = std::move(rows);
     return asset;
 }
@@ -124,17 +124,17 @@ TEST_CASE("layout: light's spectrum has a weight per wavelet level, the same on 
     CHECK(lightSpectrum(kFace)[kFace - 1] == spectrum[kFace - 1]);
 }
 
-TEST_CASE("layout: a grey material has one kind a term, a coloured one its principal directions") {
-    const std::vector<BasisKind> grey = basisKinds(factors(3, true));
-    REQUIRE(grey.size() == 3);
+TEST_CASE("layout: a gray material has one kind a term, a colored one its principal directions") {
+    const std::vector<BasisKind> gray = basisKinds(factors(3, true));
+    REQUIRE(gray.size() == 3);
     for (uint32_t term = 0; term < 3; term++) {
-        CHECK(grey[term].term == term);
-        CHECK(grey[term].color == vec3(1));
-        CHECK(glm::dot(kindDual(grey[term]), vec3(0.5f)) == doctest::Approx(0.5f));
+        CHECK(gray[term].term == term);
+        CHECK(gray[term].color == vec3(1));
+        CHECK(glm::dot(kindDual(gray[term]), vec3(0.5f)) == doctest::Approx(0.5f));
     }
     FactoredBrdf brdf = factors(1, false);
     std::vector<BasisKind> kinds = basisKinds(brdf);
-    REQUIRE(kinds.size() == 2); // grey, and the noise in blue: nothing tells red from green
+    REQUIRE(kinds.size() == 2); // gray, and the noise in blue: nothing tells red from green
     CHECK(glm::dot(kinds[0].color, glm::normalize(vec3(1, 0.8f, 0.5f))) > 0.999f);
     CHECK(glm::dot(kinds[0].color, kinds[1].color) == doctest::Approx(0).epsilon(1e-5));
     for (vec3& texel : brdf.lightMaps) texel = {0, texel.x, 0};
@@ -183,7 +183,7 @@ TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
     const ClusterMatrix matrix = clusterMatrix(rows, 0, 256, kinds, spectrum, transportUnit(rows, spectrum));
     CHECK(matrix.energy.sum() >= 256); // what varies, and the mean
     CHECK(matrix.values.squaredNorm() == doctest::Approx(matrix.energy.sum()));
-    const BasisAnalysis analysis = analyse(matrix);
+    const BasisAnalysis analysis = analyze(matrix);
     const Eigen::VectorXf sigma = Eigen::BDCSVD<Eigen::MatrixXf>(matrix.values).singularValues();
     for (const double price : {1e-3, 1e-4, 1e-5}) {
         const BasisCut cut = cutFor(analysis, price);
@@ -199,9 +199,9 @@ TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
 }
 
 TEST_CASE("layout: what a conversion says of bytes and error is so") {
-    for (const bool isGrey : {true, false}) {
-        CAPTURE(isGrey);
-        const Asset rows = assetOf(smoothRows(700, 3, 5, isGrey), isGrey);
+    for (const bool isGray : {true, false}) {
+        CAPTURE(isGray);
+        const Asset rows = assetOf(smoothRows(700, 3, 5, isGray), isGray);
         Asset asset = rows;
         uint64_t last = 0;
         const Conversion conversion =
@@ -218,7 +218,7 @@ TEST_CASE("layout: what a conversion says of bytes and error is so") {
         CHECK(error > 0.02);
         CHECK(conversion.bytesAfter == bytesOf(asset.parts[0].sets[0].transport));
         CHECK(conversion.bytesAfter * 3 < conversion.bytesBefore);
-        CHECK(basesOf(asset).kinds.size() == (isGrey ? 3 : 6));
+        CHECK(basesOf(asset).kinds.size() == (isGray ? 3 : 6));
         Asset again = rows;
         convertLayout(again, bases({}, 0.04));
         CHECK(encodeAsset(again) == encodeAsset(asset));
@@ -245,7 +245,7 @@ TEST_CASE("layout: errors of a diffuse set matter more") {
     const ClusterMatrix matrix = clusterMatrix(rows, 0, 256, basisKinds(factors(1, true)), spectrum, 1);
     CHECK(matrix.importance == kDiffuseImportance);
     CHECK(clusterMatrix(several, 0, 256, basisKinds(factors(2, true)), spectrum, 1).importance == 1);
-    BasisAnalysis analysis = analyse(matrix);
+    BasisAnalysis analysis = analyze(matrix);
     const double price = analysis.energy.sum() * 1e-5;
     const BasisCut diffuse = cutFor(analysis, price);
     analysis.importance = 1;
@@ -258,7 +258,7 @@ TEST_CASE("layout: bytes fall and error rises with the price") {
     const std::vector<float> spectrum = lightSpectrum(kFace);
     std::vector<BasisAnalysis> analyses;
     for (uint32_t first : {0u, 256u})
-        analyses.push_back(analyse(clusterMatrix(rows, first, 256, kinds, spectrum, 1)));
+        analyses.push_back(analyze(clusterMatrix(rows, first, 256, kinds, spectrum, 1)));
     CutTotals before = totalsAt(analyses, 1e-9);
     for (double price = 1e-8; price < 1; price *= 2) {
         const CutTotals now = totalsAt(analyses, price);

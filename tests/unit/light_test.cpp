@@ -70,13 +70,13 @@ TEST_CASE("light: a lamp has the energy of its solid angle, whatever its size an
 }
 
 TEST_CASE("light: a lamp fills its inside, and nothing outside") {
-    const vec3 centre = glm::normalize(vec3(1, 2, 3));
+    const vec3 center = glm::normalize(vec3(1, 2, 3));
     const float radius = 0.3f, margin = 0.06f;
-    const LightCube cube = sampleLight({.lamps = {{3.0f * centre, radius, vec3(5)}}}, 32);
+    const LightCube cube = sampleLight({.lamps = {{3.0f * center, radius, vec3(5)}}}, 32);
     for (int face = 0; face < kCubeFaces; face++)
         for (int y = 0; y < 32; y++)
             for (int x = 0; x < 32; x++) {
-                const float angle = std::acos(glm::dot(cubeTexelDirection(face, x, y, 32), centre));
+                const float angle = std::acos(glm::dot(cubeTexelDirection(face, x, y, 32), center));
                 const float value = cube.radiance[size_t(cubeTexelIndex(face, x, y, 32))].x;
                 if (angle < radius - margin) CHECK(value == doctest::Approx(5).epsilon(0.01));
                 if (angle > radius + margin) CHECK(value == 0);
@@ -131,9 +131,9 @@ TEST_CASE("light: distant lights on the same texel add up") {
 }
 
 TEST_CASE("light: strokes cover what is below them, in their order, and lamps shine over them") {
-    const auto grey = std::make_shared<const Environment>(Environment{4, 2, std::vector<vec3>(8, vec3(1))});
+    const auto gray = std::make_shared<const Environment>(Environment{4, 2, std::vector<vec3>(8, vec3(1))});
     const vec3 up(0, 1, 0);
-    Light light{.environments = {{grey}}};
+    Light light{.environments = {{gray}}};
     light.strokes = {{up, 0.6f, {0, 4, 0}, 0, 1}, {up, 0.3f, {0, 0, 8}, 0, 0.25f}};
     light.lamps = {{up, 0.1f, vec3(100)}};
     const LightCube cube = sampleLight(light, 32);

@@ -71,7 +71,7 @@ TEST_CASE("low rank: one block, wide, tall and square, agrees with Eigen's singu
 
 TEST_CASE("low rank: several blocks agree with Eigen's singular values of all side by side") {
     checkAgainstEigen({randomMatrix(30, 30, 1), randomMatrix(30, 12, 2), 3 * randomMatrix(30, 40, 3)}, 8);
-    checkAgainstEigen({brdfMatrix("gold"), brdfMatrix("clay"), brdfMatrix("grey-diffuse")}, 12);
+    checkAgainstEigen({brdfMatrix("gold"), brdfMatrix("clay"), brdfMatrix("gray-diffuse")}, 12);
 }
 
 TEST_CASE("low rank: non-negative factors lose little, and more of them lose less") {

@@ -203,7 +203,7 @@ TEST_CASE("measured: a description names the file by path and content") {
     CHECK(contains(errorOf(description.dump()), "hash"));
 }
 
-TEST_CASE("measured: negative values are counted, reported and filled from their neighbours") {
+TEST_CASE("measured: negative values are counted, reported and filled from their neighbors") {
     MerlFile file = plasticFile();
     for (int p = 20; p < 40; p++)
         for (int d = 10; d < 13; d++) file.at(1, 40, d, p) = -1;
@@ -234,7 +234,7 @@ TEST_CASE("measured: noise beyond 80 degrees is held to what a mirror could do")
     for (int h = 0; h < 40; h++)
         for (int d = 0; d < 90; d++)
             for (int p = 0; p < 180; p++) {
-                const auto [wi, wo] = directionsOf(clean.centreOf(h, d, p));
+                const auto [wi, wo] = directionsOf(clean.centerOf(h, d, p));
                 if (std::min(wi.z, wo.z) > 0 && std::min(wi.z, wo.z) < 0.17f)
                     file.at(0, h, d, p) *= 100, noisy++;
             }
@@ -308,9 +308,9 @@ TEST_CASE("measured: a flat spectrum is white, in Cornell's format too") {
     vec3 sum(0);
     for (const vec3& weight : srgbWeights(wavelengths)) sum += weight;
     CHECK(glm::length(sum - vec3(1)) < 1e-5f);
-    const IsotropicTable grey = parseCornell(cornellText([](double) { return 0.08; }), "grey.brdf");
+    const IsotropicTable gray = parseCornell(cornellText([](double) { return 0.08; }), "gray.brdf");
     const vec3 a(0.6f, 0, 0.8f), b(0, 0.8f, 0.6f);
-    CHECK(glm::length(grey.interpolate(a, b) - vec3(0.08f)) < 1e-5f);
+    CHECK(glm::length(gray.interpolate(a, b) - vec3(0.08f)) < 1e-5f);
     const IsotropicTable red =
         parseCornell(cornellText([](double w) { return w > 590 ? 0.3 : 0.05; }), "red.brdf");
     CHECK(red.interpolate(a, b).x > 2 * red.interpolate(a, b).y);
@@ -321,9 +321,9 @@ TEST_CASE("measured: a monochromatic light at 555 nm has the luminance of the CI
     std::vector<float> wavelengths;
     for (int i = 0; i <= 400; i++) wavelengths.push_back(380 + float(i));
     const std::vector<vec3> weights = srgbWeights(wavelengths);
-    vec3 colour(0);
-    for (size_t i = 170; i < 180; i++) colour += weights[i];
-    const float luminance = glm::dot(colour, vec3(0.2126f, 0.7152f, 0.0722f));
+    vec3 color(0);
+    for (size_t i = 170; i < 180; i++) color += weights[i];
+    const float luminance = glm::dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
     CHECK(luminance == doctest::Approx(10 / 106.86).epsilon(0.05));
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("OBJ: texture coordinates from the top left, where wanted, split verti
     CHECK(failureOf(text + "f 1/9 2/2 3/3\n", "a.obj", kAll).find("coordinates 9") != std::string::npos);
 }
 
-TEST_CASE("PLY: texture coordinates and colours under their several names") {
+TEST_CASE("PLY: texture coordinates and colors under their several names") {
     for (const auto& [u, v] :
          {std::pair("s", "t"), std::pair("u", "v"), std::pair("texture_u", "texture_v")}) {
         const std::string text =
@@ -294,11 +294,11 @@ TEST_CASE("glTF: node transforms apply, and mirrors keep the outside out") {
                               "a.glb");
     CHECK(moved.vertexCount() == sphere.vertexCount());
     for (const uvec3& t : moved.triangles) {
-        const vec3 centre(1, 2, 3), a = moved.positions[t.x], b = moved.positions[t.y],
+        const vec3 center(1, 2, 3), a = moved.positions[t.x], b = moved.positions[t.y],
                                     c = moved.positions[t.z];
-        CHECK(glm::dot(glm::cross(b - a, c - a), a - centre) > 0);
-        CHECK(glm::distance(a, centre) == doctest::Approx(2).epsilon(1e-5));
-        CHECK(glm::distance(moved.normals[t.x], (a - centre) / 2.0f) < 1e-5f);
+        CHECK(glm::dot(glm::cross(b - a, c - a), a - center) > 0);
+        CHECK(glm::distance(a, center) == doctest::Approx(2).epsilon(1e-5));
+        CHECK(glm::distance(moved.normals[t.x], (a - center) / 2.0f) < 1e-5f);
     }
     // +X turns to -Z (a quarter about Y), after the mirror left it alone.
     CHECK(glm::distance(moved.positions[0],
@@ -363,7 +363,7 @@ TEST_CASE("glTF: chains of nodes and long lists take time by their length, not i
     CHECK(decode(sampleGlb(makeSphere(0), nodes + ",{}"), "a.glb").triangleCount() == 20);
 }
 
-TEST_CASE("glTF: vertex colours of any type, three channels leave the fourth weight 0") {
+TEST_CASE("glTF: vertex colors of any type, three channels leave the fourth weight 0") {
     const auto colorsOf = [](int type, const char* width, const char* more, const std::string& data) {
         std::string buffer;
         for (const float value : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) put(buffer, value);

@@ -64,7 +64,7 @@ TEST_CASE("moving light: tracks change evenly between their keys and stay outsid
     CHECK_FALSE(lampOf(R"({"keys": [[0, 10]]})").moves());
 }
 
-TEST_CASE("moving light: colours are tracks too, and a gain is of all") {
+TEST_CASE("moving light: colors are tracks too, and a gain is of all") {
     MovingLight light = lightOf(
         R"({"distant": [{"azimuth": 0, "elevation": 0, "irradiance": {"keys": [[0, [1, 2, 3]], [1, [3, 2, 1]]]}}]})");
     light.setGain(2);

@@ -74,13 +74,13 @@ TEST_CASE("occluder: the budget is shared by size, the error stays honest") {
     size_t small = 0;
     float worst = 0;
     for (const uvec3& t : occluder.mesh.triangles) {
-        const vec3 centre =
+        const vec3 center =
             (occluder.mesh.positions[t.x] + occluder.mesh.positions[t.y] + occluder.mesh.positions[t.z]) /
             3.0f;
-        if (glm::length(centre) < 1.5f && ++small)
-            worst = std::max(worst, 1 - glm::length(centre));
-        else if (glm::distance(centre, vec3(30, 0, 0)) < 10.5f && centre.y > -9.9f)
-            worst = std::max(worst, 10 - glm::distance(centre, vec3(30, 0, 0)));
+        if (glm::length(center) < 1.5f && ++small)
+            worst = std::max(worst, 1 - glm::length(center));
+        else if (glm::distance(center, vec3(30, 0, 0)) < 10.5f && center.y > -9.9f)
+            worst = std::max(worst, 10 - glm::distance(center, vec3(30, 0, 0)));
     }
     CHECK(double(small) == doctest::Approx(4000).epsilon(0.02)); // 20480 of 25600 triangles
     CHECK(occluder.error > 0);

@@ -31,7 +31,7 @@ Asset makeScene(const std::string& material) {
 const std::string kDiffuse = R"({"model": "diffuse", "albedo": [0.8, 0.5, 0.3]})";
 const std::string kGlossy = R"({"model": "plastic", "diffuse": 0.2, "roughness": 0.25})";
 
-// A coloured sky, and a sun of one texel that gives half of the light.
+// A colored sky, and a sun of one texel that gives half of the light.
 LightCube makeSunnySky() {
     LightCube light{kFace, {}};
     for (int i = 0; i < 6 * kFace * kFace; i++) {
@@ -155,8 +155,8 @@ TEST_CASE("progressive reference: an image's error is told without the reference
 TEST_CASE("progressive reference: squared errors scatter as their standard error says") {
     const Asset asset = makeScene(kDiffuse);
     const LightCube light = makeSunnySky();
-    Image grey(kWidth, kHeight);
-    for (vec4& pixel : grey.pixels) pixel = vec4(0.3f, 0.3f, 0.3f, 1);
+    Image gray(kWidth, kHeight);
+    for (vec4& pixel : gray.pixels) pixel = vec4(0.3f, 0.3f, 0.3f, 1);
     ProgressiveReference reference(asset);
     constexpr int kViews = 16;
     double scatter = 0; // squared, in standard errors
@@ -165,9 +165,9 @@ TEST_CASE("progressive reference: squared errors scatter as their standard error
         camera.eye.x += 0.05f * float(view);
         reference.restart(camera, light, defaultAppearance(asset), kWidth, kHeight, 1);
         addPasses(reference, 4);
-        const ReferenceError early = *reference.errorOf(grey);
+        const ReferenceError early = *reference.errorOf(gray);
         addPasses(reference, 252);
-        const ReferenceError late = *reference.errorOf(grey);
+        const ReferenceError late = *reference.errorOf(gray);
         CHECK(late.rmse * late.rmse == doctest::Approx(late.square));
         CHECK(late.squareNoise < 0.2 * early.squareNoise);
         const double off = (early.square - late.square) / early.squareNoise;

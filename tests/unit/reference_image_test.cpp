@@ -94,10 +94,10 @@ TEST_CASE("reference image: a negative sum of factors is black, not negative") {
     Asset asset = makeTestAsset({makeDiffusePart(makeSphere(2), 0.5f)});
     for (vec3& value : asset.parts[0].sets[0].brdf.viewMaps) value = vec3(-1, 1, -1);
     const Image image = render(asset, {0, 0, 5}, uniformLight(8, vec3(1)), {.brdf = ReferenceBrdf::Factored});
-    const vec4 centre = image.at(6, 4);
-    CHECK(centre.x == 0);
-    CHECK(centre.y > 1);
-    CHECK(centre.w == 1);
+    const vec4 center = image.at(6, 4);
+    CHECK(center.x == 0);
+    CHECK(center.y > 1);
+    CHECK(center.w == 1);
 }
 
 TEST_CASE("reference image: under one texel of light, the BRDF at that direction") {
@@ -149,7 +149,7 @@ TEST_CASE("reference image: a finer grid of rays resolves a shadow inside one te
 
 TEST_CASE("reference image: an environment's pixels light what they face, turned by the rotation") {
     Environment environment{32, 16, std::vector<vec3>(32 * 16, vec3(0))};
-    const int column = 16, row = 8; // just right of and below the centre, +Z
+    const int column = 16, row = 8; // just right of and below the center, +Z
     environment.radiance[row * 32 + column] = vec3(10);
     const double solidAngle = 2 * double(kPi) / 32 * std::sin(double(kPi) / 16);
     const vec3 source = environment.direction(column + 0.5f, row + 0.5f);

@@ -1,6 +1,6 @@
 // Which vertices a preview bakes, and what it makes of them.
 #include "engine/import/builtin_mesh.h"
-#include "precompute/bake/coarse_neighbours.h"
+#include "precompute/bake/coarse_neighbors.h"
 #include "precompute/bake/coarse_vertices.h"
 #include "precompute/bake/row_interpolation.h"
 
@@ -92,40 +92,40 @@ TEST_CASE("coarse vertices: one for every way that a surface faces, however few"
         }));
 }
 
-TEST_CASE("coarse neighbours: shares add up, a coarse vertex has itself, none is across a thin sheet") {
+TEST_CASE("coarse neighbors: shares add up, a coarse vertex has itself, none is across a thin sheet") {
     for (const Mesh& mesh : {makeThinSheet(), makeKnot(6000)}) {
         const Coarse coarse = chooseOf(mesh, mesh.vertexCount() / 12);
-        const CoarseNeighbours neighbours(mesh, coarse.vertices, coarse.spacing);
+        const CoarseNeighbors neighbors(mesh, coarse.vertices, coarse.spacing);
         for (uint32_t vertex = 0; vertex < mesh.vertexCount(); vertex++) {
-            const std::vector<CoarseNeighbour> of = neighbours.of(vertex);
+            const std::vector<CoarseNeighbor> of = neighbors.of(vertex);
             float sum = 0;
-            for (const CoarseNeighbour& neighbour : of) {
-                CHECK_GT(neighbour.weight, 0);
-                const uint32_t other = coarse.vertices[neighbour.coarse];
+            for (const CoarseNeighbor& neighbor : of) {
+                CHECK_GT(neighbor.weight, 0);
+                const uint32_t other = coarse.vertices[neighbor.coarse];
                 CHECK_GT(glm::dot(mesh.normals[vertex], mesh.normals[other]), kLeastNormalCosine);
-                sum += neighbour.weight;
+                sum += neighbor.weight;
             }
             CHECK_EQ(sum, doctest::Approx(1));
         }
         for (uint32_t i = 0; i < coarse.vertices.size(); i++) {
-            REQUIRE_EQ(neighbours.of(coarse.vertices[i]).size(), 1);
-            CHECK_EQ(neighbours.of(coarse.vertices[i]).front().coarse, i);
+            REQUIRE_EQ(neighbors.of(coarse.vertices[i]).size(), 1);
+            CHECK_EQ(neighbors.of(coarse.vertices[i]).front().coarse, i);
         }
     }
 }
 
-TEST_CASE("coarse neighbours: a smooth function of place comes out smooth") {
+TEST_CASE("coarse neighbors: a smooth function of place comes out smooth") {
     const Mesh mesh = makeThinSheet();
     const Coarse coarse = chooseOf(mesh, mesh.vertexCount() / 12);
-    const CoarseNeighbours neighbours(mesh, coarse.vertices, coarse.spacing);
+    const CoarseNeighbors neighbors(mesh, coarse.vertices, coarse.spacing);
     const auto value = [&](uint32_t vertex) { return mesh.positions[vertex].x; };
     double weighted = 0, nearest = 0;
     for (uint32_t vertex = 0; vertex < mesh.vertexCount(); vertex++) {
         float sum = 0;
-        CoarseNeighbour first{0, 0};
-        for (const CoarseNeighbour& neighbour : neighbours.of(vertex)) {
-            sum += neighbour.weight * value(coarse.vertices[neighbour.coarse]);
-            if (neighbour.weight > first.weight) first = neighbour;
+        CoarseNeighbor first{0, 0};
+        for (const CoarseNeighbor& neighbor : neighbors.of(vertex)) {
+            sum += neighbor.weight * value(coarse.vertices[neighbor.coarse]);
+            if (neighbor.weight > first.weight) first = neighbor;
         }
         weighted += std::pow(double(sum - value(vertex)), 2);
         nearest += std::pow(double(value(coarse.vertices[first.coarse]) - value(vertex)), 2);
@@ -133,15 +133,15 @@ TEST_CASE("coarse neighbours: a smooth function of place comes out smooth") {
     CHECK_LT(weighted, 0.15 * nearest);
 }
 
-TEST_CASE("row interpolation: a single neighbour's rows as they are, a constant stays constant") {
+TEST_CASE("row interpolation: a single neighbor's rows as they are, a constant stays constant") {
     const auto same = [](uint32_t, uint32_t term) {
         return std::vector<std::pair<int, ivec3>>{{3 + int(term), {1023, -700, 511}}, {4000, {-5, 12, 1}}};
     };
     const BakedRows coarse = makeRows(5, same), expected = makeRows(1, same);
     RowInterpolator interpolator(coarse, 6144, 8);
-    for (const std::vector<CoarseNeighbour>& of :
-         {std::vector<CoarseNeighbour>{{3, 1}},
-          std::vector<CoarseNeighbour>{{0, 0.5f}, {2, 0.25f}, {4, 0.25f}}}) {
+    for (const std::vector<CoarseNeighbor>& of :
+         {std::vector<CoarseNeighbor>{{3, 1}},
+          std::vector<CoarseNeighbor>{{0, 0.5f}, {2, 0.25f}, {4, 0.25f}}}) {
         BakedRows rows(2);
         interpolator.append(of, rows);
         CHECK_EQ(rows.transport.vertices, 1);
@@ -162,7 +162,7 @@ TEST_CASE("row interpolation: rows of different coefficients are added, and the 
     });
     RowInterpolator interpolator(coarse, 6144, 2);
     BakedRows rows(2);
-    interpolator.append(std::vector<CoarseNeighbour>{{0, 0.5f}, {1, 0.5f}}, rows);
+    interpolator.append(std::vector<CoarseNeighbor>{{0, 0.5f}, {1, 0.5f}}, rows);
     CHECK(rows.transport.indices == std::vector<uint16_t>{2, 7, 2, 7});
     CHECK(rows.transport.scales == std::vector<float>{0.25f, 0.25f});
     CHECK(unpackCoefficient(rows.transport.values[0]) == ivec3(500, 500, 250));

@@ -37,7 +37,7 @@ TEST_CASE("scene: built-in meshes, files, transforms, ground") {
             {"name": "floor lamp", "mesh": "torus", "up": "z", "material": {"model": "ashikhmin-shirley", "nu": 10},
              "brush_rotation": 90}
         ],
-        "ground": {"tessellation": 8, "extent": 2, "material": "grey"}
+        "ground": {"tessellation": 8, "extent": 2, "material": "gray"}
     })"));
     REQUIRE(scene.parts.size() == 3);
     CHECK(scene.parts[0].name == "ball");
@@ -58,7 +58,7 @@ TEST_CASE("scene: built-in meshes, files, transforms, ground") {
     CHECK(boundsOf(scene.parts[1].mesh).extent().y ==
           doctest::Approx(2).epsilon(1e-2)); // its axis was Y, is Z
 
-    CHECK(scene.parts[2].material == "grey");
+    CHECK(scene.parts[2].material == "gray");
     CHECK(scene.parts[2].mesh.vertexCount() == 81);
     CHECK(boundsOf(scene.parts[2].mesh).low.y == doctest::Approx(-1).epsilon(1e-2));
 }
@@ -108,7 +108,7 @@ TEST_CASE("scene: errors name the place, the key and the remedy") {
     CHECK(failureOf(start + "true}") == "");
 }
 
-TEST_CASE("scene: parts painted by textures or by vertex colours") {
+TEST_CASE("scene: parts painted by textures or by vertex colors") {
     const TemporaryFolder folder;
     const std::string base = samplePng(TexturedGlb::kRed), weights = samplePng(TexturedGlb::kBlue);
     folder.write("base.png", base);
@@ -204,7 +204,7 @@ TEST_CASE("scene: paint that does not fit its mesh") {
                       plane = R"("mesh": "plane", "material": "clay", )";
     CHECK(says(failure(bare + R"("base_color": "base.png")"), "bare.obj: has no texture coordinates"));
     CHECK(says(failure(bare + R"("material_map": "base.png")"), "unwrap"));
-    CHECK(says(failure(bare + R"("material_map": "colors")"), "no vertex colours"));
+    CHECK(says(failure(bare + R"("material_map": "colors")"), "no vertex colors"));
     CHECK(says(failure(plane + R"("base_color": "missing.png")"), "missing.png"));
     CHECK(says(failure(plane + R"("base_color": "broken.png")"), "broken.png"));
     CHECK(says(failure(plane + R"("base_color": 7)"), "base_color"));

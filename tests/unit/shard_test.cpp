@@ -85,7 +85,7 @@ TEST_CASE("merge: shards in any order give the bytes of the whole bake") {
     REQUIRE_EQ(planOf(asset).blocks.size(), 7);
     const Asset read = decodeAsset(whole, "whole");
     CHECK_EQ(read.truncationError, doctest::Approx(std::sqrt(0.1)));
-    CHECK_GT(read.quantisationError, 0);
+    CHECK_GT(read.quantizationError, 0);
     std::mt19937 random(3);
     for (uint32_t count : {1, 2, 4, 7, 10}) {
         CAPTURE(count);

@@ -90,7 +90,7 @@ TEST_CASE("stages: they start with what is drawn and end with the reference") {
         squares += double(glm::dot(stages[i][kErrorSources] - truth, stages[i][kErrorSources] - truth));
         level += double(glm::dot(truth, truth));
     }
-    CHECK(std::sqrt(squares / level) < 2e-3); // BRDFs at the cell's centre, or at each of its four rays
+    CHECK(std::sqrt(squares / level) < 2e-3); // BRDFs at the cell's center, or at each of its four rays
     const ErrorBudget budget = errorBudget(stages);
     CHECK(budget.total > 0.01);
     CHECK(budget.sources[size_t(ErrorSource::Occluder)].rms < 1e-6);   // the same mesh and offset
@@ -120,7 +120,7 @@ TEST_CASE("stages: the table is what all terms are, and the light map's lookup i
     const MaterialSet set = MaterialFactory(options.factorization, 8, DiskMapping::Orthographic)
                                 .make("red-plastic", {}, false)
                                 .front();
-    const WornLayer layer{};
+    const BoundLayer layer{};
     const TabulatedBrdf table(set, std::span(&layer, 1), Factorization::Paper, brdfs);
     const vec3 weight(1), outgoing = glm::normalize(vec3(0.3f, -0.2f, 0.8f));
     const std::vector<vec3> map = table.lightMap(std::span(&layer, 1), std::span(&weight, 1), outgoing);
@@ -156,7 +156,7 @@ TEST_CASE("error grid: it predicts the drawn image's error, whatever K and N") {
         makeResiduals(asset);
         const auto stages =
             StageTracer(asset, appearance).trace(points.hits, camera.eye, std::span(&light, 1)).front();
-        // But for quantisation, and single rays towards the truth.
+        // But for quantization, and single rays towards the truth.
         CHECK(grid.errors[kTerms - 1][rung] == doctest::Approx(errorBudget(stages).total).epsilon(0.03));
         const SparseTransport& rows = rowsOf(asset.parts[0].sets[0].transport);
         double entries = 0;

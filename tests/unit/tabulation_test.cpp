@@ -44,8 +44,8 @@ Eigen::MatrixXf bruteForceMeans(const Brdf& brdf, const BrdfTable& table) {
 
 } // namespace
 
-TEST_CASE("tabulation: the directions are the texel centres inside the map's domain") {
-    const auto brdf = makeBrdf("grey-diffuse");
+TEST_CASE("tabulation: the directions are the texel centers inside the map's domain") {
+    const auto brdf = makeBrdf("gray-diffuse");
     CHECK(tabulate(*brdf, 48, DiskMapping::Orthographic).directions.size() == 1804);
     CHECK(tabulate(*brdf, 16, DiskMapping::Polar).directions.size() == 256);
     for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar, DiskMapping::Polar}) {
@@ -53,8 +53,8 @@ TEST_CASE("tabulation: the directions are the texel centres inside the map's dom
         for (size_t i = 0; i < table.directions.size(); i++) {
             CHECK(table.directions[i].z > 0);
             CHECK(glm::length(table.directions[i]) == doctest::Approx(1).epsilon(1e-5));
-            const vec2 centre = (vec2(table.texels[i]) + 0.5f) / 16.0f;
-            CHECK(glm::length(diskMapCoordinates(mapping, table.directions[i]) - centre) < 1e-4f);
+            const vec2 center = (vec2(table.texels[i]) + 0.5f) / 16.0f;
+            CHECK(glm::length(diskMapCoordinates(mapping, table.directions[i]) - center) < 1e-4f);
         }
     }
 }
@@ -86,7 +86,7 @@ class Discreet final : public Brdf {
 
 TEST_CASE("tabulation: half a table of a reciprocal model is mirrored, and is what all of it would be") {
     for (const MaterialPreset& preset : materialPresets())
-        for (TexelValue value : {TexelValue::Centre, TexelValue::Mean}) {
+        for (TexelValue value : {TexelValue::Center, TexelValue::Mean}) {
             const BrdfTable half = tabulate(*makeBrdf(preset.name), 12, DiskMapping::EqualArea, value),
                             whole = tabulate(Discreet(preset.name), 12, DiskMapping::EqualArea, value);
             CHECK(half.asymmetry == 0);
@@ -110,17 +110,17 @@ TEST_CASE("tabulation: means keep a reciprocal BRDF symmetric, and are the value
     for (DiskMapping mapping : {DiskMapping::Orthographic, DiskMapping::EqualAreaPolar,
                                 DiskMapping::EqualArea, DiskMapping::Polar}) {
         CHECK(tabulate(*makeBrdf("gold"), 12, mapping, TexelValue::Mean).asymmetry < 1e-5f);
-        const auto brdf = makeBrdf("grey-diffuse");
+        const auto brdf = makeBrdf("gray-diffuse");
         const BrdfTable means = tabulate(*brdf, 12, mapping, TexelValue::Mean),
-                        centres = tabulate(*brdf, 12, mapping, TexelValue::Centre);
-        CHECK((means.channels[0] - centres.channels[0]).cwiseAbs().maxCoeff() < 1e-6f);
+                        centers = tabulate(*brdf, 12, mapping, TexelValue::Center);
+        CHECK((means.channels[0] - centers.channels[0]).cwiseAbs().maxCoeff() < 1e-6f);
     }
 }
 
-TEST_CASE("tabulation: means are nearer to those of many samples than centres are") {
+TEST_CASE("tabulation: means are nearer to those of many samples than centers are") {
     const auto brdf = makeBrdf(R"({"model": "cook-torrance", "diffuse": 0, "f0": 0.5, "roughness": 0.2})");
     const BrdfTable means = tabulate(*brdf, 8, DiskMapping::EqualArea, TexelValue::Mean),
-                    centres = tabulate(*brdf, 8, DiskMapping::EqualArea, TexelValue::Centre);
+                    centers = tabulate(*brdf, 8, DiskMapping::EqualArea, TexelValue::Center);
     const Eigen::MatrixXf exact = bruteForceMeans(*brdf, means);
     Eigen::VectorXf cosines(exact.rows());
     for (size_t i = 0; i < means.directions.size(); i++) cosines[Eigen::Index(i)] = means.directions[i].z;
@@ -129,7 +129,7 @@ TEST_CASE("tabulation: means are nearer to those of many samples than centres ar
         return (cosines.asDiagonal() * error * cosines.asDiagonal()).norm() /
                (cosines.asDiagonal() * exact * cosines.asDiagonal()).norm();
     };
-    CHECK(errorOf(means) < 0.5f * errorOf(centres));
+    CHECK(errorOf(means) < 0.5f * errorOf(centers));
     const auto total = [&](const Eigen::MatrixXf& matrix) { return cosines.dot(matrix * cosines); };
     CHECK(total(means.channels[0]) == doctest::Approx(total(exact)).epsilon(0.02));
 }

@@ -40,7 +40,7 @@ Texture gradient() {
 
 } // namespace
 
-TEST_CASE("texture: bilinear between centres, repeating on all sides") {
+TEST_CASE("texture: bilinear between centers, repeating on all sides") {
     const Texture texture{2, 2, {0xff0000ff, 0x0000ff00, 0x00ff0000, 0x00000000}, false};
     CHECK(isNear(sample(texture, {0.25f, 0.25f}), {1, 0, 0, 1}));
     CHECK(isNear(sample(texture, {0.75f, 0.25f}), {0, 1, 0, 0}));
@@ -128,8 +128,8 @@ TEST_CASE("texture: over a pixel it is the mean of what the pixel sees") {
 TEST_CASE("texture: sRGB is decoded before interpolation, alpha never") {
     const Texture texture{2, 1, {0xff000000, 0x00ffffff}, true};
     CHECK(isNear(sample(texture, {0.5f, 0.5f}), vec4(0.5f)));
-    const Texture grey{1, 1, {0x80808080}, true};
-    CHECK(isNear(sample(grey, {0.3f, 0.3f}), {0.215861f, 0.215861f, 0.215861f, 128 / 255.0f}));
+    const Texture gray{1, 1, {0x80808080}, true};
+    CHECK(isNear(sample(gray, {0.3f, 0.3f}), {0.215861f, 0.215861f, 0.215861f, 128 / 255.0f}));
     const Texture dark{1, 1, {0x00000005}, true};
     CHECK(fetch(dark, 0, 0).x == doctest::Approx(5 / 255.0 / 12.92));
 }
@@ -184,8 +184,8 @@ TEST_CASE("texture: JPEG tables that overflow or are missing") {
     const std::string many =
         std::string("\xff\xc4\x01\x13\x00", 5) + std::string(14, '\0') + "\x80\xff" + std::string(383, 'x');
     CHECK(failureOf(jpeg.substr(0, huffman) + many + jpeg.substr(huffman)) != "");
-    const size_t quantisation = jpeg.find("\xff\xdb"), frame = jpeg.find("\xff\xc0");
-    CHECK(failureOf(jpeg.substr(0, quantisation) + jpeg.substr(frame)).find("not described") !=
+    const size_t quantization = jpeg.find("\xff\xdb"), frame = jpeg.find("\xff\xc0");
+    CHECK(failureOf(jpeg.substr(0, quantization) + jpeg.substr(frame)).find("not described") !=
           std::string::npos);
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("texture: with any bit flipped, a texture or an Error") {
         }
 }
 
-TEST_CASE("texture: where a file has no alpha, a colour is opaque and a fourth weight nothing") {
+TEST_CASE("texture: where a file has no alpha, a color is opaque and a fourth weight nothing") {
     const unsigned char pixel[3] = {10, 20, 30};
     std::string png;
     stbi_write_png_to_func(appendTo, &png, 1, 1, 3, pixel, 0);

@@ -26,12 +26,12 @@ TEST_CASE("tone map: without a curve it is exposure and sRGB") {
 TEST_CASE("tone map: ACES and AgX at known points") {
     // 0.18 (2.51 · 0.18 + 0.03) / (0.18 (2.43 · 0.18 + 0.59) + 0.14) = 0.266897, encoded as sRGB.
     CHECK(mapped(vec4(0.18f), ToneCurve::Aces).x == doctest::Approx(0.553459).epsilon(1e-4));
-    // AgX shows middle grey near the middle of the display's range.
+    // AgX shows middle gray near the middle of the display's range.
     CHECK(mapped(vec4(0.18f), ToneCurve::Agx).x == doctest::Approx(0.46).epsilon(0.05));
-    // Grey stays grey; a bright saturated light loses colour.
-    const vec4 grey = mapped(vec4(0.5f), ToneCurve::Agx),
+    // Gray stays gray; a bright saturated light loses color.
+    const vec4 gray = mapped(vec4(0.5f), ToneCurve::Agx),
                red = mapped(vec4(50, 0.1f, 0.1f, 1), ToneCurve::Agx);
-    CHECK(std::abs(grey.x - grey.z) < 2e-3f);
+    CHECK(std::abs(gray.x - gray.z) < 2e-3f);
     CHECK(red.y > 0.3f);
 }
 

@@ -214,7 +214,7 @@ TEST_CASE("packing: a row of zeros or nothing is empty with scale 0") {
     }
 }
 
-TEST_CASE("relight: the dot product, to the error that quantisation allows") {
+TEST_CASE("relight: the dot product, to the error that quantization allows") {
     const int faceSize = 8, texels = 6 * faceSize * faceSize;
     LightVector light;
     light.faceSize = faceSize;

@@ -61,7 +61,7 @@ TEST_CASE("vertex order: the surface stays, winding included") {
     }
 }
 
-TEST_CASE("vertex order: consecutive vertices are neighbours in space") {
+TEST_CASE("vertex order: consecutive vertices are neighbors in space") {
     Mesh mesh = shuffled(makeKnot(12000), 3);
     const double before = meanStep(mesh);
     orderVertices(mesh);

@@ -1,4 +1,4 @@
-// What explains a vertex adds up to its colour.
+// What explains a vertex adds up to its color.
 #include "precompute/reference/vertex_probe.h"
 
 #include "engine/math/cubemap.h"
@@ -59,7 +59,7 @@ Asset bakeCourt() {
 
 } // namespace
 
-TEST_CASE("vertex probe: tuple and transport give the same radiance, in every layout and dress") {
+TEST_CASE("vertex probe: tuple and transport give the same radiance, in every layout and material") {
     const Asset asset = mixedAsset();
     const RayTracer tracer = occluderOf(asset);
     const LightCube light = makeLight(asset.faceSize);
@@ -100,7 +100,7 @@ TEST_CASE("vertex probe: tuple and transport give the same radiance, in every la
         }
 }
 
-TEST_CASE("vertex probe: layers show as much as they are worn") {
+TEST_CASE("vertex probe: layers show as much as they are bound") {
     Asset asset = mixedAsset();
     const RayTracer tracer = occluderOf(asset);
     const LightCube light = makeLight(asset.faceSize);

@@ -48,7 +48,7 @@ TEST_CASE("viewer: a frame with another material of the set draws the view, and 
     for (const size_t swap : {count - 4, count - 3, count - 2}) {
         CHECK(frames[swap].contains("view"));
         CHECK_FALSE(frames[swap].contains("relight"));
-        CHECK_FALSE(frames[swap].contains("light quantise"));
+        CHECK_FALSE(frames[swap].contains("light quantize"));
     }
     for (const size_t still : {count - 5, count - 1}) {
         CHECK_FALSE(frames[still].contains("view"));

@@ -8,13 +8,13 @@ TEST_CASE("scene state: materials follow each other, and what was baked after th
     SceneState state;
     const std::vector<std::string> names = {"clay", "gold"};
     for (const char* expected : {"clay", "gold", "", "clay"}) {
-        wearNext(state, names);
+        bindNextMaterial(state, names);
         CHECK_EQ(state.material.empty() ? "" : state.material[0].name, expected);
     }
     state.material = {{"steel"}}; // of another bake
-    wearNext(state, names);
+    bindNextMaterial(state, names);
     CHECK(state.material.at(0).name == "clay");
-    wearNext(state, {});
+    bindNextMaterial(state, {});
     CHECK(state.material.empty());
 }
 

@@ -8,7 +8,7 @@
 
 using namespace relume;
 
-TEST_CASE("swatch: is a ball in its material's colour, lit from above") {
+TEST_CASE("swatch: is a ball in its material's color, lit from above") {
     constexpr int kSide = 48;
     const Image ball = renderSwatch("red-plastic", kSide);
     CHECK_EQ(ball.width, kSide);
@@ -33,6 +33,6 @@ TEST_CASE("swatch: is a ball in its material's colour, lit from above") {
     // By the description that a bake keeps, the same.
     const Image kept = renderSwatch(makeBrdf("red-plastic")->describe().dump(), kSide);
     CHECK(kept.pixels == ball.pixels);
-    const vec4 grey = renderSwatch("white-diffuse", kSide).at(kSide / 2, kSide / 2);
-    CHECK(grey.x == doctest::Approx(grey.y).epsilon(0.5));
+    const vec4 gray = renderSwatch("white-diffuse", kSide).at(kSide / 2, kSide / 2);
+    CHECK(gray.x == doctest::Approx(gray.y).epsilon(0.5));
 }

@@ -127,9 +127,9 @@ class Renderer:
     def __init__(self, asset, size=(960, 720), samples=4, residual=True):
         self._renderer = _relume.Renderer(asset, tuple(size), samples, residual)
 
-    def wear(self, materials):
-        """Dresses all parts that have these materials: a name, or weights by name."""
-        self._renderer.wear({materials: 1.0} if isinstance(materials, str) else dict(materials))
+    def bind(self, materials):
+        """Binds materials to all parts that have them: a name, or weights by name."""
+        self._renderer.bind({materials: 1.0} if isinstance(materials, str) else dict(materials))
 
     def select_light(self, threshold=None, coefficients=None):
         """Which of the light's coefficients are kept: those above a threshold, or so many. Neither: the default."""

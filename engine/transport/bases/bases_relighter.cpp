@@ -133,7 +133,7 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
         colors.push_back(transport.kinds[kind].color);
     }
     mTermKinds = vk::upload<shared::BasisTermKinds>(device, termKinds, name + " kinds of terms");
-    mColors = vk::upload<vec3>(device, colors, name + " colours of kinds");
+    mColors = vk::upload<vec3>(device, colors, name + " colors of kinds");
 
     // Of the texels that relight_combine reads the smallest have a word.
     largestShard = std::min(largestShard, sizeof(float) * device.mostTexels(sizeof(float)));

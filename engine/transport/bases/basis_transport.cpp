@@ -52,7 +52,7 @@ void checkLayout(const BasisTransport& layout, const std::string& where) {
         term = kind.term;
         expect(ofTerm <= 3, where, "at most three kinds a term");
         for (int channel = 0; channel < 3; channel++)
-            expect(std::isfinite(kind.color[channel]), where, "finite colours of kinds");
+            expect(std::isfinite(kind.color[channel]), where, "finite colors of kinds");
     }
 }
 

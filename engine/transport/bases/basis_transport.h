@@ -11,13 +11,13 @@
 
 namespace relume {
 
-constexpr uint32_t kBasisVertices = 256;       // of a cluster, neighbours in bake order
+constexpr uint32_t kBasisVertices = 256;       // of a cluster, neighbors in bake order
 constexpr uint32_t kMostBasisColumns = 4096;   // of a cluster
 constexpr uint32_t kMostBasisComponents = 256; // of a cluster
 constexpr int kBasisMaximum = 127;             // magnitude of basis values and weights
 
-// One direction in the colour space of a term's transport. Most of a material's transport lies along one: of
-// a grey one all, along (1, 1, 1). A term has at most three; without any it is zero.
+// One direction in the color space of a term's transport. Most of a material's transport lies along one: of
+// a gray one all, along (1, 1, 1). A term has at most three; without any it is zero.
 struct BasisKind {
     uint32_t term = 0;
     vec3 color{1};

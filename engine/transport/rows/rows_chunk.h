@@ -39,7 +39,7 @@ void decodeRun(std::span<const std::byte> raw, uint32_t coefficients, size_t ent
 
 // Bijections between a packed 11/11/10 word and the word that is stored: byte 0 holds green's low bits, byte
 // 1 those of red - green, byte 2 those of blue - green / 2, byte 3 the high bits (3, 3, 2), each number
-// zigzagged so that small ones of either sign have few bits. A grey material's bytes 1 and 2 are nearly all
+// zigzagged so that small ones of either sign have few bits. A gray material's bytes 1 and 2 are nearly all
 // zero.
 uint32_t decorrelate(uint32_t packed);
 uint32_t correlate(uint32_t stored);

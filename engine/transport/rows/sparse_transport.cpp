@@ -46,14 +46,14 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
            "values within ±1023 in red and green and ±511 in blue");
 }
 
-ivec3 quantiseCoefficient(vec3 value, float scale) {
+ivec3 quantizeCoefficient(vec3 value, float scale) {
     if (!(scale > 0)) return ivec3(0);
-    const auto quantise = [&](float component, int maximum) {
+    const auto quantize = [&](float component, int maximum) {
         const float steps = component / scale * float(maximum);
         return int(steps < 0 ? std::ceil(steps - 0.5f) : std::floor(steps + 0.5f));
     };
-    return {quantise(value.x, kRedMaximum), quantise(value.y, kGreenMaximum),
-            quantise(value.z, kBlueMaximum)};
+    return {quantize(value.x, kRedMaximum), quantize(value.y, kGreenMaximum),
+            quantize(value.z, kBlueMaximum)};
 }
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Transport as rows of sparse, quantised Haar coefficients: one row per vertex and term.
+// Transport as rows of sparse, quantized Haar coefficients: one row per vertex and term.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -19,7 +19,7 @@ struct SparseTransport {
     uint32_t vertices = 0;
     uint32_t terms = 0;
     std::vector<uint64_t> rowStarts; // rows + 1: first entry of each row
-    std::vector<float> scales;       // per row: the largest |component| before quantisation
+    std::vector<float> scales;       // per row: the largest |component| before quantization
     std::vector<uint16_t> indices;   // per entry: face·F² + y·F + x, rising within a row
     std::vector<uint32_t> values;    // per entry: packed 11/11/10
 
@@ -46,6 +46,6 @@ void checkTransport(const SparseTransport& transport, uint32_t coefficients, uin
                     const std::string& where);
 
 // Rounds to nearest, halves away from zero; `scale` maps to the maxima. A scale of 0 gives 0.
-ivec3 quantiseCoefficient(vec3 value, float scale);
+ivec3 quantizeCoefficient(vec3 value, float scale);
 
 } // namespace relume

@@ -69,7 +69,7 @@ LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Ind
     return leading;
 }
 
-// Neighbouring prices.
+// Neighboring prices.
 struct Prices {
     double low, high;
 };
@@ -91,7 +91,7 @@ uint32_t BasisAnalysis::components() const {
     return vectors.cols() == 0 ? 0 : uint32_t(vectors.cols()) + kFirstComponents - 1;
 }
 
-BasisAnalysis analyse(const ClusterMatrix& matrix) {
+BasisAnalysis analyze(const ClusterMatrix& matrix) {
     const Eigen::MatrixXf& values = matrix.values;
     BasisAnalysis analysis;
     analysis.vertices = matrix.vertices;

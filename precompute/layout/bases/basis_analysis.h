@@ -22,7 +22,7 @@ struct BasisAnalysis {
     uint32_t components() const;
 };
 
-BasisAnalysis analyse(const ClusterMatrix& matrix);
+BasisAnalysis analyze(const ClusterMatrix& matrix);
 
 // A cut. `columns` are numbers of the analysis's.
 struct BasisCut {
@@ -30,7 +30,7 @@ struct BasisCut {
     std::vector<uint32_t> columns;
     std::vector<uint16_t> counts; // per kind
     double bytes = 0;             // in memory
-    double error = 0;             // squared, but for quantisation
+    double error = 0;             // squared, but for quantization
 };
 
 // The cut of least importance · error + price · bytes.
@@ -40,7 +40,7 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price);
 // for its bytes (Shoham and Gersho 1988). A cluster's weight is how many it stands for.
 struct CutTotals {
     double bytes = 0;
-    double error = 0; // squared, in units of the matrices, but for quantisation
+    double error = 0; // squared, in units of the matrices, but for quantization
 };
 
 // Of all clusters' cuts at a price: an error that a byte must save.

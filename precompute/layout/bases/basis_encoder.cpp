@@ -15,7 +15,7 @@ namespace {
 using Column = Eigen::Ref<Eigen::VectorXf>;
 
 // Rounds values to whole steps, at most kBasisMaximum of them; the step. Leaves what rounding lost.
-float quantise(Column values, std::span<int8_t> steps, size_t stride) {
+float quantize(Column values, std::span<int8_t> steps, size_t stride) {
     const float step = values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff() / float(kBasisMaximum);
     const float inverse = step > 0 ? 1 / step : 0;
     for (Eigen::Index i = 0; i < values.size(); i++) {
@@ -29,27 +29,27 @@ float quantise(Column values, std::span<int8_t> steps, size_t stride) {
 }
 
 // Basis vectors as they are read.
-struct QuantisedBasis {
+struct QuantizedBasis {
     std::vector<int8_t> values;
     std::vector<float> steps;
     Eigen::MatrixXf
         vectors; // columns × vectors, weighted by the spectrum; the first with all its components'
 };
 
-QuantisedBasis quantiseBasis(const Eigen::MatrixXf& vectors, const Eigen::VectorXf& weights,
+QuantizedBasis quantizeBasis(const Eigen::MatrixXf& vectors, const Eigen::VectorXf& weights,
                              uint32_t components) {
-    QuantisedBasis basis;
+    QuantizedBasis basis;
     basis.values.resize(size_t(vectors.rows()) * components);
-    const auto quantised = [&](Column values) {
+    const auto quantized = [&](Column values) {
         const size_t component = basis.steps.size();
-        basis.steps.push_back(quantise(values, std::span(basis.values).subspan(component), components));
+        basis.steps.push_back(quantize(values, std::span(basis.values).subspan(component), components));
     };
     basis.vectors.resize(vectors.rows(), vectors.cols());
     for (Eigen::Index vector = 0; vector < vectors.cols(); vector++) {
         const Eigen::VectorXf values = vectors.col(vector).cwiseQuotient(weights);
         Eigen::VectorXf lost = values;
-        quantised(lost);
-        if (vector == 0 && components > 1) quantised(lost); // the second byte
+        quantized(lost);
+        if (vector == 0 && components > 1) quantized(lost); // the second byte
         basis.vectors.col(vector) = (values - lost).cwiseProduct(weights);
         if (vector == 0 && components > 2) { // again, for the second byte of the weights
             basis.steps.push_back(basis.steps.front());
@@ -83,8 +83,8 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
     const Eigen::Index vectors =
         std::max<Eigen::Index>(1, Eigen::Index(cut.components) - kFirstComponents + 1);
     const Eigen::MatrixXf values = matrix.values(Eigen::all, cut.columns);
-    QuantisedBasis basis =
-        quantiseBasis(analysis.vectors(cut.columns, Eigen::seqN(0, vectors)), weights, cut.components);
+    QuantizedBasis basis =
+        quantizeBasis(analysis.vectors(cut.columns, Eigen::seqN(0, vectors)), weights, cut.components);
     cluster.basis = std::move(basis.values);
 
     const Eigen::MatrixXf gram = basis.vectors.transpose() * basis.vectors, sides = values * basis.vectors;
@@ -108,7 +108,7 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
         const auto scale = [&](uint32_t component, float step) {
             cluster.scales.push_back(step * basis.steps[component] * unit);
         };
-        const float first = quantise(lost.col(0), steps(0), count);
+        const float first = quantize(lost.col(0), steps(0), count);
         scale(0, first);
         for (uint32_t component = 1; component < count; component++) {
             if (component == 1) {
@@ -117,7 +117,7 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
                 scale(1, first);
             } else
                 scale(component,
-                      quantise(lost.col(component < kFirstComponents ? 0 : component - kFirstComponents + 1),
+                      quantize(lost.col(component < kFirstComponents ? 0 : component - kFirstComponents + 1),
                                steps(component), count));
         }
         const Eigen::MatrixXf kept = fitted - lost;
@@ -136,7 +136,7 @@ EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& ro
                          const BlockCoding& coding) {
     const std::vector<float> spectrum = lightSpectrum(coding.faceSize);
     const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, layout.kinds, spectrum, coding.unit);
-    const BasisAnalysis analysis = analyse(matrix);
+    const BasisAnalysis analysis = analyze(matrix);
     const EncodedCluster encoded =
         encodeBases(matrix, analysis, cutFor(analysis, coding.price), layout.kinds, spectrum);
     checkCluster(encoded.cluster, rows.vertices, layout.kinds.size(), uint32_t(spectrum.size()),
@@ -161,7 +161,7 @@ double findPrice(const BasisTransport&, std::span<const SetSample> samples, int 
     tbb::parallel_for(size_t(0), places.size(), [&](size_t i) {
         const auto& [sample, rows, first] = places[i];
         const uint32_t count = std::min(kBasisVertices, rows->vertices - first);
-        analyses[i] = analyse(clusterMatrix(
+        analyses[i] = analyze(clusterMatrix(
             *rows, first, count, basisKinds(sample->set->brdf, sample->isBounced), spectrum, sample->unit));
         analyses[i].weight = double(sample->vertices) / double(sample->sampledVertices());
     });
@@ -184,7 +184,7 @@ double convertRows(const BasisTransport&, const RowSource& source, const LayoutT
 
     // Two passes over the rows (kConversionPasses): what each cluster asks for, then what it gets.
     std::vector<BasisAnalysis> analyses(places.size());
-    passes.run(places, [&](size_t i) { analyses[i] = analyse(matrixOf(places[i])); });
+    passes.run(places, [&](size_t i) { analyses[i] = analyze(matrixOf(places[i])); });
     const double price = priceFor(analyses, target);
     std::vector<double> errors(places.size());
     passes.run(places, [&](size_t i) {

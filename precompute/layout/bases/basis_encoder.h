@@ -1,4 +1,4 @@
-// A cluster's transport as quantised basis vectors and weights, and a whole asset's.
+// A cluster's transport as quantized basis vectors and weights, and a whole asset's.
 #pragma once
 
 #include "precompute/layout/bases/basis_analysis.h"
@@ -8,7 +8,7 @@ namespace relume {
 
 struct EncodedCluster {
     BasisCluster cluster;
-    double error = 0; // squared, of the matrix: the cut's and quantisation's
+    double error = 0; // squared, of the matrix: the cut's and quantization's
 };
 
 // `kinds` and `spectrum` are those that the matrix was made with.

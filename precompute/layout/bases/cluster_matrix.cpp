@@ -26,7 +26,7 @@ Eigen::Matrix3d covariance(const FactoredBrdf& brdf, const vec3* map) {
     return sum;
 }
 
-bool isGrey(const FactoredBrdf& brdf, const vec3* map) {
+bool isGray(const FactoredBrdf& brdf, const vec3* map) {
     return std::all_of(map, map + brdf.mapTexels(), [](vec3 g) { return g.x == g.y && g.y == g.z; });
 }
 
@@ -53,7 +53,7 @@ std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf, bool isBounced) {
     std::vector<BasisKind> kinds;
     for (int term = 0; term < brdf.terms; term++) {
         const vec3* map = brdf.lightMap(term);
-        if (isGrey(brdf, map)) {
+        if (isGray(brdf, map)) {
             kinds.push_back({uint32_t(term), vec3(1)});
             if (isBounced) {
                 kinds.push_back({uint32_t(term), {1, 0, -1}});

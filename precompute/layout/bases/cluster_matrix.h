@@ -1,5 +1,5 @@
 // The transport of a cluster of vertices as one matrix, for compression: amounts of a few directions in
-// colour space, the kinds, along which a material's transport lies.
+// color space, the kinds, along which a material's transport lies.
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
@@ -19,7 +19,7 @@ std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf, bool isBounced = fal
 // The amount of a kind in coefficient `t` is dot(kindDual(kind), t).
 inline vec3 kindDual(const BasisKind& kind) { return kind.color / glm::dot(kind.color, kind.color); }
 
-// Errors of it are errors of relighting: amounts of kinds times the length of their colour, and times the
+// Errors of it are errors of relighting: amounts of kinds times the length of their color, and times the
 // light's spectrum (light_spectrum.h), in units of `unit`. Row j · vertices + v is kind j of vertex v.
 struct ClusterMatrix {
     uint32_t vertices = 0;

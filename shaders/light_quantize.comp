@@ -1,5 +1,5 @@
 #version 460
-// Selects the light's coefficients, quantises them into a dense table of zeros elsewhere, and says what that cost and
+// Selects the light's coefficients, quantizes them into a dense table of zeros elsewhere, and says what that cost and
 // how the table differs from that of the light before.
 // One work-group, in passes over all: the maxima, the selection, the sums that guard the range, the values. All that
 // decides a value is integer, or a float product that is exact or rounded once.
@@ -11,7 +11,7 @@
 
 const uint kGroup = 128;
 layout(local_size_x = kGroup) in;
-layout(push_constant, scalar) uniform Push { LightQuantisePush push; };
+layout(push_constant, scalar) uniform Push { LightQuantizePush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; };
 layout(binding = 1, scalar) buffer Table { PackedLight table[]; }; // the light, then its changes
 layout(binding = 2, scalar) buffer Stats { LightStats stats; };
@@ -113,7 +113,7 @@ float inverseOf(uint exponent) { return uintBitsToFloat((254u - exponent) << kEx
 vec3 placesOf(uint index, float inverse) { return uintBitsToFloat(magnitudesOf(index)) * inverse; }
 
 // To nearest, halves away from zero. Floor and rest are exact.
-uvec3 quantise(vec3 places) {
+uvec3 quantize(vec3 places) {
     const vec3 whole = floor(places);
     return uvec3(whole) + uvec3(greaterThanEqual(places - whole, vec3(0.5)));
 }
@@ -122,7 +122,7 @@ uvec3 quantise(vec3 places) {
 uint groupMagnitude(uint lane, uvec2 least, float inverse) {
     uvec3 sum = uvec3(0);
     for (uint i = lane; i < push.coefficients; i += kGroup)
-        if (isKept(rankOf(i), least)) sum += quantise(placesOf(i, inverse));
+        if (isKept(rankOf(i), least)) sum += quantize(placesOf(i, inverse));
     barrier(); // what was there before has been read
     partial[lane] = sum;
     barrier();
@@ -157,12 +157,12 @@ void main() {
     uint kept = 0, changed = 0;
     for (uint i = lane; i < push.coefficients; i += kGroup) {
         const vec3 places = placesOf(i, inverse);
-        uvec3 quantised = uvec3(0);
-        if (isKept(rankOf(i), least)) quantised = quantise(places);
-        const vec3 rest = places - vec3(quantised);
+        uvec3 quantized = uvec3(0);
+        if (isKept(rankOf(i), least)) quantized = quantize(places);
+        const vec3 rest = places - vec3(quantized);
         energy += vec2(dot(places, places), dot(rest, rest));
-        kept += uint(largest(quantised) > 0);
-        const ivec3 value = ivec3(sign(coefficients[i])) * ivec3(quantised);
+        kept += uint(largest(quantized) > 0);
+        const ivec3 value = ivec3(sign(coefficients[i])) * ivec3(quantized);
         const ivec3 change = value - unpackLight(table[i]);
         if (change != ivec3(0)) changed = addChange(changed, fits16(change) ? 1 : kUnknownChange);
         table[i] = packLight(value);

@@ -1,4 +1,4 @@
-#include "precompute/reference/worn_brdf.h"
+#include "precompute/reference/bound_brdf.h"
 
 #include <algorithm>
 
@@ -14,16 +14,16 @@ const AssetMaterial& materialOf(const MaterialSet& set, int layer) {
 
 } // namespace
 
-WornBrdf::WornBrdf(const MaterialSet& set, const WornLayer& layer, MaterialBrdfs& brdfs) {
+BoundBrdf::BoundBrdf(const MaterialSet& set, const BoundLayer& layer, MaterialBrdfs& brdfs) {
     const AssetMaterial& material = materialOf(set, layer.layer);
     mExact = brdfs.of(material);
     mShare = layer.textured ? Share::Base : material.hasBase ? Share::WithoutBase : Share::Whole;
 }
 
-WornBrdf::WornBrdf(const MaterialSet& set, const WornLayer& layer)
+BoundBrdf::BoundBrdf(const MaterialSet& set, const BoundLayer& layer)
     : mFactors(&set.brdf), mLayer(layer.layer) {}
 
-SeenBrdf WornBrdf::seenFrom(vec3 outgoing) const {
+SeenBrdf BoundBrdf::seenFrom(vec3 outgoing) const {
     SeenBrdf seen(*this, outgoing);
     if (mExact) return seen;
     const MapPlace place = placeInMap(mFactors->size, mFactors->mapping, outgoing);
@@ -33,15 +33,15 @@ SeenBrdf WornBrdf::seenFrom(vec3 outgoing) const {
 }
 
 vec3 SeenBrdf::evaluate(vec3 incoming) const {
-    if (const Brdf* exact = mWorn->mExact.get()) switch (mWorn->mShare) {
-        case WornBrdf::Share::Whole:
+    if (const Brdf* exact = mBound->mExact.get()) switch (mBound->mShare) {
+        case BoundBrdf::Share::Whole:
             return exact->evaluate(incoming, mOutgoing);
-        case WornBrdf::Share::Base:
+        case BoundBrdf::Share::Base:
             return exact->evaluateBase(incoming, mOutgoing);
-        case WornBrdf::Share::WithoutBase:
+        case BoundBrdf::Share::WithoutBase:
             return exact->evaluate(incoming, mOutgoing) - exact->evaluateBase(incoming, mOutgoing);
         }
-    const FactoredBrdf& factors = *mWorn->mFactors;
+    const FactoredBrdf& factors = *mBound->mFactors;
     const MapPlace place = placeInMap(factors.size, factors.mapping, incoming);
     vec3 sum(0);
     for (int term = 0; term < factors.terms; term++)

@@ -1,4 +1,4 @@
-// A layer that a part wears, as a function: of the exact BRDF, or of its K factored terms.
+// A bound layer as a function of two directions: the exact BRDF, or its K factored terms.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -14,13 +14,13 @@ enum class ReferenceBrdf {
 
 class SeenBrdf;
 
-// The BRDF itself; what a base colour texture multiplies of it; or the rest.
-class WornBrdf {
+// The BRDF itself; what a base color texture multiplies of it; or the rest.
+class BoundBrdf {
   public:
     // Of the exact BRDF, from `brdfs`.
-    WornBrdf(const MaterialSet& set, const WornLayer& layer, MaterialBrdfs& brdfs);
+    BoundBrdf(const MaterialSet& set, const BoundLayer& layer, MaterialBrdfs& brdfs);
     // Of the factors, to which it refers.
-    WornBrdf(const MaterialSet& set, const WornLayer& layer);
+    BoundBrdf(const MaterialSet& set, const BoundLayer& layer);
 
     // At a view direction in the local frame, above the horizon. Refers to this.
     SeenBrdf seenFrom(vec3 outgoing) const;
@@ -38,14 +38,14 @@ class WornBrdf {
 // f(ωi, ωo) of one ωo: a pixel asks for many ωi.
 class SeenBrdf {
   public:
-    // Per colour channel, without the cosine, in sr⁻¹; of factors it can be negative. ωi.z > 0.
+    // Per color channel, without the cosine, in sr⁻¹; of factors it can be negative. ωi.z > 0.
     vec3 evaluate(vec3 incoming) const;
 
   private:
-    friend WornBrdf;
-    SeenBrdf(const WornBrdf& worn, vec3 outgoing) : mWorn(&worn), mOutgoing(outgoing) {}
+    friend BoundBrdf;
+    SeenBrdf(const BoundBrdf& bound, vec3 outgoing) : mBound(&bound), mOutgoing(outgoing) {}
 
-    const WornBrdf* mWorn;
+    const BoundBrdf* mBound;
     vec3 mOutgoing;
     std::vector<vec3> mViews; // of factors: the view maps' values, one per term
 };

@@ -1,4 +1,4 @@
-#include "precompute/reference/dressed_asset.h"
+#include "precompute/reference/bound_asset.h"
 
 #include "engine/base/check.h"
 #include "engine/render/layer_weights.h"
@@ -31,17 +31,17 @@ std::vector<vec3> SurfacePoint::layerWeights() const {
     return weights;
 }
 
-DressedAsset::DressedAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind,
-                           MaterialBrdfs& brdfs)
+BoundAsset::BoundAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind,
+                       MaterialBrdfs& brdfs)
     : mAsset(&asset), mIsExact(kind == ReferenceBrdf::Exact) {
     RELUME_CHECK_EQ(appearance.size(), asset.parts.size());
     for (size_t i = 0; i < asset.parts.size(); i++) {
-        const size_t worn = appearance[i].set;
-        const MaterialSet& set = asset.parts[i].sets.at(worn);
-        Part part{worn, wornLayers(asset.parts[i], appearance[i]), {}};
-        for (const WornLayer& layer : part.layers)
-            part.brdfs.push_back(kind == ReferenceBrdf::Exact ? WornBrdf(set, layer, brdfs)
-                                                              : WornBrdf(set, layer));
+        const size_t number = appearance[i].set;
+        const MaterialSet& set = asset.parts[i].sets.at(number);
+        Part part{number, boundLayers(asset.parts[i], appearance[i]), {}};
+        for (const BoundLayer& layer : part.layers)
+            part.brdfs.push_back(kind == ReferenceBrdf::Exact ? BoundBrdf(set, layer, brdfs)
+                                                              : BoundBrdf(set, layer));
         mParts.push_back(std::move(part));
     }
 }
@@ -53,7 +53,7 @@ static vec3 facingNormal(vec3 normal, vec3 view) {
     return glm::normalize(normal + std::max(kLeastCosine - glm::dot(normal, view), 0.0f) * view);
 }
 
-SurfacePoint DressedAsset::pointAt(const RayHit& hit, vec3 eye, bool isMapped) const {
+SurfacePoint BoundAsset::pointAt(const RayHit& hit, vec3 eye, bool isMapped) const {
     const AssetPart& source = mAsset->parts[hit.mesh];
     const Mesh& mesh = source.mesh;
     const uvec3 corners = mesh.triangles[hit.triangle];
@@ -84,7 +84,7 @@ SurfacePoint DressedAsset::pointAt(const RayHit& hit, vec3 eye, bool isMapped) c
     return point;
 }
 
-SurfacePoint DressedAsset::limitPointAt(const RayHit& hit, vec3 eye) const {
+SurfacePoint BoundAsset::limitPointAt(const RayHit& hit, vec3 eye) const {
     SurfacePoint point = bakedPointAt(hit, eye);
     const Part& part = mParts[hit.mesh];
     const ResidualSet* residual = mAsset->parts[hit.mesh].sets[part.set].residual.get();

@@ -9,22 +9,22 @@
 namespace relume {
 
 // A coarse vertex by its place in their list, and its share.
-struct CoarseNeighbour {
+struct CoarseNeighbor {
     uint32_t coarse;
     float weight;
 };
 
 // Finds the nearest in place, tangent frame and plane. Shares add up to one and change continuously over a
-// smooth surface (Shepard's weights, which Franke and Little let vanish at the first neighbour left out);
+// smooth surface (Shepard's weights, which Franke and Little let vanish at the first neighbor left out);
 // they are balanced, so that what changes linearly over the surface is met.
-class CoarseNeighbours {
+class CoarseNeighbors {
   public:
     // Of a mesh that outlives it, with `coarse` of coarseVertices() and the spacing it was given.
-    CoarseNeighbours(const Mesh& mesh, std::span<const uint32_t> coarse, float spacing);
+    CoarseNeighbors(const Mesh& mesh, std::span<const uint32_t> coarse, float spacing);
 
-    // A coarse vertex has itself alone. None has a neighbour whose normal is not like its own
+    // A coarse vertex has itself alone. None has a neighbor whose normal is not like its own
     // (kLeastNormalCosine).
-    std::vector<CoarseNeighbour> of(uint32_t vertex) const;
+    std::vector<CoarseNeighbor> of(uint32_t vertex) const;
 
   private:
     // Place, normal and tangent, in spacings.
@@ -42,7 +42,7 @@ class CoarseNeighbours {
     struct Search;
 
     Point pointOf(const Mesh& mesh, uint32_t vertex) const;
-    void balance(uint32_t vertex, std::vector<CoarseNeighbour>& neighbours) const;
+    void balance(uint32_t vertex, std::vector<CoarseNeighbor>& neighbors) const;
     void build(uint32_t first, uint32_t end);
     void search(uint32_t node, Search& search) const;
 

@@ -1,8 +1,8 @@
-// An asset in what its parts wear: the surface that a ray meets, and how it reflects.
+// An asset with materials bound to its parts: the surface that a ray meets, and how it reflects.
 #pragma once
 
 #include "engine/math/tangent_frame.h"
-#include "precompute/reference/worn_brdf.h"
+#include "precompute/reference/bound_brdf.h"
 #include "precompute/visibility/ray_tracer.h"
 
 namespace relume {
@@ -12,7 +12,7 @@ std::vector<const Mesh*> partMeshes(const Asset& asset);
 // All of them as one, which the bake's occluder may be simpler than.
 Mesh mergedMesh(const Asset& asset);
 
-// A point of a surface, seen from an eye. Refers to its DressedAsset.
+// A point of a surface, seen from an eye. Refers to its BoundAsset.
 struct SurfacePoint {
     struct Layer {
         vec3 weight;
@@ -31,11 +31,11 @@ struct SurfacePoint {
     std::vector<vec3> layerWeights() const;
 };
 
-class DressedAsset {
+class BoundAsset {
   public:
     // Refers to `asset`, whose normal maps are those of the exact BRDF alone: factors are of the frames that
     // they were baked in. Exact BRDFs come from `brdfs`, which throws if they cannot be had.
-    DressedAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind, MaterialBrdfs& brdfs);
+    BoundAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind, MaterialBrdfs& brdfs);
 
     // Attributes are interpolated as in the view pass.
     SurfacePoint pointAt(const RayHit& hit, vec3 eye) const { return pointAt(hit, eye, mIsExact); }
@@ -50,8 +50,8 @@ class DressedAsset {
 
     struct Part {
         size_t set;
-        std::vector<WornLayer> layers;
-        std::vector<WornBrdf> brdfs; // of the layers
+        std::vector<BoundLayer> layers;
+        std::vector<BoundBrdf> brdfs; // of the layers
     };
     const Asset* mAsset;
     bool mIsExact;

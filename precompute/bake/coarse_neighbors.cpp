@@ -1,4 +1,4 @@
-#include "precompute/bake/coarse_neighbours.h"
+#include "precompute/bake/coarse_neighbors.h"
 
 #include "engine/base/check.h"
 #include "engine/math/tangent_frame.h"
@@ -12,7 +12,7 @@ namespace relume {
 namespace {
 
 constexpr uint32_t kLeafPoints = 8;
-constexpr size_t kMostNeighbours = 8;
+constexpr size_t kMostNeighbors = 8;
 // How much the distance from another vertex's tangent plane counts beside that along it: what lies in another
 // layer, or around a corner, sees other things.
 constexpr float kPlaneWeight = 3;
@@ -23,7 +23,7 @@ float squared(float x) { return x * x; }
 
 } // namespace
 
-struct CoarseNeighbours::Search {
+struct CoarseNeighbors::Search {
     struct Found {
         float squaredDistance;
         uint32_t coarse;
@@ -31,7 +31,7 @@ struct CoarseNeighbours::Search {
     Point of;
     std::vector<Found> found; // rising; the last is the first that is left out
 
-    bool isFull() const { return found.size() > kMostNeighbours; }
+    bool isFull() const { return found.size() > kMostNeighbors; }
     bool canBe(float squaredDistance) const {
         return !isFull() || squaredDistance < found.back().squaredDistance;
     }
@@ -43,14 +43,14 @@ struct CoarseNeighbours::Search {
     }
 };
 
-CoarseNeighbours::Point CoarseNeighbours::pointOf(const Mesh& mesh, uint32_t vertex) const {
+CoarseNeighbors::Point CoarseNeighbors::pointOf(const Mesh& mesh, uint32_t vertex) const {
     const vec3 p = mesh.positions[vertex] * mScale, normal = mesh.normals[vertex];
     // Rows are of light maps in the vertex's frame: where frames turn, so do they.
     const vec3 n = normal * kNormalWeight, s = frameOf(mesh, vertex).s * kNormalWeight;
     return {{p.x, p.y, p.z, n.x, n.y, n.z, s.x, s.y, s.z}, normal, 0};
 }
 
-CoarseNeighbours::CoarseNeighbours(const Mesh& mesh, std::span<const uint32_t> coarse, float spacing)
+CoarseNeighbors::CoarseNeighbors(const Mesh& mesh, std::span<const uint32_t> coarse, float spacing)
     : mMesh(mesh), mScale(1 / spacing), mCoarse(coarse.begin(), coarse.end()) {
     RELUME_CHECK(!coarse.empty());
     for (uint32_t i = 0; i < coarse.size(); i++) {
@@ -60,7 +60,7 @@ CoarseNeighbours::CoarseNeighbours(const Mesh& mesh, std::span<const uint32_t> c
     build(0, uint32_t(mPoints.size()));
 }
 
-void CoarseNeighbours::build(uint32_t first, uint32_t end) {
+void CoarseNeighbors::build(uint32_t first, uint32_t end) {
     const size_t number = mNodes.size();
     const std::span points = std::span(mPoints).subspan(first, end - first);
     Node node{points[0].feature, points[0].feature, first, end, 0};
@@ -83,7 +83,7 @@ void CoarseNeighbours::build(uint32_t first, uint32_t end) {
     build(middle, end);
 }
 
-void CoarseNeighbours::search(uint32_t number, Search& search) const {
+void CoarseNeighbors::search(uint32_t number, Search& search) const {
     const auto distanceTo = [&](const Node& node) {
         float sum = 0;
         for (size_t axis = 0; axis < node.low.size(); axis++) {
@@ -116,17 +116,17 @@ void CoarseNeighbours::search(uint32_t number, Search& search) const {
     }
 }
 
-// Makes the middle of the neighbours, in the tangent plane, the vertex itself, where it lies among them.
-void CoarseNeighbours::balance(uint32_t vertex, std::vector<CoarseNeighbour>& neighbours) const {
+// Makes the middle of the neighbors, in the tangent plane, the vertex itself, where it lies among them.
+void CoarseNeighbors::balance(uint32_t vertex, std::vector<CoarseNeighbor>& neighbors) const {
     const TangentFrame frame = tangentFrame(mMesh.normals[vertex]);
     std::vector<vec2> places;
     vec2 middle(0);
     glm::mat2 spread(0);
-    for (const CoarseNeighbour& neighbour : neighbours) {
-        const vec3 away = mMesh.positions[mCoarse[neighbour.coarse]] - mMesh.positions[vertex];
+    for (const CoarseNeighbor& neighbor : neighbors) {
+        const vec3 away = mMesh.positions[mCoarse[neighbor.coarse]] - mMesh.positions[vertex];
         const vec2 place(frame.toLocal(away * mScale));
-        middle += neighbour.weight * place;
-        spread += neighbour.weight * glm::outerProduct(place, place);
+        middle += neighbor.weight * place;
+        spread += neighbor.weight * glm::outerProduct(place, place);
         places.push_back(place);
     }
     // Places in a line, or all one, leave a slope open; this keeps it small.
@@ -134,10 +134,10 @@ void CoarseNeighbours::balance(uint32_t vertex, std::vector<CoarseNeighbour>& ne
     if (!(glm::determinant(spread) > 0)) return;
     const vec2 slope = glm::inverse(spread) * middle;
     for (size_t i = 0; i < places.size(); i++)
-        neighbours[i].weight *= std::max(0.0f, 1 - glm::dot(slope, places[i]));
+        neighbors[i].weight *= std::max(0.0f, 1 - glm::dot(slope, places[i]));
 }
 
-std::vector<CoarseNeighbour> CoarseNeighbours::of(uint32_t vertex) const {
+std::vector<CoarseNeighbor> CoarseNeighbors::of(uint32_t vertex) const {
     Search search{pointOf(mMesh, vertex), {}};
     this->search(0, search);
     RELUME_CHECK(!search.found.empty());
@@ -145,20 +145,20 @@ std::vector<CoarseNeighbour> CoarseNeighbours::of(uint32_t vertex) const {
     if (nearest < 1e-6f || search.found.size() == 1) return {{search.found.front().coarse, 1}};
     // Where there are no more, the last is taken all the same.
     const float reach = std::sqrt(search.found.back().squaredDistance) * (search.isFull() ? 1 : 1.5f);
-    std::vector<CoarseNeighbour> neighbours;
+    std::vector<CoarseNeighbor> neighbors;
     for (const Search::Found& found : search.found) {
         const float distance = std::sqrt(found.squaredDistance);
         // Relative to the nearest, so that nothing overflows.
         const float weight = squared((reach - distance) / reach * (nearest / distance));
-        if (weight > 0) neighbours.push_back({found.coarse, weight});
+        if (weight > 0) neighbors.push_back({found.coarse, weight});
     }
-    balance(vertex, neighbours);
-    std::erase_if(neighbours, [](const CoarseNeighbour& neighbour) { return !(neighbour.weight > 0); });
-    if (neighbours.empty()) return {{search.found.front().coarse, 1}};
+    balance(vertex, neighbors);
+    std::erase_if(neighbors, [](const CoarseNeighbor& neighbor) { return !(neighbor.weight > 0); });
+    if (neighbors.empty()) return {{search.found.front().coarse, 1}};
     float sum = 0;
-    for (const CoarseNeighbour& neighbour : neighbours) sum += neighbour.weight;
-    for (CoarseNeighbour& neighbour : neighbours) neighbour.weight /= sum;
-    return neighbours;
+    for (const CoarseNeighbor& neighbor : neighbors) sum += neighbor.weight;
+    for (CoarseNeighbor& neighbor : neighbors) neighbor.weight /= sum;
+    return neighbors;
 }
 
 } // namespace relume

@@ -1,5 +1,5 @@
 #version 460
-// Quantises each row's selected coefficients to 11/11/10 bits against its largest component, and counts
+// Quantizes each row's selected coefficients to 11/11/10 bits against its largest component, and counts
 // those that do not become zero. One group a row. CPU twin: packRow in precompute/reference/transport_stages.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -48,7 +48,7 @@ void main() {
     float energy = 0, error = 0;
     for (uint i = lane; i < count; i += kLanes) {
         const vec3 value = coefficient(gl_WorkGroupID.x, selected[firstPlace + i]);
-        const ivec3 q = quantiseCoefficient(value, scale);
+        const ivec3 q = quantizeCoefficient(value, scale);
         const vec3 difference = value - vec3(q) * (scale / vec3(kCoefficientMaximum));
         values[firstPlace + i] = packCoefficient(q);
         entries += uint(q != ivec3(0));
@@ -68,5 +68,5 @@ void main() {
     counts[row] = entries;
     scales[row] = scale;
     statistics[row].total = energy + statistics[row].dropped;
-    statistics[row].quantised = error;
+    statistics[row].quantized = error;
 }
