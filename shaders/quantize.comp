@@ -1,6 +1,6 @@
 #version 460
 // Quantizes each row's selected coefficients to 11/11/10 bits against its largest component, and counts
-// those that do not become zero. One group a row. CPU twin: packRow in precompute/reference/transport_stages.h.
+// those that do not become zero. One group a row. CPU twin: packRow in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/haar_block.glsl"

@@ -2,7 +2,7 @@
 // Tuples of a cluster's vertices in one term: the projections of its basis vectors times the vertices' weights, summed
 // in the order of the components, kind after kind. Eight vertices an invocation, so that a projection serves several.
 // Clusters whose projections are as before, or that have none and stay zero, are left out.
-// C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/transport/bases/bases_relighter.h.
+// C++ twin: relight() in precompute/twins/relight_twin.h. Layout: engine/transport/bases/bases_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/texels.glsl"

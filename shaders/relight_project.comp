@@ -3,7 +3,7 @@
 // components. It reads the columns that the light, or its change, meets: two words of four components a lane, so that
 // larger subgroups read several columns at a time. Sums are integers: those changed any number of times are those made
 // anew.
-// C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/transport/bases/bases_relighter.h.
+// C++ twin: relight() in precompute/twins/relight_twin.h. Layout: engine/transport/bases/bases_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #ifndef PORTABLE

@@ -1,7 +1,7 @@
 #version 460
 // Tuples of transport times light: a row, that is a vertex and a term, per invocation. Sums are exact, so that
 // their order does not show.
-// C++ twin: relight() in precompute/reference/relight_twin.h. Layout: engine/transport/rows/rows_relighter.h.
+// C++ twin: relight() in precompute/twins/relight_twin.h. Layout: engine/transport/rows/rows_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/light_packing.glsl"

@@ -6,7 +6,7 @@
 // N-th largest is. Only blocks that reach b are read then, and of their keys those that reach it are searched.
 // They are few enough, as a rule, to be listed; otherwise all slots of these blocks are gone through again and
 // again. The set of what is kept becomes a bit a coefficient, so that it comes out in order. One group a row.
-// CPU twin: selectLargest in precompute/reference/transport_stages.h.
+// CPU twin: selectLargest in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/haar_step.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // The light about every view direction that spheres are made for: a polar map of radiance times solid angle.
-// C++ twin: polarLight() in precompute/reference/lit_sphere_twin.h.
+// C++ twin: polarLight() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lib/cubemap.glsl"
 #include "shaders/lib/polar_map.glsl"

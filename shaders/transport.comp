@@ -5,7 +5,7 @@
 // visible fraction, and goes two levels deep; what the terms share, where to look and with which weight, it
 // finds once. Then lanes take 4×4 averages, and then the face's last blocks. Blocks are taken from a list: lanes
 // that had nothing to do would cost software devices as much as those that work.
-// CPU twins: transportVector and haarFaces in precompute/reference/transport_stages.h.
+// CPU twins: transportVector and haarForwardFaces in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/cubemap.glsl"

@@ -16,7 +16,7 @@ struct CpuRows {
 };
 
 // Keeps the `kept` largest coefficients of every term: selectLargest and packRow in
-// precompute/reference/transport_stages.h.
+// precompute/twins/transport_twin.h.
 class CpuRowPacker {
   public:
     CpuRowPacker(const CpuTransport& transport, int kept) : mTransport(transport), mKept(size_t(kept)) {}

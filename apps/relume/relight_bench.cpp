@@ -1,11 +1,11 @@
 #include "apps/relume/relight_bench.h"
 
-#include "apps/bench/cpu_relighter.h"
 #include "apps/bench/milliseconds.h"
 #include "apps/relume/csr_relighter.h"
 #include "apps/relume/options.h"
 #include "engine/base/progress.h"
 #include "engine/render/relighter.h"
+#include "precompute/cpu/cpu_relighter.h"
 
 #include <cmath>
 #include <set>

@@ -3,8 +3,8 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/import/image_file.h"
-#include "precompute/reference/verification.h"
-#include "precompute/reference/visibility_comparison.h"
+#include "precompute/twins/verification.h"
+#include "precompute/twins/visibility_comparison.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -7,15 +7,6 @@
 
 namespace relume {
 
-namespace {
-
-RayTracer occluderOf(const Asset& asset) {
-    const Mesh* const occluder = &asset.occluder;
-    return RayTracer({&occluder, 1});
-}
-
-} // namespace
-
 Model::Model(const vk::Device& device, const std::filesystem::path& path)
     : Model(device, path, readAsset(path), false) {}
 
@@ -26,7 +17,7 @@ Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset 
     : file(path), isSketch(isUnshadowed), asset(std::move(whole)), bounds(objectBounds(asset)),
       groundFade(makeGroundFade(asset)), appearance(defaultAppearance(asset)), light(device, asset.faceSize),
       relighter(device, asset, {}), view(device, asset, {.isUnshadowed = isUnshadowed}),
-      surfaces(partMeshes(asset)), occluder(occluderOf(asset)) {}
+      surfaces(partMeshes(asset)), occluder(asset.occluder, asset.visibilitySize) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

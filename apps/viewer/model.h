@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/render/view_pass.h"
+#include "precompute/cpu/cpu_visibility.h"
 #include "precompute/visibility/ray_tracer.h"
 
 #include <filesystem>
@@ -25,8 +26,8 @@ struct Model {
     LightPass light;
     Relighter relighter;
     ViewPass view;
-    RayTracer surfaces; // one mesh per part
-    RayTracer occluder; // what cast the shadows of the bake
+    RayTracer surfaces;     // one mesh per part
+    CpuVisibility occluder; // what cast the shadows of the bake
 
   private:
     Model(const vk::Device& device, const std::filesystem::path& path, Asset asset, bool isSketch);

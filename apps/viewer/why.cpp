@@ -3,7 +3,7 @@
 #include "apps/viewer/cube_images.h"
 #include "engine/math/cubemap.h"
 #include "engine/render/heat_color.h"
-#include "precompute/reference/vertex_probe.h"
+#include "precompute/error/vertex_probe.h"
 
 #include <algorithm>
 

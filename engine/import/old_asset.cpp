@@ -172,7 +172,7 @@ AssetMeta decodeOldMeta(std::string_view text, const std::string& name) {
     const Reader in(json, where);
     AssetMeta meta;
     meta.asset.faceSize = in.integer("faceSize", kSmallestFace, kLargestFace);
-    meta.asset.visibilitySize = in.integer("visibilitySize", kSmallestFace, kLargestVisibility);
+    meta.asset.visibilitySize = in.integer("visibilitySize", kSmallestVisibility, kLargestVisibility);
     meta.asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
     meta.asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
     meta.asset.visibilityOffset = in.real("visibilityOffset");

@@ -15,15 +15,6 @@ namespace relume {
 
 namespace {
 
-std::vector<vec3> transformFaces(const LightCube& cube, void (*haar)(std::span<vec3>, int)) {
-    const size_t faceTexels = size_t(cube.size) * size_t(cube.size);
-    RELUME_CHECK_EQ(cube.radiance.size(), size_t(kCubeFaces) * faceTexels);
-    std::vector<vec3> values = cube.radiance;
-    for (size_t face = 0; face < kCubeFaces; face++)
-        haar(std::span(values).subspan(face * faceTexels, faceTexels), cube.size);
-    return values;
-}
-
 LightCube dropFaintTexels(LightCube cube) {
     for (vec3& texel : cube.radiance)
         for (int c = 0; c < 3; c++) {
@@ -80,7 +71,8 @@ ivec3 quantize(vec3 coefficient, double step) {
 
 LightVector makeLightVector(const LightCube& cube, const LightSelection& selection) {
     RELUME_CHECK_LE(cube.radiance.size(), size_t(kMaximumLightEntries));
-    const std::vector<vec3> coefficients = transformFaces(dropFaintTexels(cube), haarForward);
+    std::vector<vec3> coefficients = dropFaintTexels(cube).radiance;
+    haarForwardFaces(coefficients, cube.size);
     float largest = 0;
     for (const vec3& c : coefficients) largest = std::max(largest, largestComponent(c));
     LightVector vector{.faceSize = cube.size, .scale = 0, .error = 0, .indices = {}, .values = {}};
@@ -119,7 +111,7 @@ LightCube reconstruct(const LightVector& vector) {
         const auto& q = vector.values[e];
         cube.radiance[vector.indices[e]] = vector.scale * vec3(q[0], q[1], q[2]);
     }
-    cube.radiance = transformFaces(cube, haarInverse);
+    haarInverseFaces(cube.radiance, cube.size);
     return cube;
 }
 

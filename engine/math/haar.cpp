@@ -1,6 +1,7 @@
 #include "engine/math/haar.h"
 
 #include "engine/base/check.h"
+#include "engine/math/cubemap.h"
 
 #include <algorithm>
 #include <bit>
@@ -45,6 +46,20 @@ void haarInverse(std::span<vec3> values, int size) {
             for (int x = 0; x < 2 * half; x++) values[y * size + x] = level[y * size + x];
     }
 }
+
+namespace {
+
+void transformFaces(std::span<vec3> cube, int faceSize, void (*transform)(std::span<vec3>, int)) {
+    const size_t faceTexels = size_t(faceSize) * size_t(faceSize);
+    RELUME_CHECK_EQ(cube.size(), kCubeFaces * faceTexels);
+    for (size_t face = 0; face < kCubeFaces; face++)
+        transform(cube.subspan(face * faceTexels, faceTexels), faceSize);
+}
+
+} // namespace
+
+void haarForwardFaces(std::span<vec3> cube, int faceSize) { transformFaces(cube, faceSize, haarForward); }
+void haarInverseFaces(std::span<vec3> cube, int faceSize) { transformFaces(cube, faceSize, haarInverse); }
 
 size_t haarSlot(size_t coefficient, size_t size) {
     const size_t face = coefficient / (size * size), y = coefficient / size % size, x = coefficient % size;

@@ -21,6 +21,10 @@ void haarForward(std::span<vec3> values, int size);
 // The inverse of haarForward.
 void haarInverse(std::span<vec3> values, int size);
 
+// Both for the six faces of a cube, one after another, in place.
+void haarForwardFaces(std::span<vec3> cube, int faceSize);
+void haarInverseFaces(std::span<vec3> cube, int faceSize);
+
 // Where the bake's kernels put a coefficient, face · size² + y · size + x, of six faces: 16 · block + slot.
 // GLSL twin: shaders/lib/haar_block.glsl.
 size_t haarSlot(size_t coefficient, size_t size);

@@ -27,7 +27,8 @@ bool isSquare(int value) {
 
 void checkSettings(const Asset& asset, const std::string& name) {
     expectRange(asset.faceSize, kSmallestFace, kLargestFace, name, "a face size");
-    expectRange(asset.visibilitySize, asset.faceSize, kLargestVisibility, name, "a visibility size");
+    expectRange(asset.visibilitySize, std::max(asset.faceSize, kSmallestVisibility), kLargestVisibility, name,
+                "a visibility size");
     expect(std::has_single_bit(unsigned(asset.faceSize)) &&
                std::has_single_bit(unsigned(asset.visibilitySize)),
            name, "face sizes that are powers of two");

@@ -7,7 +7,7 @@
 namespace relume {
 
 constexpr int kSmallestFace = 8, kLargestFace = 64; // indices of 6 · 64² coefficients fit 16 bits
-constexpr int kLargestVisibility = 1024;
+constexpr int kSmallestVisibility = 16, kLargestVisibility = 1024;
 constexpr int kLargestLayers = 64; // of view maps in a set
 constexpr int kMostBounces = 8;
 constexpr int kSmallestMap = 4, kLargestMap = 256;

@@ -308,7 +308,7 @@ AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name) 
     AssetMeta meta;
     Asset& asset = meta.asset;
     asset.faceSize = in.integer("faceSize", kSmallestFace, kLargestFace);
-    asset.visibilitySize = in.integer("visibilitySize", kSmallestFace, kLargestVisibility);
+    asset.visibilitySize = in.integer("visibilitySize", kSmallestVisibility, kLargestVisibility);
     asset.coefficients = in.integer("coefficients", 1, 6 * kLargestFace * kLargestFace);
     asset.transportSamples = in.integer("transportSamples", 1, kLargestVisibility * kLargestVisibility);
     asset.visibilityOffset = in.real("visibilityOffset");

@@ -53,11 +53,11 @@ class CpuTransport {
     CpuCoefficients makeWorkspace() const;
 
     // Light map · cosine · solid angle · visible fraction, summed over each lighting texel, for the texels of
-    // the blocks that see anything: transportVector in precompute/reference/transport_stages.h. `bits` as
+    // the blocks that see anything: transportVector in precompute/twins/transport_twin.h. `bits` as
     // CpuVisibility gives them.
     void evaluate(const TangentFrame& frame, std::span<const uint64_t> bits, CpuCoefficients& result) const;
 
-    // Then haarFaces, in place, with what selection wants to know of every block.
+    // Then haarForwardFaces, in place, with what selection wants to know of every block.
     void transform(CpuCoefficients& result) const;
 
     // The coefficient that each of a block's 16 places holds: face · F² + y · F + x.

@@ -15,7 +15,7 @@ class CpuVisibility {
     size_t texels() const { return mX.size(); }
 
     // Sets the bit of every texel whose direction is above the horizon of `normal` and free: visibilityCube
-    // in precompute/reference/transport_stages.h. `bits` has texels() / 64 words. Returns the number of rays.
+    // in precompute/twins/transport_twin.h. `bits` has texels() / 64 words. Returns the number of rays.
     uint64_t trace(vec3 origin, vec3 normal, std::span<uint64_t> bits) const;
 
   private:

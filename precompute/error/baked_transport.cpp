@@ -1,6 +1,6 @@
 #include "precompute/error/baked_transport.h"
 
-#include "precompute/reference/transport_stages.h"
+#include "engine/math/haar.h"
 
 #include <cmath>
 
@@ -30,7 +30,7 @@ void BakedTransport::forEachTerm(size_t part, uint32_t vertex, const FactoredBrd
     const std::vector<MapPlace> places = placesOf(cells, brdf.size, brdf.mapping);
     for (int term = 0; term < brdf.terms; term++) {
         std::vector<vec3> transport = transportOf(cells, places, brdf.lightMap(term), mLighting.count());
-        haarFaces(transport, mAsset.faceSize);
+        haarForwardFaces(transport, mAsset.faceSize);
         use(size_t(term), transport);
     }
 }

@@ -4,8 +4,8 @@
 #include "engine/base/error.h"
 #include "precompute/error/shared_progress.h"
 #include "precompute/error/unshadowed_light.h"
+#include "precompute/error/vertex_views.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/reference/vertex_views.h"
 #include "precompute/residual/irradiance_fit.h"
 
 #include <algorithm>

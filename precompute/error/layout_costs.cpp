@@ -2,9 +2,9 @@
 
 #include "engine/base/check.h"
 #include "precompute/bake/bounced_transport.h"
+#include "precompute/cpu/cpu_relighter.h"
+#include "precompute/error/vertex_views.h"
 #include "precompute/layout/conversion.h"
-#include "precompute/reference/relight_twin.h"
-#include "precompute/reference/vertex_views.h"
 
 #include <chrono>
 #include <cmath>
@@ -70,6 +70,12 @@ double squaredDifference(const AssetPart& part, const PartAppearance& bound,
     return weights > 0 ? sum / weights : 0;
 }
 
+std::vector<vec3> relight(const Transport& transport, const LightVector& light, size_t rows) {
+    std::vector<vec3> tuples(rows);
+    makeCpuRelighter(transport)->relight(light, tuples);
+    return tuples;
+}
+
 } // namespace
 
 LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearance& appearance,
@@ -112,15 +118,17 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
         sampled.mesh.positions.resize(sink.vertices.size());
         for (size_t set = 0; set < part.sets.size(); set++)
             sampled.sets.push_back({part.sets[set].materials, part.sets[set].brdf, sink.rows[set].transport});
-        const std::vector<vec3> exact = relight(sampled.sets[bound.set].transport, light);
+        const size_t tuples = sink.vertices.size() * size_t(part.sets[bound.set].brdf.terms);
+        const std::vector<vec3> exact = relight(sampled.sets[bound.set].transport, light, tuples);
         for (size_t i = 0; i < kTriedLayoutErrors.size(); i++) {
             Asset bases = sample;
             LayoutOptions layout;
             layout.error = kTriedLayoutErrors[i];
             costs.bytes[i] += scale * double(convertLayout(bases, layout).bytesAfter);
-            squares[i] += grid.shares[number] *
-                          squaredDifference(part, bound, sink.vertices, exact,
-                                            relight(bases.parts[0].sets[bound.set].transport, light), eyes);
+            squares[i] +=
+                grid.shares[number] *
+                squaredDifference(part, bound, sink.vertices, exact,
+                                  relight(bases.parts[0].sets[bound.set].transport, light, tuples), eyes);
             tell(1);
         }
     }

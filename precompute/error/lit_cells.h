@@ -22,7 +22,7 @@ std::vector<LitCell> litCells(const CubeCells& cells, const CubeCells& lighting,
 std::vector<MapPlace> placesOf(std::span<const LitCell> lit, int mapSize, DiskMapping mapping);
 
 // One term's transport, 6 F² texels row by row: transportVector in
-// precompute/reference/transport_stages.h, in another order of sums.
+// precompute/twins/transport_twin.h, in another order of sums.
 std::vector<vec3> transportOf(std::span<const LitCell> lit, std::span<const MapPlace> places,
                               const vec3* lightMap, size_t texels);
 

@@ -1,13 +1,14 @@
 #include "precompute/error/stage_radiance.h"
 
 #include "engine/base/check.h"
+#include "engine/math/haar.h"
 #include "engine/transport/asset_check.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/error/shared_progress.h"
+#include "precompute/error/vertex_views.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/reference/transport_stages.h"
-#include "precompute/reference/vertex_views.h"
+#include "precompute/transport/row_packing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ namespace relume {
 namespace {
 
 std::vector<vec3> haarOf(std::vector<vec3> cube, int faceSize) {
-    haarFaces(cube, faceSize);
+    haarForwardFaces(cube, faceSize);
     return cube;
 }
 
@@ -132,7 +133,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
             mOptions.bounced->addTo(bounced, part, mAppearance[part].set, row, mAsset.faceSize);
         std::vector<vec3> exact(direct.size());
         std::ranges::transform(direct, bounced, exact.begin(), std::plus());
-        const std::vector<uint16_t> kept = selectLargest(exact, mAsset.coefficients);
+        const std::vector<uint16_t> kept = indicesOfLargest(exact, mAsset.coefficients);
         const std::vector<vec3> stored = coefficientsOf(set.transport, row, exact.size());
         for (size_t light = 0; light < lights.size(); light++) {
             vec3* of = &tuples.values[light * Tuples::kValues * terms + term];

@@ -1,6 +1,6 @@
 #include "precompute/error/unshadowed_light.h"
 
-#include "precompute/reference/residual_twin.h"
+#include "precompute/residual/residual_estimate.h"
 
 namespace relume {
 

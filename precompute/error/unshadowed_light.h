@@ -1,5 +1,5 @@
 // The unshadowed sums of single points under lights in a lighting cube, and the radiance that pixels estimate
-// with them (residual_twin.h).
+// with them (residual_estimate.h).
 #pragma once
 
 #include "engine/scene/residual.h"

@@ -9,7 +9,7 @@ namespace relume {
 enum class ReferenceBrdf {
     Exact,
     Factored, // K terms
-    Residual  // K terms, and what they leave without shadows: residual_twin.h. Of images alone
+    Residual  // K terms, and what they leave without shadows: residual_estimate.h. Of images alone
 };
 
 class SeenBrdf;

@@ -6,7 +6,7 @@
 #include "precompute/reference/bound_asset.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
-#include "precompute/reference/residual_twin.h"
+#include "precompute/residual/residual_estimate.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace relume {
 
-PackedRow packLargest(const std::vector<vec3>& coefficients, int count) {
+std::vector<uint16_t> indicesOfLargest(const std::vector<vec3>& coefficients, int count) {
     constexpr uint64_t kLastIndex = 0xffff;
     RELUME_CHECK(count >= 0);
     RELUME_CHECK_LE(coefficients.size(), kLastIndex + 1);
@@ -24,11 +24,15 @@ PackedRow packLargest(const std::vector<vec3>& coefficients, int count) {
         std::nth_element(ranks.begin(), ranks.begin() + count, ranks.end(), std::greater());
         ranks.resize(size_t(count));
     }
-
-    PackedRow row;
     std::vector<uint16_t> kept;
     for (const uint64_t rank : ranks) kept.push_back(uint16_t(kLastIndex - (rank & kLastIndex)));
     std::sort(kept.begin(), kept.end());
+    return kept;
+}
+
+PackedRow packLargest(const std::vector<vec3>& coefficients, int count) {
+    const std::vector<uint16_t> kept = indicesOfLargest(coefficients, count);
+    PackedRow row;
     for (const uint16_t index : kept) {
         const vec3 magnitude = glm::abs(coefficients[index]);
         row.scale = std::max({row.scale, magnitude.x, magnitude.y, magnitude.z});

@@ -15,8 +15,11 @@ struct PackedRow {
     std::vector<uint32_t> values;  // as packCoefficient() makes them
 };
 
-// Keeps the `count` of at most 65,536 coefficients that have the largest r² + g² + b² (of equal ones the
-// first), and none that is zero: the same row as shaders/select.comp and quantize.comp make.
+// Returns the rising indices of the `count` of at most 65,536 coefficients that have the largest r² + g² + b²
+// (of equal ones the first), without those that are zero.
+std::vector<uint16_t> indicesOfLargest(const std::vector<vec3>& coefficients, int count);
+
+// Packs the coefficients of indicesOfLargest(): the same row as shaders/select.comp and quantize.comp make.
 PackedRow packLargest(const std::vector<vec3>& coefficients, int count);
 
 } // namespace relume

@@ -1,5 +1,5 @@
 // Unshadowed radiance from lit spheres, and the estimates of shadowed radiance that use it. Shaders have bindings 8 to
-// 10 from here. C++ twin of the estimates: precompute/reference/residual_twin.h.
+// 10 from here. C++ twin of the estimates: precompute/residual/residual_estimate.h.
 #ifndef RELUME_LIB_UNSHADOWED_GLSL
 #define RELUME_LIB_UNSHADOWED_GLSL
 #include "shaders/lib/polar_map.glsl"

@@ -3,7 +3,7 @@
 #include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/layout/conversion.h"
-#include "precompute/reference/verification.h"
+#include "precompute/twins/verification.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 

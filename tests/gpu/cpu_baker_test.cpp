@@ -3,7 +3,7 @@
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
-#include "precompute/reference/vertex_check.h"
+#include "precompute/twins/vertex_check.h"
 #include "tests/support/test_device.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "engine/render/relighter.h"
-#include "precompute/reference/relight_twin.h"
+#include "precompute/twins/relight_twin.h"
 #include "tests/support/asset_sample.h"
 #include "tests/support/test_device.h"
 

@@ -6,9 +6,9 @@
 #include "engine/render/view_grid.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization.h"
-#include "precompute/reference/lit_sphere_twin.h"
 #include "precompute/residual/irradiance_fit.h"
 #include "precompute/residual/sphere_kernel.h"
+#include "precompute/twins/lit_sphere_twin.h"
 #include "tests/support/test_device.h"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/preview.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/transport_twin.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 
@@ -39,7 +39,7 @@ BakeOptions smallOptions(TransportLayout layout = TransportLayout::Rows) {
 std::vector<vec3> relit(const Asset& asset) {
     std::vector<vec3> light(size_t(6 * asset.faceSize * asset.faceSize));
     for (size_t i = 0; i < light.size(); i++) light[i] = vec3(1 + float(i * 7 / light.size()));
-    haarFaces(light, asset.faceSize);
+    haarForwardFaces(light, asset.faceSize);
     std::vector<vec3> sums;
     for (const AssetPart& part : asset.parts) {
         const Transport& transport = part.sets[0].transport;

@@ -1,6 +1,6 @@
 #include "engine/render/relighter.h"
-#include "precompute/reference/relight_twin.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/relight_twin.h"
+#include "precompute/twins/transport_twin.h"
 #include "tests/support/asset_sample.h"
 #include "tests/support/test_device.h"
 

@@ -3,7 +3,7 @@
 #include "engine/math/haar.h"
 #include "engine/vk/upload.h"
 #include "precompute/bake/transport_pass.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/transport_twin.h"
 #include "shaders/select_comp.h"
 #include "tests/support/test_device.h"
 
@@ -104,7 +104,7 @@ void checkCase(const vk::Device& device, const Case& c) {
         std::vector<vec3> expected = transportVector(
             samples.visibility[point], c.visibilitySize, c.faceSize, c.transportSamples, brdf, int(term),
             tangentFrame(samples.points[point].normal, samples.points[point].tangent));
-        haarFaces(expected, c.faceSize);
+        haarForwardFaces(expected, c.faceSize);
         const std::vector<uint16_t> selected = selectLargest(expected, c.coefficients);
         const PackedRow packed = packRow(expected, selected);
         CHECK(found.scales[row] == doctest::Approx(packed.scale).epsilon(1e-4));

@@ -1,8 +1,8 @@
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/tangent_frame.h"
 #include "engine/render/view_pass.h"
-#include "precompute/reference/relight_twin.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/relight_twin.h"
+#include "precompute/twins/transport_twin.h"
 #include "precompute/visibility/ray_tracer.h"
 #include "tests/support/test_device.h"
 

@@ -4,7 +4,7 @@
 #include "engine/import/ground.h"
 #include "engine/math/cubemap.h"
 #include "precompute/bake/bake.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/transport_twin.h"
 #include "precompute/visibility/occluder.h"
 #include "precompute/visibility/raster_visibility.h"
 #include "tests/support/test_device.h"

@@ -8,7 +8,7 @@
 #include "precompute/bake/bake.h"
 #include "precompute/error/error_study.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/reference/verification.h"
+#include "precompute/twins/verification.h"
 #include "tests/support/bowl.h"
 #include "tests/support/test_device.h"
 

@@ -2,9 +2,9 @@
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/haar.h"
 #include "precompute/bounce/bounce_gather.h"
-#include "precompute/reference/bounce_twin.h"
 #include "precompute/reference/bound_asset.h"
 #include "precompute/transport/row_sum.h"
+#include "precompute/twins/bounce_twin.h"
 #include "tests/support/bowl.h"
 #include "tests/support/diffuse_asset.h"
 

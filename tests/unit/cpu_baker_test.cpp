@@ -3,8 +3,8 @@
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
 #include "precompute/cpu/morton.h"
-#include "precompute/reference/transport_stages.h"
-#include "precompute/reference/vertex_check.h"
+#include "precompute/twins/transport_twin.h"
+#include "precompute/twins/vertex_check.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -192,7 +192,7 @@ TEST_CASE("cpu baker: coefficients are the twin's") {
             CAPTURE(term);
             std::vector<vec3> expected = transportVector(cube, c.visibilitySize, c.faceSize, c.samples, brdf,
                                                          term, tangentFrame(normal));
-            haarFaces(expected, c.faceSize);
+            haarForwardFaces(expected, c.faceSize);
             std::vector<vec3> dense(expected.size(), vec3(0));
             const int group = term / found.lanes, lane = term % found.lanes;
             for (size_t block = 0; block < found.blocks.size(); block++)

@@ -1,5 +1,5 @@
-#include "apps/bench/cpu_relighter.h"
-#include "precompute/reference/relight_twin.h"
+#include "precompute/cpu/cpu_relighter.h"
+#include "precompute/twins/relight_twin.h"
 #include "tests/support/asset_sample.h"
 
 #include <doctest/doctest.h>

@@ -3,11 +3,11 @@
 
 #include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
-#include "precompute/reference/transport_stages.h"
 #include "precompute/refine/edge_split.h"
 #include "precompute/refine/transport_probe.h"
 #include "precompute/thread_limit.h"
 #include "precompute/transport/light_spectrum.h"
+#include "precompute/twins/transport_twin.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <algorithm>
@@ -180,7 +180,7 @@ TEST_CASE("transport probe: answers differ as transport does that light weighs")
     const auto coefficients = [&](vec3 origin) {
         std::vector<vec3> cube = transportVector(visibilityCube(tracer, origin, up, kSize), kSize, kFace, 1,
                                                  brdf, 0, tangentFrame(up));
-        haarFaces(cube, kFace);
+        haarForwardFaces(cube, kFace);
         return cube;
     };
     double answered = 0, expected = 0;

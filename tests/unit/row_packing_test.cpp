@@ -1,6 +1,6 @@
 #include "precompute/transport/row_packing.h"
 
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/transport_twin.h"
 
 #include <cmath>
 #include <doctest/doctest.h>

@@ -8,9 +8,9 @@
 #include "precompute/error/error_grid.h"
 #include "precompute/error/view_points.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/reference/transport_stages.h"
-#include "precompute/reference/vertex_check.h"
 #include "precompute/residual/residuals.h"
+#include "precompute/twins/transport_twin.h"
+#include "precompute/twins/vertex_check.h"
 #include "tests/support/diffuse_asset.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // A vertex recomputed from an asset matches the row that the same stages stored, and no other.
-#include "precompute/reference/vertex_check.h"
+#include "precompute/twins/vertex_check.h"
 
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
@@ -31,7 +31,7 @@ Asset bakeTorus(const RayTracer& tracer, const Mesh& torus) {
             visibilityCube(tracer, torus.positions[vertex] + asset.visibilityOffset * n, n, 32);
         for (int term = 0; term < 2; term++) {
             auto cube = transportVector(visibility, 32, 16, 4, part.sets[0].brdf, term, tangentFrame(n));
-            haarFaces(cube, 16);
+            haarForwardFaces(cube, 16);
             const PackedRow row = packRow(cube, selectLargest(cube, 20));
             transport.indices.insert(transport.indices.end(), row.indices.begin(), row.indices.end());
             transport.values.insert(transport.values.end(), row.values.begin(), row.values.end());
@@ -65,7 +65,7 @@ TEST_CASE("vertex check: recomputes exactly what the stages stored") {
             CHECK_FALSE(isSameRow(recomputed.row,
                                   storedRow(rowsOf(asset.parts[0].sets[0].transport), vertex, 1 - term)));
             std::vector<vec3> transformed = recomputed.transport;
-            haarFaces(transformed, 16);
+            haarForwardFaces(transformed, 16);
             CHECK(transformed == recomputed.coefficients);
         }
     }

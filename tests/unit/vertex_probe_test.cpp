@@ -1,9 +1,9 @@
 // What explains a vertex adds up to its color.
-#include "precompute/reference/vertex_probe.h"
+#include "precompute/error/vertex_probe.h"
 
 #include "engine/math/cubemap.h"
-#include "precompute/reference/relight_twin.h"
-#include "precompute/reference/vertex_check.h"
+#include "precompute/twins/relight_twin.h"
+#include "precompute/twins/vertex_check.h"
 #include "tests/support/asset_sample.h"
 #include "tests/support/diffuse_asset.h"
 
@@ -61,7 +61,7 @@ Asset bakeCourt() {
 
 TEST_CASE("vertex probe: tuple and transport give the same radiance, in every layout and material") {
     const Asset asset = mixedAsset();
-    const RayTracer tracer = occluderOf(asset);
+    const CpuVisibility occluder(asset.occluder, asset.visibilitySize);
     const LightCube light = makeLight(asset.faceSize);
     const LightVector vector = makeLightVector(light, {.threshold = 2000});
     REQUIRE(vector.error > 0.01f); // something is dropped
@@ -79,7 +79,7 @@ TEST_CASE("vertex probe: tuple and transport give the same radiance, in every la
                 const vec3 eye = source.mesh.positions[vertex] + 2.0f * source.mesh.normals[vertex] +
                                  vec3(0.3f, 0.1f, -0.4f);
                 const VertexProbe probe =
-                    probeVertex(asset, tracer, part, vertex, eye, appearance[part], light, vector);
+                    probeVertex(asset, occluder, part, vertex, eye, appearance[part], light, vector);
                 REQUIRE(probe.tuple.size() == terms);
                 REQUIRE(probe.views.size() == terms);
                 const auto first = tuples.begin() + std::ptrdiff_t(vertex * terms);
@@ -102,11 +102,11 @@ TEST_CASE("vertex probe: tuple and transport give the same radiance, in every la
 
 TEST_CASE("vertex probe: layers show as much as they are bound") {
     Asset asset = mixedAsset();
-    const RayTracer tracer = occluderOf(asset);
+    const CpuVisibility occluder(asset.occluder, asset.visibilitySize);
     const LightCube light = makeLight(asset.faceSize);
     const LightVector vector = makeLightVector(light);
     const auto views = [&](const PartAppearance& appearance) {
-        return probeVertex(asset, tracer, 0, 4, {1, 2, 3}, appearance, light, vector).views;
+        return probeVertex(asset, occluder, 0, 4, {1, 2, 3}, appearance, light, vector).views;
     };
     const FactoredBrdf& brdf = asset.parts[0].sets[0].brdf;
     const Mesh& mesh = asset.parts[0].mesh;
@@ -124,12 +124,12 @@ TEST_CASE("vertex probe: layers show as much as they are bound") {
 
 TEST_CASE("vertex probe: of a diffuse vertex, transport is albedo / π · cosine · solid angle · visibility") {
     const Asset asset = bakeCourt();
-    const RayTracer tracer = occluderOf(asset);
+    const CpuVisibility occluder(asset.occluder, asset.visibilitySize);
     const int size = asset.faceSize;
     const LightCube light{size, std::vector<vec3>(size_t(6 * size * size), vec3(1))};
     for (uint32_t vertex = 0; vertex < 4; vertex++) {
-        const VertexProbe probe =
-            probeVertex(asset, tracer, 0, vertex, {3, 4, 1}, {0, {1}, false}, light, makeLightVector(light));
+        const VertexProbe probe = probeVertex(asset, occluder, 0, vertex, {3, 4, 1}, {0, {1}, false}, light,
+                                              makeLightVector(light));
         std::vector<vec3> expected;
         float visible = 0;
         for (int i = 0; i < 6 * size * size; i++) {
@@ -147,6 +147,6 @@ TEST_CASE("vertex probe: of a diffuse vertex, transport is albedo / π · cosine
         CHECK(glm::length(probe.radiance - probe.fullRadiance) < 0.01f * probe.radiance.y);
         if (!isByTheWall) CHECK(probe.radiance.y == doctest::Approx(0.48).epsilon(0.05));
     }
-    CHECK(probeVertex(asset, tracer, 0, 0, {3, 4, 1}, {0, {1}, false}, light, makeLightVector(light))
+    CHECK(probeVertex(asset, occluder, 0, 0, {3, 4, 1}, {0, {1}, false}, light, makeLightVector(light))
               .visibility[size_t(cubeTexelIndex(3, 8, 8, size))] == 0); // below the horizon
 }

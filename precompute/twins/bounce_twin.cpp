@@ -1,4 +1,4 @@
-#include "precompute/reference/bounce_twin.h"
+#include "precompute/twins/bounce_twin.h"
 
 #include "engine/math/cubemap.h"
 #include "engine/render/layer_weights.h"

@@ -1,4 +1,4 @@
-#include "precompute/reference/vertex_check.h"
+#include "precompute/twins/vertex_check.h"
 
 #include "engine/base/check.h"
 
@@ -20,7 +20,7 @@ VertexReference recomputeVertex(const Asset& asset, size_t part, size_t set, siz
         term.transport = transportVector(reference.visibility, asset.visibilitySize, asset.faceSize,
                                          asset.transportSamples, brdf, k, frameOf(mesh, vertex));
         term.coefficients = term.transport;
-        haarFaces(term.coefficients, asset.faceSize);
+        haarForwardFaces(term.coefficients, asset.faceSize);
         term.selected = selectLargest(term.coefficients, asset.coefficients);
         term.row = packRow(term.coefficients, term.selected);
         reference.terms.push_back(std::move(term));

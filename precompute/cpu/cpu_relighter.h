@@ -1,4 +1,4 @@
-// Relighting on the CPU as fast as plain C++ goes, over the same layouts: the yardstick of
+// Relighting on the CPU as fast as plain C++ goes, in any layout: for advice, and as the yardstick of
 // `relume bench relight`.
 #pragma once
 
@@ -14,7 +14,7 @@ class CpuRelighter {
   public:
     virtual ~CpuRelighter() = default;
 
-    // The tuples of relight() (precompute/reference/relight_twin.h), a vec3 per row, on all cores.
+    // The tuples of relight() (precompute/twins/relight_twin.h), a vec3 per row, on all cores.
     virtual void relight(const LightVector& light, std::span<vec3> tuples) const = 0;
 };
 

@@ -1,6 +1,6 @@
 // Closed forms of each stage of the bake's CPU twin.
-#include "precompute/reference/relight_twin.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/relight_twin.h"
+#include "precompute/twins/transport_twin.h"
 
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
@@ -143,7 +143,7 @@ TEST_CASE("haar faces: each face keeps its energy") {
     const size_t texels = 16 * 16;
     const std::vector<vec3> values = randomValues(6 * texels, 3);
     std::vector<vec3> transformed = values;
-    haarFaces(transformed, faceSize);
+    haarForwardFaces(transformed, faceSize);
     for (size_t face = 0; face < 6; face++) {
         double before = 0, after = 0;
         for (size_t i = face * texels; i < (face + 1) * texels; i++) {

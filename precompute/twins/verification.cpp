@@ -1,4 +1,4 @@
-#include "precompute/reference/verification.h"
+#include "precompute/twins/verification.h"
 
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
@@ -9,11 +9,11 @@
 #include "precompute/bake/transport_pass.h"
 #include "precompute/bounce/bounce_gather.h"
 #include "precompute/brdf/factorization_error.h"
-#include "precompute/reference/bounce_twin.h"
 #include "precompute/reference/bound_asset.h"
-#include "precompute/reference/relight_twin.h"
-#include "precompute/reference/transport_stages.h"
-#include "precompute/reference/vertex_check.h"
+#include "precompute/twins/bounce_twin.h"
+#include "precompute/twins/relight_twin.h"
+#include "precompute/twins/transport_twin.h"
+#include "precompute/twins/vertex_check.h"
 #include "precompute/visibility/visibility.h"
 
 #include <algorithm>
@@ -169,7 +169,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
     for (int term = 0; term < set.brdf.terms; term++) {
         std::vector<vec3> expected = transportVector(visibility, size, asset.faceSize, asset.transportSamples,
                                                      set.brdf, term, frameOf(part.mesh, vertex));
-        haarFaces(expected, asset.faceSize);
+        haarForwardFaces(expected, asset.faceSize);
         std::vector<vec3> found = device.coefficients(point, size_t(term));
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
 

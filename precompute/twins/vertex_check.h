@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/transport/asset.h"
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/transport_twin.h"
 
 namespace relume {
 

@@ -1,25 +1,28 @@
-#include "precompute/reference/vertex_probe.h"
+#include "precompute/error/vertex_probe.h"
 
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
-#include "precompute/reference/transport_stages.h"
-#include "precompute/reference/vertex_views.h"
+#include "precompute/cpu/morton.h"
+#include "precompute/error/vertex_views.h"
 
 namespace relume {
 
 namespace {
 
-std::vector<float> visibleShares(const Asset& asset, const RayTracer& occluder, vec3 position, vec3 normal) {
+std::vector<float> visibleShares(const Asset& asset, const CpuVisibility& occluder, vec3 position,
+                                 vec3 normal) {
     const int size = asset.visibilitySize, side = size / asset.faceSize;
-    const std::vector<uint8_t> visibility =
-        visibilityCube(occluder, position + asset.visibilityOffset * normal, normal, size);
+    const auto faceTexels = uint32_t(size * size);
+    std::vector<uint64_t> bits(occluder.texels() / 64);
+    occluder.trace(position + asset.visibilityOffset * normal, normal, bits);
     std::vector<float> shares(size_t(kCubeFaces) * size_t(asset.faceSize) * size_t(asset.faceSize), 0);
-    for (int face = 0; face < kCubeFaces; face++)
-        for (int y = 0; y < size; y++)
-            for (int x = 0; x < size; x++)
-                shares[size_t(cubeTexelIndex(face, x / side, y / side, asset.faceSize))] +=
-                    float(visibility[size_t(cubeTexelIndex(face, x, y, size))]) / float(side * side);
+    for (uint32_t i = 0; i < kCubeFaces * faceTexels; i++) {
+        const ivec2 place = mortonPlace(i % faceTexels) / side;
+        if (bits[i / 64] >> i % 64 & 1)
+            shares[size_t(cubeTexelIndex(int(i / faceTexels), place.x, place.y, asset.faceSize))] +=
+                1 / float(side * side);
+    }
     return shares;
 }
 
@@ -34,8 +37,8 @@ vec3 innerProduct(const std::vector<vec3>& coefficients, const LightVector& ligh
 
 } // namespace
 
-VertexProbe probeVertex(const Asset& asset, const RayTracer& occluder, size_t part, uint32_t vertex, vec3 eye,
-                        const PartAppearance& appearance, const LightCube& light,
+VertexProbe probeVertex(const Asset& asset, const CpuVisibility& occluder, size_t part, uint32_t vertex,
+                        vec3 eye, const PartAppearance& appearance, const LightCube& light,
                         const LightVector& lightVector) {
     RELUME_CHECK_LT(part, asset.parts.size());
     RELUME_CHECK_EQ(light.size, asset.faceSize);
@@ -59,9 +62,7 @@ VertexProbe probeVertex(const Asset& asset, const RayTracer& occluder, size_t pa
         radiance += glm::dvec3(probe.views[term]) * glm::dvec3(probe.tuple[term]);
     }
     probe.radiance = vec3(radiance);
-    const size_t faceTexels = transport.size() / kCubeFaces;
-    for (size_t face = 0; face < kCubeFaces; face++)
-        haarInverse(std::span(transport).subspan(face * faceTexels, faceTexels), asset.faceSize);
+    haarInverseFaces(transport, asset.faceSize);
     glm::dvec3 full(0);
     for (size_t i = 0; i < transport.size(); i++)
         full += glm::dvec3(transport[i]) * glm::dvec3(light.radiance[i]);

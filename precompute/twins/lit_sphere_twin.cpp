@@ -1,4 +1,4 @@
-#include "precompute/reference/lit_sphere_twin.h"
+#include "precompute/twins/lit_sphere_twin.h"
 
 #include "engine/math/cubemap.h"
 #include "engine/math/polar_map.h"

@@ -1,4 +1,4 @@
-#include "precompute/reference/transport_stages.h"
+#include "precompute/twins/transport_twin.h"
 
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
@@ -74,13 +74,6 @@ std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int vi
                     lookupMap(lightMap, brdf.size, brdf.mapping, local) * weight;
             }
     return transport;
-}
-
-void haarFaces(std::vector<vec3>& cube, int faceSize) {
-    const size_t faceTexels = size_t(faceSize) * size_t(faceSize);
-    RELUME_CHECK_EQ(cube.size(), kCubeFaces * faceTexels);
-    for (size_t face = 0; face < kCubeFaces; face++)
-        haarForward(std::span(cube).subspan(face * faceTexels, faceTexels), faceSize);
 }
 
 std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count) {

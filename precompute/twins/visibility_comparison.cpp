@@ -1,4 +1,4 @@
-#include "precompute/reference/visibility_comparison.h"
+#include "precompute/twins/visibility_comparison.h"
 
 #include "engine/math/cubemap.h"
 #include "engine/vk/upload.h"

@@ -1,4 +1,5 @@
-// The CPU twin of every stage of the bake, one vertex at a time: naive on purpose, never optimized.
+// The CPU twins of the stages of a direct bake, one vertex at a time: naive on purpose, never optimized. The
+// Haar transform between them is haarForwardFaces() (engine/math/haar.h), whose own test inverts it.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -22,9 +23,6 @@ std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 n
 // fraction of the visibility texels around it; samples ≤ (visibilitySize / faceSize)².
 std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int visibilitySize, int faceSize,
                                   int samples, const FactoredBrdf& brdf, int term, const TangentFrame& frame);
-
-// Haar-transforms the six faces in place.
-void haarFaces(std::vector<vec3>& cube, int faceSize);
 
 // Indices, rising, of the `count` coefficients of largest r² + g² + b² (ties: lower index first; zeros
 // are never kept).

@@ -1,4 +1,4 @@
-#include "precompute/reference/residual_twin.h"
+#include "precompute/residual/residual_estimate.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include "engine/light/light_vector.h"
 #include "engine/render/appearance.h"
-#include "precompute/visibility/ray_tracer.h"
+#include "precompute/cpu/cpu_visibility.h"
 
 namespace relume {
 
@@ -20,10 +20,10 @@ struct VertexProbe {
     vec3 fullRadiance;   // Σ transport · light: the same under all of the light, nothing dropped or rounded
 };
 
-// `occluder` traces the asset's occluder; rays start where the bake's do. `lightVector` is made of `light`;
-// both have F texels a side.
-VertexProbe probeVertex(const Asset& asset, const RayTracer& occluder, size_t part, uint32_t vertex, vec3 eye,
-                        const PartAppearance& appearance, const LightCube& light,
+// `occluder` traces the asset's occluder at its visibilitySize; rays start where the bake's do. `lightVector`
+// is made of `light`; both have F texels a side.
+VertexProbe probeVertex(const Asset& asset, const CpuVisibility& occluder, size_t part, uint32_t vertex,
+                        vec3 eye, const PartAppearance& appearance, const LightCube& light,
                         const LightVector& lightVector);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-#include "precompute/reference/relight_twin.h"
+#include "precompute/twins/relight_twin.h"
 
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"

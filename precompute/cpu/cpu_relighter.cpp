@@ -1,4 +1,4 @@
-#include "apps/bench/cpu_relighter.h"
+#include "precompute/cpu/cpu_relighter.h"
 
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
