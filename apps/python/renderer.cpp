@@ -141,7 +141,7 @@ void addRenderer(py::module_& module) {
         .def(py::init<std::shared_ptr<const Asset>, std::pair<int, int>, int, bool>(), py::arg("asset"),
              py::arg("size"), py::arg("samples"), py::arg("residual"),
              py::call_guard<py::gil_scoped_release>())
-        .def("bind", &Renderer::binding)
+        .def("bind", &Renderer::bind)
         .def("select_terms", &Renderer::setTerms, py::arg("terms"))
         .def("select_light", &Renderer::setSelection, py::arg("threshold") = py::none(),
              py::arg("coefficients") = py::none())

@@ -29,8 +29,8 @@ WeightedMaterial parse(const std::string& text, const std::vector<std::string>& 
 void AppearanceArguments::add(CLI::App& command) {
     command
         .add_option("-m,--material", mMaterials,
-                    "Show this material of the bake, wherever a part has it; several of one set are blended "
-                    "by their weights (default 1) over the sum of these: -m clay=0.3 -m gold=0.7")
+                    "Show this material of the bake, wherever a part has it; those of one set are blended by "
+                    "their weights (default 1) over the sum of these: -m clay=0.3 -m gold=0.7")
         ->type_name("NAME[=WEIGHT]")
         ->allow_extra_args(false); // one each: FILE may follow
 }
@@ -48,7 +48,6 @@ Appearance AppearanceArguments::appearance(const Asset& asset) const {
             throw UsageError(fmt::format("--material: \"{}\" is named twice", blend.back().name));
     }
     if (sum == 0) throw UsageError("--material: expected at least one weight above 0");
-    for (WeightedMaterial& material : blend) material.weight /= sum;
     bindMaterials(appearance, asset, blend);
     return appearance;
 }

@@ -21,7 +21,7 @@ std::vector<KeyHelp> keyHelp() {
         {"Left drag", "orbit"},
         {"Middle drag, Shift + left drag", "move the view"},
         {"Wheel", "nearer, farther, towards the cursor"},
-        {"Double click", "look at what is there"},
+        {"Click, double click", "pick the part, look at what is there"},
         {"Shift + right drag", "turn the light"},
         {"Left drag of a lamp", "move it around the object"},
         {"Enter", "the default view"},
@@ -39,6 +39,7 @@ std::vector<KeyHelp> keyHelp() {
         {"F9", "start and stop a timing capture"},
         {"F11", "full screen"},
         {"F12", "screenshot: .png as it is seen, .exr of linear radiance"},
+        {"Ctrl + Z, Ctrl + Shift + Z", "undo and redo changes of light, material and picture"},
         {"Ctrl + S", "save the session: view, light and materials"},
         {"Ctrl + F12", "start and stop recording images"},
         {"Ctrl + Q", "quit"},
@@ -68,8 +69,10 @@ Command Controls::take(const InputEvent& event, SceneState& state, ivec2 size, c
 Command Controls::takeButton(const InputEvent& event, const SceneState& state, ivec2 size) {
     mCursor = event.place;
     if (!event.isDown) {
+        const bool isClick = event.code == mHeld && event.code == GLFW_MOUSE_BUTTON_LEFT &&
+                             glm::distance(event.place, mPressed) < kNear;
         if (event.code == mHeld) mHeld = -1;
-        return Command::None;
+        return isClick ? Command::Pick : Command::None;
     }
     if (mHeld >= 0) return Command::None;
     mHeld = event.code;
@@ -77,6 +80,7 @@ Command Controls::takeButton(const InputEvent& event, const SceneState& state, i
     const bool isPlain = event.code == GLFW_MOUSE_BUTTON_LEFT && !event.modifiers;
     mDragsSplit = isPlain && state.compare == Compare::Split &&
                   std::abs(event.place.x - state.split * float(size.x)) < kNear;
+    mPressed = isPlain && !mDragsSplit ? event.place : vec2(-1e6f);
     if (!isPlain) return Command::None;
     const bool isDouble =
         event.seconds - mLastClickTime < kDoubleClick && glm::distance(event.place, mLastClick) < kNear;
@@ -89,6 +93,7 @@ void Controls::takeMove(vec2 place, SceneState& state, ivec2 size) {
     const vec2 moved = place - mCursor;
     mCursor = place;
     if (glm::distance(place, mLastClick) >= kNear) mLastClick = vec2(-1e6f);
+    if (glm::distance(place, mPressed) >= kNear) mPressed = vec2(-1e6f);
     const bool withShift = mModifiers & GLFW_MOD_SHIFT;
     if (mHeld == GLFW_MOUSE_BUTTON_RIGHT && withShift)
         state.light.rotation =
@@ -163,6 +168,11 @@ Command Controls::takeKey(const InputEvent& event, SceneState& state) {
         return Command::FullScreen;
     case GLFW_KEY_F12:
         return withControl ? Command::Record : Command::Screenshot;
+    case GLFW_KEY_Z:
+        if (!withControl) return Command::None;
+        return event.modifiers & GLFW_MOD_SHIFT ? Command::Redo : Command::Undo;
+    case GLFW_KEY_Y:
+        return withControl ? Command::Redo : Command::None;
     case GLFW_KEY_S:
         return withControl ? Command::SaveSession : Command::None;
     case GLFW_KEY_Q:

@@ -13,6 +13,9 @@ enum class Command {
     None,
     Focus, // on what is under the cursor
     Why,   // explain what is under the cursor
+    Pick,  // the part under the cursor
+    Undo,
+    Redo,
     Screenshot,
     SaveSession,
     Record,
@@ -48,6 +51,7 @@ class Controls {
 
     int mHeld = -1, mModifiers = 0; // the button of a drag, and what was held with it
     bool mDragsSplit = false;       // the line between two images
+    vec2 mPressed{-1e6f};           // where the left button went down, until it moves from there
     vec2 mCursor{0};
     vec2 mLastClick{-1e6f}; // where the left button was pressed last, and when
     double mLastClickTime = 0;

@@ -1,4 +1,5 @@
 #include "apps/viewer/cube_images.h"
+#include "apps/viewer/outputs.h"
 #include "apps/viewer/panel_items.h"
 #include "apps/viewer/panels.h"
 #include "engine/light/light_vector.h"
@@ -115,8 +116,6 @@ void drawBrush(LightState& light, Brush& b) {
     explain("Drag over the map above");
     if (!light.strokes.empty()) {
         ImGui::SameLine();
-        if (ImGui::Button("Undo")) light.strokes.pop_back();
-        ImGui::SameLine();
         if (ImGui::Button("Clear")) light.strokes.clear();
         ImGui::SameLine();
         ImGui::TextDisabled("%zu of %zu touches", light.strokes.size(), kMostSources);
@@ -176,8 +175,8 @@ void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wis
         drawBrush(light, state.brush);
         drawAddLamp(light.lamps);
         ImGui::SameLine();
-        if (ImGui::Button("Save light")) wishes.savesLight = true;
-        explain("Write it as a light file, for `relume render --light`");
+        wishes.savesLight = saveButton("Save light", "Write it as a light file, for `relume render --light`",
+                                       outputName(".light.json"));
         ImGui::SameLine();
     }
     ImGui::Checkbox("Play", &light.plays);

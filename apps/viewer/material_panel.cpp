@@ -11,58 +11,85 @@ namespace {
 constexpr float kSwatchWidth = 4; // lines
 constexpr int kSwatchesPerRow = 5;
 
-bool showsOnly(const SceneState& state, const std::string& name) {
-    return state.material.size() == 1 && state.material[0].name == name;
+std::vector<std::string> namesOf(const PartMaterials& group) {
+    std::vector<std::string> names;
+    for (const std::vector<std::string>& set : group.sets)
+        for (const std::string& name : set)
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    return names;
 }
 
-void drawSwatches(SceneState& state, const PanelFacts& facts) {
-    if (ImGui::RadioButton("as baked", state.material.empty())) state.material.clear();
-    explain("M: the next one");
+float weightOf(const SceneState& state, const std::string& name) {
+    const auto bound = std::ranges::find(state.material, name, &WeightedMaterial::name);
+    return bound == state.material.end() ? 0 : bound->weight;
+}
+
+void drawSwatches(SceneState& state, const PartMaterials& group, const PanelFacts& facts) {
+    const std::vector<std::string> names = namesOf(group);
     int shown = 0;
-    for (const std::string& name : facts.materials) {
+    for (const std::string& name : names) {
+        const auto choose = [&] { bindBlend(state, names, {{name}}); };
+        const bool isBound = weightOf(state, name) > 0;
         const auto swatch = facts.swatches.find(name);
         if (swatch != facts.swatches.end() && swatch->second) {
             if (shown++ % kSwatchesPerRow) ImGui::SameLine();
-            if (facts.pictures->drawButton(name.c_str(), swatch->second, kSwatchWidth * line(),
-                                           showsOnly(state, name)))
-                state.material = {{name}};
+            if (facts.pictures->drawButton(name.c_str(), swatch->second, kSwatchWidth * line(), isBound))
+                choose();
             explain(name.c_str());
-        } else if (ImGui::RadioButton(name.c_str(), showsOnly(state, name)))
-            state.material = {{name}};
+        } else if (ImGui::RadioButton(name.c_str(), isBound))
+            choose();
     }
 }
 
 // Sliders of the set that holds what is bound, else of the first that has several materials.
-void drawBlend(SceneState& state, const std::vector<std::vector<std::string>>& sets) {
-    const auto holds = [&](const std::vector<std::string>& set) {
-        return std::ranges::any_of(state.material, [&](const WeightedMaterial& bound) {
-            return std::ranges::find(set, bound.name) != set.end();
-        });
+void drawBlend(SceneState& state, const PartMaterials& group) {
+    const auto isBound = [&](const std::vector<std::string>& set) {
+        return set.size() > 1 &&
+               std::ranges::any_of(set, [&](const std::string& name) { return weightOf(state, name) > 0; });
     };
-    auto set = std::ranges::find_if(sets, holds);
-    if (set == sets.end()) set = sets.begin();
+    const auto hasSeveral = [](const std::vector<std::string>& set) { return set.size() > 1; };
+    auto set = std::ranges::find_if(group.sets, isBound);
+    if (set == group.sets.end()) set = std::ranges::find_if(group.sets, hasSeveral);
+    if (set == group.sets.end() || !ImGui::TreeNode("Blend")) return;
+    explain("Weights of a set's materials, over their sum");
     std::vector<WeightedMaterial> blend;
     bool hasChanged = false;
-    float sum = 0;
     for (const std::string& name : *set) {
-        const auto bound = std::ranges::find(state.material, name, &WeightedMaterial::name);
-        WeightedMaterial material{name, bound == state.material.end() ? 0 : bound->weight};
+        WeightedMaterial material{name, weightOf(state, name)};
         hasChanged |= slider(name.c_str(), material.weight, 0, 1, "%.2f");
-        sum += material.weight;
         if (material.weight > 0) blend.push_back(material);
     }
-    if (hasChanged && sum > 0) state.material = blend;
+    if (hasChanged && !blend.empty()) bindBlend(state, namesOf(group), blend);
+    ImGui::TreePop();
+}
+
+bool isPicked(const SceneState& state, const PartMaterials& group) {
+    return state.picked && std::ranges::find(group.parts, *state.picked) != group.parts.end();
+}
+
+void drawGroup(SceneState& state, const PartMaterials& group, const PanelFacts& facts) {
+    ImGui::PushID(group.title.c_str());
+    if (facts.materials.size() > 1) {
+        if (isPicked(state, group))
+            text(group.title);
+        else
+            ImGui::TextDisabled("%s", group.title.c_str());
+        explain("The parts that these materials are for; click on the object to pick one");
+    }
+    drawSwatches(state, group, facts);
+    drawBlend(state, group);
+    ImGui::PopID();
 }
 
 } // namespace
 
 void drawMaterialPanel(SceneState& state, const PanelFacts& facts) {
-    drawSwatches(state, facts);
-    if (!facts.materialSets.empty() && ImGui::TreeNode("Blend")) {
-        explain("Weights of a set's materials, over their sum");
-        drawBlend(state, facts.materialSets);
-        ImGui::TreePop();
-    }
+    if (ImGui::RadioButton("as baked", state.material.empty())) state.material.clear();
+    explain("M: the next material of the bake");
+    // The picked part's come first.
+    for (const bool first : {true, false})
+        for (const PartMaterials& group : facts.materials)
+            if (isPicked(state, group) == first) drawGroup(state, group, facts);
     const int most = termsOf(*facts.content->shown());
     int terms = state.terms > 0 ? std::min(state.terms, most) : most;
     if (slider("Terms", terms, 1, most, fmt::format("%d of {}", most).c_str()))

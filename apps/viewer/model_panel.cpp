@@ -1,3 +1,4 @@
+#include "apps/viewer/outputs.h"
 #include "apps/viewer/panel_items.h"
 #include "apps/viewer/panels.h"
 
@@ -48,9 +49,11 @@ void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
         ImGui::EndCombo();
     }
     if (shown) {
-        if (ImGui::Button("Save session")) wishes.savesSession = true;
-        explain(
-            "Ctrl + S: view, light and materials in a file that this program opens and relume render draws");
+        wishes.savesSession =
+            saveButton("Save session",
+                       "View, light and materials in a file that this program opens and relume render draws; "
+                       "Ctrl + S does so at once",
+                       outputName(".session.json"));
     }
     ImGui::TextDisabled("Drop files to open them");
 }

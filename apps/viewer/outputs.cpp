@@ -1,10 +1,11 @@
 #include "apps/viewer/outputs.h"
-#include "engine/import/timing_file.h"
 
 #include "apps/viewer/screenshot.h"
+#include "apps/viewer/video.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/import/image_file.h"
+#include "engine/import/timing_file.h"
 
 #include <chrono>
 #include <ctime>
@@ -34,18 +35,31 @@ void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_js
     }
 }
 
-Outputs::Outputs(const vk::Device& device, vk::Commands& commands, Tell tell)
-    : mDevice(device), mCommands(commands), mTell(std::move(tell)) {}
+Outputs::Outputs(const vk::Device& device, vk::Commands& commands, Tell tell, std::function<void()> wake)
+    : mDevice(device), mCommands(commands), mTell(std::move(tell)), mWorker(std::move(wake)) {}
 
 void Outputs::beginRecording() {
     mRecorder = std::make_unique<Recorder>(outputName(""));
-    mTell("recording; Ctrl + F12 ends it");
+    mTell("recording; Ctrl + F12 ends it", false);
 }
 
 void Outputs::endRecording() {
     const std::unique_ptr<Recorder> ended = std::move(mRecorder);
     ended->finish();
-    mTell(fmt::format("{}: {} images", ended->folder().string(), ended->frames()));
+    const std::filesystem::path& folder = ended->folder();
+    mTell(fmt::format("{}: {} images", folder.string(), ended->frames()), false);
+    const auto ffmpeg = findFfmpeg();
+    if (!ffmpeg) return;
+    const std::filesystem::path video = folder.string() + ".mp4";
+    mWorker.post(
+        "making " + video.string(),
+        [this, ffmpeg, folder, video]() -> Worker::Result {
+            encodeVideo(*ffmpeg, folder, Recorder::kFramesPerSecond, video);
+            return [this, folder, video] {
+                mTell(fmt::format("{} is made of the images in {}", video.string(), folder.string()), false);
+            };
+        },
+        [this](const std::string& why) { mTell(why, true); });
 }
 
 void Outputs::beginCapture(const std::filesystem::path& file) {
@@ -54,7 +68,7 @@ void Outputs::beginCapture(const std::filesystem::path& file) {
     mCapture.emplace();
     mCapture->attach(mDevice);
     mCommands.setCapture(&*mCapture);
-    mTell("capturing times; F9 ends it");
+    mTell("capturing times; F9 ends it", false);
 }
 
 void Outputs::endCapture() {
@@ -62,7 +76,7 @@ void Outputs::endCapture() {
     const TimingTrace trace = mCapture->trace();
     mCapture.reset();
     writeTimings(mCaptureFile, trace);
-    mTell(mCaptureFile.string() + " is written");
+    mTell(mCaptureFile.string() + " is written", false);
 }
 
 bool Outputs::record(const vk::Image& window) {
@@ -84,7 +98,7 @@ void Outputs::save(const SceneState& state, const Model* model, bool fadesGround
     for (const std::filesystem::path& file : std::exchange(mScreenshots, {})) {
         try {
             saveScreenshot(file, screen, state, model, fadesGround);
-            mTell(file.string() + " is written");
+            mTell(file.string() + " is written", false);
         } catch (const std::exception& why) {
             failure = why.what();
         }

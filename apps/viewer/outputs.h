@@ -4,6 +4,7 @@
 #include "apps/viewer/model.h"
 #include "apps/viewer/recorder.h"
 #include "apps/viewer/scene_state.h"
+#include "apps/viewer/worker.h"
 #include "engine/vk/timing_capture.h"
 
 namespace relume {
@@ -16,9 +17,9 @@ void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_js
 
 class Outputs {
   public:
-    using Tell = std::function<void(const std::string& words)>;
-    // `commands` draw the frames. Both must outlive this.
-    Outputs(const vk::Device& device, vk::Commands& commands, Tell tell);
+    using Tell = std::function<void(const std::string& words, bool isFailure)>;
+    // `commands` draw the frames. Both must outlive this. `wake` as Worker's.
+    Outputs(const vk::Device& device, vk::Commands& commands, Tell tell, std::function<void()> wake);
 
     // Of the next frame: .exr of the view, linear; else .png of the window.
     void wantScreenshot(const std::filesystem::path& file) { mScreenshots.push_back(file); }
@@ -26,9 +27,13 @@ class Outputs {
     // The next frame will be written to a file.
     bool wantsFrame() const { return !mScreenshots.empty() || mRecorder; }
 
-    // Every frame from now on, in a folder of its own. Throws Error.
+    // Every frame from now on, in a folder of its own; where ffmpeg is found, a video is made of them
+    // afterwards. Throws Error.
     void beginRecording();
     void endRecording();
+    // Tells what has become of videos, which are made beside the frames.
+    void poll() { mWorker.apply(); }
+    bool isSettled() const { return mWorker.isIdle(); }
     bool isRecording() const { return mRecorder != nullptr; }
 
     // What frames spend their time on. Throws Error.
@@ -58,6 +63,7 @@ class Outputs {
     std::vector<std::filesystem::path> mScreenshots;
     vk::Buffer mScreen; // the window's image
     vk::ImageOptions mWindow;
+    Worker mWorker; // makes videos
 };
 
 } // namespace relume

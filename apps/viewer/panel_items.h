@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <optional>
 #include <string>
 
 namespace relume {
@@ -33,6 +35,11 @@ inline bool slider(const char* label, int& value, int low, int high, const char*
                    ImGuiSliderFlags flags = 0) {
     return ImGui::SliderInt(label, &value, low, high, format, flags | ImGuiSliderFlags_AlwaysClamp);
 }
+
+// A button that asks where to save; returns the file once that is confirmed. `proposed` is the name it begins
+// with.
+std::optional<std::filesystem::path> saveButton(const char* label, const char* explanation,
+                                                const std::string& proposed);
 
 // Buttons of which one is pressed, side by side.
 template <typename Choice, size_t kCount>

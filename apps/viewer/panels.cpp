@@ -28,7 +28,13 @@ void drawMain(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
         drawMaterialPanel(state, facts);
     if (facts.content->shown() && beginSection("Compare and inspect", state.opensTrust))
         drawTrustPanel(state, facts);
-    if (beginSection("View", state.opensView)) drawViewPanel(state, wishes);
+    if (beginSection("View", state.opensView)) drawViewPanel(state, facts, wishes);
+    if (ImGui::SmallButton("Undo")) wishes.undoes = true;
+    explain("Ctrl + Z: take the last change of light, material or picture back");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Redo")) wishes.redoes = true;
+    explain("Ctrl + Shift + Z");
+    ImGui::SameLine();
     ImGui::TextDisabled("H: keys    Tab: hide panels");
     ImGui::PopItemWidth();
     ImGui::End();

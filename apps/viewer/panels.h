@@ -10,16 +10,22 @@
 
 namespace relume {
 
+// Parts with the same materials.
+struct PartMaterials {
+    std::vector<size_t> parts;
+    std::string title;                          // the parts' names
+    std::vector<std::vector<std::string>> sets; // names; materials of one set can be blended
+};
+
 // What panels show beside the state they change.
 struct PanelFacts {
     const Content* content = nullptr;
     const FrameTimes* times = nullptr;
     const Pictures* pictures = nullptr;
-    std::vector<std::string> materials;                 // that can be bound
-    std::vector<std::vector<std::string>> materialSets; // those that can be blended
-    std::map<std::string, Picture> swatches;            // by material
-    std::vector<Picture> environments;                  // by choice; of no size: not there yet
-    Picture lightMap, lightGiven, lightKept;            // of the light as it was recorded last
+    std::vector<PartMaterials> materials;
+    std::map<std::string, Picture> swatches; // by material
+    std::vector<Picture> environments;       // by choice; of no size: not there yet
+    Picture lightMap, lightGiven, lightKept; // of the light as it was recorded last
     std::optional<LightStats> light;
     std::string device;
     uint64_t memory = 0; // bytes of the program
@@ -36,9 +42,8 @@ struct PanelFacts {
 // What was pressed.
 struct PanelWishes {
     bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, togglesRecording = false,
-         resetsView = false, dismissesNotice = false, savesLight = false, savesSession = false,
-         reloadsShaders = false;
-    std::optional<std::filesystem::path> opens;
+         resetsView = false, dismissesNotice = false, reloadsShaders = false, undoes = false, redoes = false;
+    std::optional<std::filesystem::path> opens, savesLight, savesSession;
     std::optional<size_t> shows, closes; // models
 };
 
@@ -49,7 +54,7 @@ PanelWishes drawPanels(SceneState& state, const PanelFacts& facts);
 void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes);
 void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes);
 void drawMaterialPanel(SceneState& state, const PanelFacts& facts);
-void drawViewPanel(SceneState& state, PanelWishes& wishes);
+void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes);
 void drawTrustPanel(SceneState& state, const PanelFacts& facts);
 void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes);
 void drawLightVectorWindow(SceneState& state, const PanelFacts& facts);

@@ -28,7 +28,8 @@ struct SceneState {
     float fovDegrees = 35;
     LightState light;
     Brush brush;
-    std::vector<WeightedMaterial> material; // a blend; empty: as it was baked
+    std::vector<WeightedMaterial> material; // bound to parts; empty: as it was baked
+    std::optional<size_t> picked;           // the part whose materials are at hand
     int terms = 0;                          // that are summed, of a model's K; 0: all
     bool addsResidual = true;               // what these leave of the BRDF is added
     int samples = kDefaultSamples;          // a pixel: 1, 2, 4 or 8
@@ -54,6 +55,10 @@ struct SceneState {
 
 // From one of these materials to the next, from the last to what was baked, from that to the first.
 void bindNextMaterial(SceneState& state, const std::vector<std::string>& names);
+
+// Binds a blend to the parts that have the materials `all`, instead of any of these; other parts keep theirs.
+void bindBlend(SceneState& state, const std::vector<std::string>& all,
+               const std::vector<WeightedMaterial>& blend);
 
 // More of `most` terms, or fewer: at least one.
 void addTerms(SceneState& state, int more, int most);

@@ -14,10 +14,6 @@ namespace {
 // Of a difference that the hottest color stands for, where 1 is what a display shows as white.
 constexpr float kHottest = 0.25f;
 
-bool operator==(const WeightedMaterial& a, const WeightedMaterial& b) {
-    return a.name == b.name && a.weight == b.weight;
-}
-
 } // namespace
 
 SceneView::SceneView(const vk::Device& device, std::function<void()> wake, Tell tell)
@@ -87,15 +83,10 @@ void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
 }
 
 void SceneView::bindChosen(SceneState& state) {
-    if (std::ranges::equal(mBound, state.material, [](const auto& a, const auto& b) { return a == b; }))
-        return;
+    if (mBound == state.material) return;
     Appearance appearance = defaultAppearance(mModel->asset);
-    std::vector<WeightedMaterial> blend = state.material;
-    float sum = 0;
-    for (const WeightedMaterial& material : blend) sum += material.weight;
-    for (WeightedMaterial& material : blend) material.weight /= sum; // as `relume render` does
     try {
-        if (!blend.empty()) bindMaterials(appearance, mModel->asset, blend);
+        bindMaterials(appearance, mModel->asset, state.material);
     } catch (const Error& why) {
         mTell(why.what(), true);
         state.material = mBound;

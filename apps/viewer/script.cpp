@@ -81,20 +81,18 @@ void checkWait(const json& wait) {
 // Throws unless a step is one action with what belongs to it, in numbers that there are.
 void checkStep(const json& step) {
     static const std::map<std::string, std::set<std::string>> kActions = {
-        {"double-click", {}}, {"drag", {"from", "by", "over"}},
-        {"drop", {}},         {"frames", {}},
-        {"key", {"at"}},      {"quit", {}},
-        {"resize", {}},       {"screenshot", {}},
-        {"set", {}},          {"wait", {}},
-        {"wheel", {"at"}}};
+        {"click", {}}, {"double-click", {}}, {"drag", {"from", "by", "over"}},
+        {"drop", {}},  {"frames", {}},       {"key", {"at"}},
+        {"quit", {}},  {"resize", {}},       {"screenshot", {}},
+        {"set", {}},   {"wait", {}},         {"wheel", {"at"}}};
     if (!step.is_object()) throw Error(fmt::format("expected an object, found {}", step.dump()));
     const auto action =
         std::ranges::find_if(kActions, [&](const auto& known) { return step.contains(known.first); });
     if (action == kActions.end())
-        throw Error(
-            fmt::format("expected one of double-click, drag, drop, frames, key, quit, resize, screenshot, "
-                        "set, wait, wheel; found {}",
-                        step.dump()));
+        throw Error(fmt::format(
+            "expected one of click, double-click, drag, drop, frames, key, quit, resize, screenshot, "
+            "set, wait, wheel; found {}",
+            step.dump()));
     for (const auto& [key, value] : step.items())
         if (key != action->first && !action->second.contains(key))
             throw Error(fmt::format("\"{}\" is no part of \"{}\"; a step does one thing: make it two", key,
@@ -153,11 +151,12 @@ bool Script::run(ScriptTarget& target, const json& step) {
         if (step.contains("at")) target.input({InputEvent::Kind::Move, 0, false, 0, pairOf(step, "at")});
         for (const bool isDown : {true, false})
             target.input({InputEvent::Kind::Key, keyOf(name), isDown, modifiers});
-    } else if (step.contains("double-click")) {
-        const vec2 place = pairOf(step, "double-click");
+    } else if (step.contains("click") || step.contains("double-click")) {
+        const bool isDouble = step.contains("double-click");
+        const vec2 place = pairOf(step, isDouble ? "double-click" : "click");
         target.input({InputEvent::Kind::Move, 0, false, 0, place});
-        for (const bool isDown : {true, false, true, false})
-            target.input({InputEvent::Kind::Button, GLFW_MOUSE_BUTTON_LEFT, isDown, 0, place});
+        for (int i = 0; i < (isDouble ? 4 : 2); i++)
+            target.input({InputEvent::Kind::Button, GLFW_MOUSE_BUTTON_LEFT, i % 2 == 0, 0, place});
     } else if (step.contains("wheel")) {
         if (step.contains("at")) target.input({InputEvent::Kind::Move, 0, false, 0, pairOf(step, "at")});
         target.input({InputEvent::Kind::Scroll, 0, false, 0, {0, step["wheel"].get<float>()}});

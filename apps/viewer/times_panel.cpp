@@ -10,11 +10,12 @@ void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
     const FrameTimes& times = *facts.times;
     ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - 0.5f * line(), 0.5f * line()}, ImGuiCond_Always,
                             {1, 0});
-    ImGui::Begin("Times", nullptr,
-                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
-                     ImGuiWindowFlags_NoMove);
-    text(fmt::format("{:.1f} frames/s", times.framesPerSecond()));
-    explain("When frames follow each other. Where nothing changes, none is drawn");
+    ImGui::SetNextWindowCollapsed(true, ImGuiCond_FirstUseEver);
+    ImGui::Begin(
+        fmt::format("Profiler: {:.0f} frames/s###profiler", times.framesPerSecond()).c_str(), nullptr,
+        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoMove);
+    text("Time of each frame");
+    explain("From input to image. Where nothing changes, no frame is drawn");
     const std::vector<float> milliseconds = times.milliseconds();
     float highest = 20;
     for (const float time : milliseconds) highest = std::max(highest, time);
@@ -39,9 +40,6 @@ void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
     ImGui::PopTextWrapPos();
     if (ImGui::SmallButton(facts.isCapturing ? "Stop capture" : "Capture")) wishes.togglesCapture = true;
     explain("F9: write what every frame spends its time on, for trace viewers");
-    ImGui::SameLine();
-    if (ImGui::SmallButton(facts.isRecording ? "Stop recording" : "Record")) wishes.togglesRecording = true;
-    explain("Ctrl + F12: write every frame as an image, thirty to a second of the scene's time");
     ImGui::SameLine();
     if (ImGui::SmallButton("Rebuild shaders")) wishes.reloadsShaders = true;
     explain("F5: build the shaders anew from their sources");

@@ -137,6 +137,8 @@ void Ui::record(vk::Commands& commands, uint32_t image) const {
     });
 }
 
+bool Ui::isItemHeld() { return ImGui::IsAnyItemActive(); }
+
 UiWants Ui::wants() {
     const ImGuiIO& io = ImGui::GetIO();
     return {io.WantCaptureMouse, io.WantCaptureKeyboard};

@@ -41,6 +41,8 @@ class Ui {
 
     // As of the last frame.
     static UiWants wants();
+    // Whether a slider, field or button of a panel is held or edited.
+    static bool isItemHeld();
 
   private:
     void destroyFramebuffers();

@@ -5,7 +5,7 @@
 
 namespace relume {
 
-void drawViewPanel(SceneState& state, PanelWishes& wishes) {
+void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
     if (slider("Exposure", state.exposure, -8, 8, "%.2f stops")) state.exposesItself = false;
     ImGui::SameLine();
     if (ImGui::Checkbox("Auto", &state.exposesItself)) state.wantsExposure = state.exposesItself;
@@ -27,6 +27,11 @@ void drawViewPanel(SceneState& state, PanelWishes& wishes) {
     ImGui::SameLine();
     if (ImGui::Button("Screenshot")) wishes.takesScreenshot = true;
     explain("F12: .png as it is seen, .exr of linear radiance, in the folder this was started in");
+    ImGui::SameLine();
+    if (ImGui::Button(facts.isRecording ? "Stop recording" : "Record")) wishes.togglesRecording = true;
+    explain("Ctrl + F12: write every frame without panels, thirty to a second of the scene's time; as a "
+            "video, too, where "
+            "ffmpeg is installed");
     ImGui::Checkbox("Dark panels", &state.isDark);
     ImGui::SameLine();
     ImGui::Checkbox("Vsync", &state.waitsForDisplay);

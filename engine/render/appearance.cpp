@@ -13,19 +13,22 @@ namespace {
 
 constexpr size_t kPaintChannels = 4;
 
-const AssetMaterial* find(const MaterialSet& set, const std::string& name) {
-    const auto found = std::ranges::find(set.materials, name, &AssetMaterial::name);
-    return found == set.materials.end() ? nullptr : &*found;
+// How many materials of the blend a set holds.
+size_t countHeld(const MaterialSet& set, std::span<const WeightedMaterial> blend) {
+    return size_t(std::ranges::count_if(blend, [&](const WeightedMaterial& material) {
+        return std::ranges::find(set.materials, material.name, &AssetMaterial::name) != set.materials.end();
+    }));
 }
 
-// The weights that a blend has in a set, if it has all its materials there.
+// Returns the weights of a set's materials in the blend over their sum; none where that is zero.
 std::vector<float> weightsIn(const MaterialSet& set, std::span<const WeightedMaterial> blend) {
     std::vector<float> weights(set.materials.size(), 0);
-    for (const WeightedMaterial& part : blend) {
-        const AssetMaterial* material = find(set, part.name);
-        if (!material) return {};
-        weights[size_t(material - set.materials.data())] += part.weight;
-    }
+    float sum = 0;
+    for (size_t m = 0; m < weights.size(); m++)
+        for (const WeightedMaterial& material : blend)
+            if (material.name == set.materials[m].name) sum += weights[m] = material.weight;
+    if (!(sum > 0)) return {};
+    for (float& weight : weights) weight /= sum;
     return weights;
 }
 
@@ -59,19 +62,22 @@ void bindMaterials(Appearance& appearance, const Asset& asset, std::span<const W
                 fmt::format("no part has a material \"{}\"; did you mean \"{}\"? There are {}", part.name,
                             nearestName(part.name, std::vector<std::string_view>(names.begin(), names.end())),
                             fmt::join(names, ", ")));
-    bool bound = false;
-    for (size_t i = 0; i < asset.parts.size(); i++)
-        for (size_t set = 0; set < asset.parts[i].sets.size(); set++) {
-            std::vector<float> weights = weightsIn(asset.parts[i].sets[set], blend);
-            if (weights.empty()) continue;
-            appearance[i] = {set, std::move(weights), false};
-            bound = true;
-            break;
-        }
-    if (!bound)
-        throw UsageError(
-            fmt::format("no part has these materials in one set, where they could be blended: bake them as "
-                        "one: {{\"set\": […]}}"));
+    std::vector<std::string> bound;
+    for (size_t i = 0; i < asset.parts.size(); i++) {
+        const std::vector<MaterialSet>& sets = asset.parts[i].sets;
+        const auto set = std::ranges::max_element(
+            sets, {}, [&](const MaterialSet& each) { return countHeld(each, blend); });
+        std::vector<float> weights = weightsIn(*set, blend);
+        if (weights.empty()) continue;
+        appearance[i] = {size_t(set - sets.begin()), std::move(weights), false};
+        for (const AssetMaterial& material : set->materials) bound.push_back(material.name);
+    }
+    for (const WeightedMaterial& material : blend)
+        if (material.weight > 0 && std::ranges::find(bound, material.name) == bound.end())
+            throw UsageError(fmt::format(
+                "\"{}\" is in no set with the others, where they could be blended: bake them as one: "
+                "{{\"set\": […]}}",
+                material.name));
 }
 
 std::vector<BoundLayer> boundLayers(const AssetPart& part, const PartAppearance& appearance) {

@@ -30,12 +30,15 @@ Appearance defaultAppearance(const Asset& asset);
 // All names that bindMaterials() knows, in order, each once.
 std::vector<std::string> materialNames(const Asset& asset);
 
-// Binds the blend of these materials and weights to every part that has them all in one set. Other parts
-// stay as they are. Throws UsageError for a name that no part has, naming the nearest, and for names
-// that no part has in one set.
+// Binds to every part those of the materials that one of its sets holds, blended by their weights over the
+// sum of these; of several sets, the one that holds the most. Parts without any stay as they are. Throws
+// UsageError for a name that no part has, naming the nearest, and for a material that is bound to no part
+// because its set does not hold the others.
 struct WeightedMaterial {
     std::string name;
     float weight = 1;
+
+    bool operator==(const WeightedMaterial&) const = default;
 };
 void bindMaterials(Appearance& appearance, const Asset& asset, std::span<const WeightedMaterial> blend);
 

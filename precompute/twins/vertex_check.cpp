@@ -1,4 +1,5 @@
 #include "precompute/twins/vertex_check.h"
+#include "engine/math/haar.h"
 
 #include "engine/base/check.h"
 

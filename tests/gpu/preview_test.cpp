@@ -2,6 +2,7 @@
 #include "engine/base/file.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
+#include "engine/math/haar.h"
 #include "precompute/bake/bake.h"
 #include "precompute/bake/preview.h"
 #include "precompute/twins/transport_twin.h"

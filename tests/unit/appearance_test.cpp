@@ -44,9 +44,10 @@ TEST_CASE("appearance: a material is bound wherever a part has it, and nowhere e
 TEST_CASE("appearance: blends need materials of one set, and names that exist") {
     const Asset asset = sampleAsset();
     const Appearance blend = bound(asset, {{"matt", 0.25f}, {"glossy", 0.5f}});
-    CHECK(blend[0].weights == std::vector<float>{0.25f, 0.5f});
-    CHECK_THROWS_WITH_AS(bound(asset, {{"matt", 0.5f}, {"other", 0.5f}}), doctest::Contains("in one set"),
-                         UsageError);
+    CHECK(blend[0].weights == std::vector<float>{0.25f / 0.75f, 0.5f / 0.75f}); // over their sum
+    CHECK(blend[1].weights == std::vector<float>{1});                           // the one that it has
+    CHECK_THROWS_WITH_AS(bound(asset, {{"matt", 0.5f}, {"other", 0.5f}}),
+                         doctest::Contains("\"other\" is in no set with the others"), UsageError);
     CHECK_THROWS_WITH_AS(bound(asset, {{"glosy"}}), doctest::Contains("did you mean \"glossy\""), UsageError);
 }
 
@@ -58,7 +59,7 @@ TEST_CASE("appearance: bound layers are those of the bound materials, bases text
     CHECK_FALSE(layers[0].textured);
     CHECK(layers[1].layer == 2);
     CHECK(layers[1].textured);
-    CHECK(layers[1].weight == 0.5f);
+    CHECK(layers[1].weight == 1); // over the sum of what is there
     CHECK(layers[1].channel == -1);
     const auto painted = boundLayers(asset.parts[0], defaultAppearance(asset)[0]);
     REQUIRE(painted.size() == 3);

@@ -2,6 +2,7 @@
 #include "apps/bench/cpu_baker.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
+#include "engine/math/haar.h"
 #include "precompute/cpu/morton.h"
 #include "precompute/twins/transport_twin.h"
 #include "precompute/twins/vertex_check.h"

@@ -1,4 +1,5 @@
 // Meshes that get vertices where interpolation would be seen, and stay joined.
+#include "engine/math/haar.h"
 #include "precompute/refine/refinement.h"
 
 #include "engine/base/error.h"

@@ -1,4 +1,5 @@
 // Closed forms of each stage of the bake's CPU twin.
+#include "engine/math/haar.h"
 #include "precompute/twins/relight_twin.h"
 #include "precompute/twins/transport_twin.h"
 

@@ -1,4 +1,5 @@
 // A vertex recomputed from an asset matches the row that the same stages stored, and no other.
+#include "engine/math/haar.h"
 #include "precompute/twins/vertex_check.h"
 
 #include "engine/import/builtin_mesh.h"

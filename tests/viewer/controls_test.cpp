@@ -24,7 +24,7 @@ struct Hand {
     Command press(vec2 place, int button = kLeft, int modifiers = 0, double seconds = 0) {
         return take({Kind::Button, button, true, modifiers, place, {}, seconds});
     }
-    void release(vec2 place, int button = kLeft) { take({Kind::Button, button, false, 0, place}); }
+    Command release(vec2 place, int button = kLeft) { return take({Kind::Button, button, false, 0, place}); }
     void move(vec2 place) { take({Kind::Move, 0, false, 0, place}); }
     Command key(int code, int modifiers = 0) {
         const Command command = take({Kind::Key, code, true, modifiers});
@@ -219,4 +219,26 @@ TEST_CASE("controls: the wheel goes to what is under the cursor, and needs somet
     hand.drag({100, 100}, {200, 200}, kLeft);
     hand.take({Kind::Scroll, 0, false, 0, {0, 2}});
     CHECK_FALSE(hand.state.orbit);
+}
+
+TEST_CASE("controls: a click picks, a drag does not") {
+    Hand hand;
+    hand.press({100, 100});
+    CHECK_EQ(hand.release({102, 101}), Command::Pick);
+    hand.press({100, 100});
+    hand.move({150, 100});
+    hand.move({100, 100});
+    CHECK_EQ(hand.release({100, 100}), Command::None);
+    hand.press({100, 100}, kRight);
+    CHECK_EQ(hand.release({100, 100}, kRight), Command::None);
+    hand.press({100, 100}, kLeft, kShift);
+    CHECK_EQ(hand.release({100, 100}), Command::None);
+}
+
+TEST_CASE("controls: undo and redo need Ctrl") {
+    Hand hand;
+    CHECK_EQ(hand.key(GLFW_KEY_Z), Command::None);
+    CHECK_EQ(hand.key(GLFW_KEY_Z, kControl), Command::Undo);
+    CHECK_EQ(hand.key(GLFW_KEY_Z, kControl | kShift), Command::Redo);
+    CHECK_EQ(hand.key(GLFW_KEY_Y, kControl), Command::Redo);
 }

@@ -9,15 +9,21 @@ using nlohmann::json;
 
 TEST_CASE("viewer: a recording has every frame, numbered, as large as the window") {
     Session& session = sharedSession();
-    std::filesystem::create_directory(session.path("takes"));
-    const Outcome outcome = session.replay({{{"wait", "settled"}},
-                                            {{"set", {{"turntable", true}}}},
-                                            {{"key", "ctrl+F12"}},
-                                            {{"frames", 12}},
-                                            {{"key", "ctrl+F12"}},
-                                            {{"frames", 3}},
-                                            {{"quit", true}}},
-                                           "ring.relume");
+    // Stands in for ffmpeg: writes what it was asked for into the video.
+    std::filesystem::create_directory(session.path("tools"));
+    const std::filesystem::path ffmpeg = session.path("tools") / "ffmpeg";
+    std::ofstream(ffmpeg) << "#!/bin/sh\nfor video; do :; done\necho \"$@\" > \"$video\"\n";
+    std::filesystem::permissions(ffmpeg, std::filesystem::perms::owner_all);
+    const Outcome outcome =
+        session.replay({{{"wait", "settled"}},
+                        {{"set", {{"turntable", true}}}},
+                        {{"key", "ctrl+F12"}},
+                        {{"frames", 12}},
+                        {{"key", "ctrl+F12"}},
+                        {{"set", {{"turntable", false}}}},
+                        {{"wait", "settled"}},
+                        {{"quit", true}}},
+                       "ring.relume", "PATH=" + session.path("tools").string() + ":$PATH");
     CAPTURE(outcome.err);
     REQUIRE_EQ(outcome.exitCode, 0);
     CHECK(isQuiet(outcome.err));
@@ -41,4 +47,8 @@ TEST_CASE("viewer: a recording has every frame, numbered, as large as the window
         last = image;
     }
     CHECK(says(outcome.err, folder.filename().string() + ": 13 images"));
+    const std::string video = contents(folder.string() + ".mp4");
+    CHECK(says(video, folder.filename().string() + "/frame_%04d.png"));
+    CHECK(says(video, "-framerate 30"));
+    CHECK(says(outcome.err, folder.filename().string() + ".mp4 is made of the images"));
 }

@@ -18,6 +18,16 @@ TEST_CASE("scene state: materials follow each other, and what was baked after th
     CHECK(state.material.empty());
 }
 
+TEST_CASE("scene state: a blend replaces what its parts had, and leaves the others theirs") {
+    SceneState state;
+    state.material = {{"gold", 1}, {"oak", 1}};
+    bindBlend(state, {"gold", "clay"}, {{"clay", 0.5f}, {"gold", 0.25f}});
+    CHECK(state.material == std::vector<WeightedMaterial>{{"oak", 1}, {"clay", 0.5f}, {"gold", 0.25f}});
+    bindBlend(state, {"oak"}, {{"oak"}});
+    CHECK(state.material.back().name == "oak");
+    CHECK_EQ(state.material.size(), 3u);
+}
+
 TEST_CASE("scene state: terms are one at least, and all of them is 0") {
     SceneState state;
     addTerms(state, 1, 4);
