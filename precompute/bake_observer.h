@@ -31,9 +31,9 @@ class BakeObserver {
     virtual void refined(const RefinementRecord&) {}
     // The bake is about to start, with `done` of its `vertices` already in the checkpoint.
     virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
-    // Called after each group of blocks, the last time with done == vertices. The stages Bounces, Sample and
-    // Preview count only the vertices that they bake themselves; the stage Refinement counts the points that
-    // a round examines in a part.
+    // Called every few tenths of a second, the last time with done == vertices. The stages Bounces, Sample
+    // and Preview count only the vertices that they bake themselves; the stage Refinement counts the points
+    // that a round examines in a part.
     virtual void progress(const BakeStatus&) {}
     // A preview was written in which this share of the vertices is baked, the rest interpolated.
     virtual void preview(double /*bakedShare*/) {}

@@ -15,6 +15,7 @@
 
 namespace relume {
 
+// The rounds of benchView(), and how views are drawn.
 struct ViewRounds {
     int count = 9;             // after a warm-up round
     float rotationDegrees = 0; // of the light in the first round; a degree more in each further one

@@ -38,6 +38,7 @@ std::shared_ptr<const vk::Device> device();
 // the caller.
 void runLong(const py::object& progress, const std::function<void(const std::function<void(double)>&)>& work);
 
+// Each adds one part of the Python interface to the module.
 void addScene(py::module_& module);
 void addLight(py::module_& module);
 void addRenderer(py::module_& module);

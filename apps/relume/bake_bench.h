@@ -43,6 +43,7 @@ class BakePath {
     virtual SampleRun run() = 0;
 };
 
+// Bakes on the CPU with CpuBaker.
 class CpuPath : public BakePath {
   public:
     CpuPath(const BakeSample& sample, const BakeOptions& options);
@@ -58,6 +59,7 @@ class CpuPath : public BakePath {
     uint64_t mRays = 0;
 };
 
+// Bakes on the device, with visibility by the given method.
 class DevicePath : public BakePath {
   public:
     DevicePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options,

@@ -15,6 +15,7 @@ struct NamedLight {
     LightCube cube;
 };
 
+// The results of reportOn().
 struct BrdfReport {
     nlohmann::json material;
     Factorization method = Factorization::Environment;

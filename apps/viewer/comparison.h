@@ -10,6 +10,7 @@
 
 namespace relume {
 
+// Renders references on a thread of its own, one view at a time.
 class Comparison {
   public:
     // A view and its relit image.

@@ -52,6 +52,7 @@ struct StrokeChoice {
     bool operator==(const StrokeChoice&) const = default;
 };
 
+// Everything that lights the object.
 struct LightState {
     std::vector<EnvironmentChoice> environments; // at least one
     size_t environment = 0;

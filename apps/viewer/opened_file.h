@@ -6,6 +6,7 @@
 
 namespace relume {
 
+// The kinds of files that can be opened; Bakeable ones are meshes and scenes.
 enum class FileKind { Bake, Bakeable, Environment, Light, Session };
 
 // Returns the extension in lower case: ".obj".

@@ -21,6 +21,7 @@ struct WhyQuestion {
 // kMapWidth wide.
 constexpr int kCrossSide = 64, kMapWidth = 512;
 
+// The answer to a WhyQuestion.
 struct Why {
     std::string part;
     uint32_t vertex = 0;

@@ -21,7 +21,7 @@ class BouncedTransport;
 
 struct BakePlan {
     BakeOptions options;
-    Asset asset; // complete except for rows (row counts are set) and measured errors
+    Asset asset; // complete except for rows (their numbers are set) and measured errors
     // How blocks are encoded, in layouts other than rows; set once a sample is baked (layout_sample.h).
     std::optional<LayoutScale> scale;
     // Bounced light, which is added to blocks as they are baked. Null before it is computed, and without

@@ -34,8 +34,8 @@ class BakeSink {
 // Bakes `blocks` in this order; it is fastest if those of a part are consecutive. Progress is reported
 // relative to `all` blocks, which include those done before. A block's result depends on the plan alone. When
 // device or host run out of memory, the batch is halved and the log says so. `kept`, if any, is verified
-// visibility with the plan's key, used instead of computing it. Finishes the sink in any case. Throws
-// BakeStopped when the observer wants it, and Error.
+// visibility with the plan's key, used instead of computing it. Finishes the sink, also after an
+// exception. Throws BakeStopped when the observer wants it, and Error.
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
                 std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
                 BakeObserver& observer, BakeTimes& times, KeptVisibility* kept = nullptr);

@@ -5,7 +5,7 @@
 
 namespace relume {
 
-// Returns, in order, blocks spread evenly over every part, or over all parts if these are many
+// Returns, in order, blocks spread evenly over every part, or over some if there are many parts
 // (docs/layouts.md). The choice depends only on the plan's options and its numbers of vertices and terms.
 std::vector<uint32_t> sampleBlocks(const BakePlan& plan);
 

@@ -40,6 +40,7 @@ vec3 sourceGain(vec3 reflectedShare);
 // Returns the gains of the layers that `bound` binds, per part and bound layer.
 std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound);
 
+// Gathers bounced light for all vertices of an asset.
 class BounceGather {
   public:
     // Every part lights others with the materials bound in `bound`, times their sourceGains(). Keeps a
@@ -48,8 +49,8 @@ class BounceGather {
 
     // A layer whose gain is below 1.
     struct HeldLayer {
-        size_t part; // of the bound set
-        int layer;   // of the set that is bound
+        size_t part;
+        int layer;   // of the bound set
         float share; // reflected share without the gain, largest over channels
     };
     const std::vector<HeldLayer>& heldLayers() const { return mHeld; }

@@ -17,6 +17,7 @@ class BounceRays {
 
     BounceRays(size_t part, uint32_t vertex);
 
+    // Advances to the next ray; must be called before the first. Returns false after the last.
     bool next() { return ++mRay < kSide * kSide; }
     vec3 direction() const; // unit, in the frame
     // Returns a number in [0, 1), independent of the direction, for a random choice per ray.

@@ -39,6 +39,7 @@ struct RadianceErrorOptions {
     int orientations = 60;
     bool uniform = false;
 };
+// A layer of a factored BRDF.
 struct LayerOf {
     const FactoredBrdf* factored;
     int layer = 0;

@@ -18,7 +18,7 @@ std::unique_ptr<Brdf> makeOrenNayar(MaterialParameters& parameters);
 
 // {"kd": a, "ks": a, "exponent": n}: Lafortune and Willems, "Using the Modified Phong Reflectance Model for
 // Physically Based Rendering", 1994: f = kd / π + ks (n + 2) cosⁿα / 2π, with α from the mirror direction.
-// Energy is conserved, since kd + ks ≤ 1 is required. Default: kd .4, ks .3, exponent 30.
+// No albedo exceeds 1, since kd + ks ≤ 1 is required. Default: kd .4, ks .3, exponent 30.
 std::unique_ptr<Brdf> makePhong(MaterialParameters& parameters);
 
 // {"kd": a, "ks": a, "nu": n, "nv": n}: Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal
@@ -54,7 +54,7 @@ std::unique_ptr<Brdf> makeGltf(MaterialParameters& parameters);
 // {"diffuse": a, "f0": F or "index": η, "roughness": α}: a Lambertian base under a rough dielectric. The
 // specular part is Cook and Torrance's (1982) with the GGX distribution of width α (Walter et al. 2007) and
 // Smith's height-correlated masking (Heitz 2014). The base receives and sends what Schlick's Fresnel term
-// lets through. f = a (1 - F(ωi.z)) (1 - F(ωo.z)) / π + D F G / (4 ωi.z ωo.z), which conserves energy.
+// lets through. f = a (1 - F(ωi.z)) (1 - F(ωo.z)) / π + D F G / (4 ωi.z ωo.z), whose albedo is at most 1.
 // Default: diffuse .5, f0 .04, roughness .2.
 std::unique_ptr<Brdf> makePlastic(MaterialParameters& parameters);
 

@@ -43,6 +43,7 @@ struct CpuCoefficients {
     std::vector<std::vector<float>> averages;
 };
 
+// Evaluates the transport of vertices for the light maps of several BRDFs together.
 class CpuTransport {
   public:
     // Takes the light maps of all `brdfs` in order; they have one size and mapping. Sizes and samples are as

@@ -8,6 +8,7 @@
 
 namespace relume {
 
+// The input of advise().
 struct AdviceRequest {
     Scene scene;
     // The scene as a refining bake takes it; none: refinement is not considered.

@@ -10,6 +10,7 @@
 
 namespace relume {
 
+// The camera and image size of a study.
 struct ErrorView {
     Camera camera;
     int width = 120, height = 90; // every pixel that shows the asset is a point

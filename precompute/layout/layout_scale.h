@@ -36,6 +36,7 @@ void sumAlikeEverywhere();
 // Returns the default error of an asset in bases, for options that name none.
 double standardError(const Asset& asset);
 
+// Returns the record of a layout that an asset keeps.
 LayoutRecord recordOf(const LayoutOptions& options, double error);
 
 constexpr const char* kTooLarge =

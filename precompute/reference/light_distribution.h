@@ -24,6 +24,7 @@ class LightDistribution {
     // Returns the density, in sr⁻¹, with which draw() yields a unit direction through `texel`.
     float density(vec3 direction, size_t texel) const;
 
+    // Returns the texel that contains a direction.
     size_t texelOf(vec3 direction) const;
     vec3 radiance(size_t texel) const { return mTexels[texel].radiance; }
 

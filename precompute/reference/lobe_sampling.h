@@ -25,6 +25,7 @@ inline float lobeDensity(float width, float t) {
     const float reach = t + width;
     return width * (1 + width) / (4 * kPi * reach * reach);
 }
+// Draws a direction about the z axis with lobeDensity(). `choice` and `turn` are uniform in [0, 1).
 inline vec3 drawLobe(float width, float choice, float turn) {
     return onCone(1 - 2 * choice * width / (1 + width - choice), turn);
 }

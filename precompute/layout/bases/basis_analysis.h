@@ -23,6 +23,7 @@ struct BasisAnalysis {
     uint32_t components() const;
 };
 
+// Computes the principal components of a cluster.
 BasisAnalysis analyze(const ClusterMatrix& matrix);
 
 // A truncated basis. `columns` are indices into the analysis's columns.
