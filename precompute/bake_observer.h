@@ -1,4 +1,4 @@
-// What a bake tells while it runs, and asks.
+// The interface by which a running bake reports its progress and learns that it shall stop.
 #pragma once
 
 #include "engine/base/error.h"
@@ -12,36 +12,37 @@ struct RefinementRecord;
 
 enum class BakeStage { Occluder, Factorisation, Refinement, Bounces, Sample, Preview, Baking, Writing };
 
-// Where a bake stands.
+// The progress of a bake.
 struct BakeStatus {
-    uint64_t vertices = 0;        // of all parts
-    uint64_t done = 0;            // of these, with what was found in a checkpoint
-    double fraction = 0;          // of the work, in which vertices of parts weigh what they cost
-    double verticesPerSecond = 0; // 0 while unknown. A resumed bake's own
-    double secondsLeft = 0;       // to the last vertex
+    uint64_t vertices = 0; // of all parts, or of the shard
+    uint64_t done = 0;     // those finished, including those a checkpoint held
+    double fraction = 0;   // share of the work done, 0 to 1; vertices are weighted by the cost of their part
+    double verticesPerSecond = 0; // of this run; 0 while unknown
+    double secondsLeft = 0;       // until the last vertex is done
 };
 
-// All calls come from the thread that bakes.
+// Receives the events of a bake. All calls come from the thread that bakes.
 class BakeObserver {
   public:
     virtual ~BakeObserver() = default;
-    // `part` is its name while baking, for a preview too, else empty.
+    // A stage begins. `part` is the name of the part being baked; empty in stages that concern all parts.
     virtual void stage(BakeStage, const std::string& /*part*/) {}
-    // After the stage Refinement, if there is one.
+    // Refinement is done; not called where no mesh is refined.
     virtual void refined(const RefinementRecord&) {}
-    // Before the first block: vertices that a checkpoint holds already, of how many.
+    // The bake is about to start, with `done` of its `vertices` already in the checkpoint.
     virtual void resumed(uint64_t /*done*/, uint64_t /*vertices*/) {}
-    // After every few tenths of a second of baking; the last time with done == vertices. In
-    // the stages Bounces, Sample and Preview of the vertices that these take alone, in the stage Refinement
-    // of the points that a round looks at in a part.
+    // Called every few tenths of a second, the last time with done == vertices. The stages Bounces, Sample
+    // and Preview count only the vertices that they bake themselves; the stage Refinement counts the points
+    // that a round examines in a part.
     virtual void progress(const BakeStatus&) {}
-    // A preview was written to the output, with such a share of the vertices baked.
+    // A preview was written in which this share of the vertices is baked, the rest interpolated.
     virtual void preview(double /*bakedShare*/) {}
-    // Asked between submissions. If true, the bake ends with BakeStopped.
+    // Polled between submissions and during long work on the host; returning true ends the bake with
+    // BakeStopped.
     virtual bool wantsStop() { return false; }
 };
 
-// Tells of a bake within a bake as of a stage of its own.
+// Reports a bake within a bake to another observer as one stage of the outer bake.
 class StageObserver : public BakeObserver {
   public:
     StageObserver(BakeObserver& observer, BakeStage stage) : mObserver(observer), mStage(stage) {}
@@ -55,7 +56,7 @@ class StageObserver : public BakeObserver {
     BakeStage mStage;
 };
 
-// The bake was asked to stop. What was finished is in the checkpoint, where there is one.
+// Thrown when the observer stops a bake. Finished blocks remain in the checkpoint, if there is one.
 class BakeStopped : public Error {
   public:
     using Error::Error;

@@ -1,12 +1,12 @@
-// How many processor cores precomputation takes.
+// A limit on the processor cores that precomputation uses.
 #pragma once
 
 #include <memory>
 
 namespace relume {
 
-// While it lives, at most `threads` of the host's threads work at a time: TBB's, and Mesa's software device's
-// if that is made meanwhile.
+// Limits TBB to `threads` threads while it exists, and Mesa's software device, if created after it, to as
+// many.
 class ThreadLimit {
   public:
     explicit ThreadLimit(int threads);

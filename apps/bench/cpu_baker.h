@@ -1,5 +1,5 @@
-// A bake of vertices without a GPU, as fast as a CPU does it: the yardstick that the device's paths are held
-// against (relume bench bake). The naive twins in precompute/reference say what it must compute.
+// A bake of vertices on the CPU, as fast as possible: the yardstick for the device's paths (relume bench
+// bake). The naive twins in precompute/twins define its results.
 #pragma once
 
 #include "apps/bench/cpu_rows.h"
@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// Seconds of all threads together, and rays.
+// Seconds, summed over all threads, and the number of rays.
 struct CpuBakeTimes {
     double visibility = 0, transport = 0, haar = 0, pack = 0;
     uint64_t rays = 0;
@@ -20,11 +20,11 @@ struct CpuBakeTimes {
 
 class CpuBaker {
   public:
-    // For a part whose sets are factored, of an asset whose occluder is made.
+    // Takes a part with factored sets, of an asset with an occluder.
     CpuBaker(const Asset& asset, const AssetPart& part, const BakeOptions& options);
 
-    // Bakes any number of points on all threads, as PartPasses::bake does: appends their rows to
-    // `transports`, one per set, and adds up `losses`. The same for any number of threads.
+    // Bakes any number of points on all threads, as PartPasses::bake() does: appends rows to `transports`,
+    // one per set, and adds to `losses`. The result does not depend on the number of threads.
     void bake(std::span<const shared::BakePoint> points, std::span<SparseTransport* const> transports,
               TransportLosses& losses);
 

@@ -1,4 +1,4 @@
-// Selection, quantization and packing of one vertex's rows on the CPU.
+// Selects, quantizes and packs the rows of one vertex on the CPU.
 #pragma once
 
 #include "precompute/bake/transport_pass.h"
@@ -6,16 +6,16 @@
 
 namespace relume {
 
-// Rows of one vertex, term after term, end to end.
+// Rows of one vertex, concatenated term by term.
 struct CpuRows {
-    std::vector<uint32_t> counts; // entries, per term
+    std::vector<uint32_t> counts; // row entries per term
     std::vector<float> scales;    // per term
     std::vector<uint16_t> indices;
     std::vector<uint32_t> values;
     TransportLosses losses;
 };
 
-// Keeps the `kept` largest coefficients of every term: selectLargest and packRow in
+// Keeps the `kept` largest coefficients of every term, like selectLargest() and packRow() in
 // precompute/twins/transport_twin.h.
 class CpuRowPacker {
   public:
@@ -30,7 +30,7 @@ class CpuRowPacker {
     size_t mKept;
     // Workspace.
     std::vector<float> mBounds;
-    std::vector<uint64_t> mCandidates; // key, then what breaks ties, then the place among the blocks
+    std::vector<uint64_t> mCandidates; // key, then tie-breaker, then place among the blocks
     std::vector<uint32_t> mSelected;   // index, then place
 };
 

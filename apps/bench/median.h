@@ -1,4 +1,4 @@
-// The statistic that benchmarks print.
+// The median, which benchmarks print.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace relume {
 
-// Of at least one value; the upper of two middle ones.
+// Returns the median of at least one value; of two middle values the upper.
 inline double median(std::vector<double> values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -1,11 +1,11 @@
-// What benchmarks measure.
+// Times work for benchmarks.
 #pragma once
 
 #include <chrono>
 
 namespace relume {
 
-// Wall-clock time of `work`.
+// Returns the wall-clock time of `work`.
 template <typename Work>
 double milliseconds(const Work& work) {
     const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// NumPy arrays in and out: meshes, images, tuples.
+// Conversion between NumPy arrays and meshes, images and tuples.
 #pragma once
 
 #include "engine/image/image.h"
@@ -14,11 +14,11 @@ namespace relume::python {
 
 namespace py = pybind11;
 
-// C-contiguous; what has another type or order is converted.
+// A C-contiguous array; others are converted.
 template <typename T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-// An array that owns `values`, without a copy: rows of `shape` and the components of an element.
+// Returns an array of `shape`, plus an axis for components, that takes over `values` without a copy.
 template <typename Element>
 py::array_t<float> arrayOf(std::vector<Element> values, std::vector<py::ssize_t> shape) {
     constexpr auto kComponents = py::ssize_t(sizeof(Element) / sizeof(float));
@@ -28,7 +28,8 @@ py::array_t<float> arrayOf(std::vector<Element> values, std::vector<py::ssize_t>
     return py::array_t<float>(shape, reinterpret_cast<const float*>(kept->data()), owner);
 }
 
-// (n, components) values. Throws ValueError, in which `name` is the argument, for another shape.
+// Returns the elements of an (n, components) array. Throws ValueError naming the argument, `name`, for any
+// other shape.
 template <typename Element, typename T = float>
 std::vector<Element> elementsOf(const Array<T>& array, const char* name) {
     constexpr auto kComponents = py::ssize_t(sizeof(Element) / sizeof(T));
@@ -39,13 +40,13 @@ std::vector<Element> elementsOf(const Array<T>& array, const char* name) {
     return {first, first + array.shape(0)};
 }
 
-// (height, width, 3 or 4) linear values, rows from the top.
+// Returns the image of an (height, width, 3 or 4) array of linear values, top row first.
 Image imageOf(const Array<float>& array, const char* name);
 
-// (height, width, 4).
+// Returns an (height, width, 4) array.
 py::array_t<float> arrayOf(Image image);
 
-// A JSON text as Python's objects.
+// Returns JSON text as Python objects.
 py::object parsed(const std::string& json);
 
 } // namespace relume::python

@@ -1,4 +1,4 @@
-// The classes that several files of the module share.
+// The classes and functions that several files of the module share.
 #pragma once
 
 #include "apps/python/arrays.h"
@@ -14,7 +14,7 @@
 
 namespace relume::python {
 
-// A scene that grows part by part. Its ground is sized when all parts are there.
+// A scene to which parts are added. Its ground is sized once all parts are known.
 struct SceneBuilder {
     Scene scene;
     struct Ground {
@@ -24,19 +24,21 @@ struct SceneBuilder {
     };
     std::optional<Ground> ground;
 
-    // As `relume bake` takes it; refined: the ground's own tessellation is coarse where none was asked for.
+    // Returns the scene as `relume bake` takes it. `isRefined`: a ground without given tessellation is
+    // coarse.
     Scene build(bool isRefined) const;
 };
 
-// Returns the device that all calls share, which is opened when first needed, as use_device() selected it.
-// Callers keep the pointer while they work: another device may be selected meanwhile, or Python may end.
+// Returns the device that all calls share, opened on first use as use_device() selected it. Callers keep the
+// pointer while they work, since another device may be selected meanwhile, or Python may end.
 std::shared_ptr<const vk::Device> device();
 
-// Runs `work` without Python's lock. `work` is given a function that tells how far it is: that calls
-// `progress`, where it is not None, now and then, and looks for Ctrl-C. An exception of either ends the work
-// and reaches the caller.
+// Runs `work` without Python's lock. Passes it a function to report progress, which now and then calls
+// `progress`, unless that is None, and checks for Ctrl-C. An exception from either ends the work and reaches
+// the caller.
 void runLong(const py::object& progress, const std::function<void(const std::function<void(double)>&)>& work);
 
+// Each adds one part of the Python interface to the module.
 void addScene(py::module_& module);
 void addLight(py::module_& module);
 void addRenderer(py::module_& module);

@@ -1,4 +1,4 @@
-// The options of render and reference that bind materials to parts.
+// The options of `render` and `reference` that bind materials to parts.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -10,7 +10,7 @@ namespace relume {
 // --material NAME[=WEIGHT], repeatable
 struct AppearanceArguments {
     void add(CLI::App& command);
-    // The default appearance, in the materials that were named. Throws UsageError.
+    // Returns the default appearance with the named materials bound. Throws UsageError.
     Appearance appearance(const Asset& asset) const;
 
   private:

@@ -1,4 +1,4 @@
-// A sample of a scene's vertices, and the ways to bake it.
+// A sample of a scene's vertices, and several ways to bake it.
 #pragma once
 
 #include "engine/import/scene.h"
@@ -11,7 +11,7 @@
 namespace relume {
 
 struct BakeSample {
-    Asset asset;                                        // ordered and factored; its rows are empty
+    Asset asset;                                        // in bake order and factored; without rows
     std::vector<std::vector<shared::BakePoint>> points; // per part
 
     uint64_t vertices() const;
@@ -19,30 +19,31 @@ struct BakeSample {
     double termsPerVertex() const; // mean over the sample
 };
 
-// About `vertices` vertices, of every part in proportion: runs of 64 neighbors, as bakes take them, spread
+// Samples about `vertices` vertices from all parts in proportion: runs of 64 neighbors, as in bakes, spread
 // evenly through the bake order.
 BakeSample sampleBake(const vk::Device& device, Scene scene, const BakeOptions& options, uint64_t vertices);
 
-// Rows of the sample: per part and set.
+// Rows of the sample, per part and set.
 using SampleRows = std::vector<std::vector<SparseTransport>>;
 
-// sqrt(Σ|a - b|² / Σ|b|²) over the decoded rows of two bakes of one sample.
+// Returns sqrt(Σ|a - b|² / Σ|b|²) over the decoded rows of two bakes of one sample.
 double relativeDifference(const SampleRows& a, const SampleRows& b, int faceSize);
 
-// One run over the whole sample.
+// One bake of the whole sample.
 struct SampleRun {
     double seconds = 0;   // wall clock
     vk::PassTimes stages; // seconds; they add up to about `seconds`
     SampleRows rows;
 };
 
-// A way to bake the sample; made once, run many times. Refers to its sample.
+// A way to bake the sample, made once and run many times. Keeps a reference to the sample.
 class BakePath {
   public:
     virtual ~BakePath() = default;
     virtual SampleRun run() = 0;
 };
 
+// Bakes on the CPU with CpuBaker.
 class CpuPath : public BakePath {
   public:
     CpuPath(const BakeSample& sample, const BakeOptions& options);
@@ -58,6 +59,7 @@ class CpuPath : public BakePath {
     uint64_t mRays = 0;
 };
 
+// Bakes on the device, with visibility by the given method.
 class DevicePath : public BakePath {
   public:
     DevicePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options,
@@ -71,7 +73,7 @@ class DevicePath : public BakePath {
     std::vector<Part> mParts;
 };
 
-// As the traced DevicePath, from visibility as a file keeps it: found once, before the first run.
+// Bakes on the device with visibility kept as in a file, which is computed once, before the first run.
 class RebakePath : public BakePath {
   public:
     RebakePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options);
@@ -85,7 +87,7 @@ class RebakePath : public BakePath {
     std::vector<Part> mParts;
 };
 
-// Triangles that RasterVisibility draws for the whole sample, over all cube faces.
+// Returns the number of triangles that RasterVisibility draws for the whole sample, over all cube faces.
 uint64_t countDrawnTriangles(const vk::Device& device, const BakeSample& sample, const BakeOptions& options);
 
 } // namespace relume

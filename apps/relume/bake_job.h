@@ -1,4 +1,4 @@
-// A bake to a file as a command runs it: options, progress, stopping, what is said at the end.
+// A bake to a file as a command runs it: options, progress, stopping and summary.
 #pragma once
 
 #include "apps/relume/options.h"
@@ -18,12 +18,13 @@ struct BakeJob {
 
     void add(CLI::App& command);
 
-    // Before any work: bounds threads, and tries what is to be written. Throws UsageError, Error.
+    // Limits threads and checks that outputs can be written, before any work. Throws UsageError and Error.
     void prepare();
-    // Adds what is written. `replaced`: a bake that is read, and that the output may replace.
+    // Adds the files written. `replaced` is an input bake that the output may replace.
     void addOutputs(CommandFiles& files, const std::filesystem::path& replaced = {}) const;
 
-    // Calls `bake`, which bakes to `output`, and tells what was made; ends the command where it was stopped.
+    // Calls `bake`, which bakes to `output`, and prints a summary. Ends the command with an exit code if it
+    // was stopped.
     using Bake = std::function<BakeSummary(BakeObserver& observer)>;
     void run(const vk::Device& opened, const Bake& bake) const;
 
@@ -32,12 +33,12 @@ struct BakeJob {
     BakeSummary bakeStoppably(const vk::Device& opened, const Bake& bake) const;
 
     std::filesystem::path mTimings;
-    int mThreads = 0; // as many as there are
+    int mThreads = 0; // 0: no limit
     bool mQuiet = false, mJson = false;
     std::optional<ThreadLimit> mThreadLimit;
 };
 
-// One line a part: what is about to be baked.
+// Logs one line about a part to be baked.
 void logPart(const std::string& name, const Mesh& mesh, const std::string& materials);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// What `relume bake` says while it works: a bar for people, or JSON events for programs.
+// The output of `relume bake` while it works: a progress bar for people, or JSON events for programs.
 #pragma once
 
 #include "engine/base/progress.h"
@@ -12,10 +12,10 @@ namespace relume {
 
 enum class ReportStyle { Quiet, Text, Json };
 
-// On stderr for Text, on stdout for Json: docs/baking.md lists the events.
+// Writes to stderr for Text and to stdout for Json; docs/baking.md lists the events.
 class BakeReport : public BakeObserver {
   public:
-    // `stoppable`: SIGINT and SIGTERM ask the bake to stop; until its first block they just end the process.
+    // `stoppable`: SIGINT and SIGTERM stop the bake; before its first block they end the process.
     BakeReport(ReportStyle style, bool stoppable) : mStyle(style), mStoppable(stoppable) {}
 
     void stage(BakeStage stage, const std::string& part) override;
@@ -28,7 +28,7 @@ class BakeReport : public BakeObserver {
     // Prints {"event": name, …fields} on a line of its own, for Json.
     void event(const char* name, nlohmann::ordered_json fields) const;
 
-    // Leaves the terminal's line to others.
+    // Ends the progress bar, so that others can write to the terminal.
     void close() { mBar.reset(); }
 
     uint64_t done() const { return mDone; }

@@ -1,12 +1,12 @@
-// What the stages of a bake must move: the floor that memory puts under them.
+// The memory traffic of a bake's stages, a lower bound on their time.
 #pragma once
 
 #include "apps/relume/bake_bench.h"
 
 namespace relume {
 
-// Bytes that a stage reads and writes per vertex, each once, by the sizes of the buffers between stages and
-// as if nothing were skipped; nothing for stages that move next to none. Means over a sample.
+// Bytes per vertex that a stage reads and writes, each once, from the sizes of the buffers between stages and
+// as if nothing were skipped; none for stages with negligible traffic. Means over a sample.
 class BakeTraffic {
   public:
     BakeTraffic(const BakeSample& sample, const BakeOptions& options, double raysPerVertex,

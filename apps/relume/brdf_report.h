@@ -1,4 +1,4 @@
-// What `relume brdf` measures of a factored BRDF, and how it says so.
+// The measurements of a factored BRDF that `relume brdf` prints.
 #pragma once
 
 #include "engine/light/light_cube.h"
@@ -15,13 +15,14 @@ struct NamedLight {
     LightCube cube;
 };
 
+// The results of reportOn().
 struct BrdfReport {
     nlohmann::json material;
     Factorization method = Factorization::Environment;
     int directions = 0; // n
     double tabulationSeconds = 0, factorizationSeconds = 0;
     FactoredBrdf factored;
-    // After each term. Each is a name, as in the JSON, and its curve.
+    // Errors after each term, with their name in the JSON.
     struct Curve {
         std::string name;
         std::vector<float> values;
@@ -30,12 +31,12 @@ struct BrdfReport {
     std::vector<Curve> radiance; // per light
 };
 
-// Tabulates, factors, measures.
+// Tabulates and factors a BRDF, and measures the errors.
 BrdfReport reportOn(const Brdf& brdf, int size, DiskMapping mapping, const FactorizationOptions& options,
                     const std::vector<NamedLight>& lights);
 
 nlohmann::ordered_json describeReport(const BrdfReport& report);
-// A table of some term counts, for people.
+// Returns a table of some numbers of terms, for people.
 std::string tableOf(const BrdfReport& report);
 
 } // namespace relume

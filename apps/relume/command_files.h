@@ -1,4 +1,4 @@
-// The inputs and outputs of one command, and the check that none is overwritten.
+// The inputs and outputs of a command, and the check that no input is overwritten.
 #pragma once
 
 #include "engine/base/read_files.h"
@@ -10,19 +10,20 @@
 
 namespace relume {
 
-// Holds the files of a command against each other before it writes: no output may be an input, nor another
-// output, by whatever name. Inputs are those that are added, and all that the process reads from the
-// construction on. Links are followed, as writing does.
+// Checks the files of a command before it writes: no output may be an input or another output under any name.
+// Inputs are those that are added, and every file that the process reads after construction. Symbolic links
+// are followed.
 class CommandFiles {
   public:
     void addInput(const std::filesystem::path& file);
     void addInputs(const std::set<std::filesystem::path>& files);
 
-    // `option` names the file to the user; an empty path is none. `replaced` is an input that it may be.
+    // `option` names the file in messages; an empty path is ignored. `replaced` is an input that the output
+    // may replace.
     void addOutput(const char* option, const std::filesystem::path& file,
                    const std::filesystem::path& replaced = {});
 
-    // Throws UsageError that begins with the option of an output that is an input, or another output.
+    // Throws UsageError, beginning with the output's option, if an output is an input or another output.
     void check() const;
 
   private:
@@ -32,7 +33,7 @@ class CommandFiles {
     };
 
     ReadFiles mRead;
-    std::set<std::filesystem::path> mInputs; // places: absolute, without links
+    std::set<std::filesystem::path> mInputs; // absolute, without links
     std::vector<Output> mOutputs;
 };
 

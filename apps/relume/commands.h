@@ -1,11 +1,11 @@
-// The subcommands: each adds itself to the program, one file each.
+// The subcommands, one file each, which add themselves to the program.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace relume {
 
-// Throws UsageError for an option of `command` that was given before its subcommand, where it means nothing.
+// Throws UsageError if an option of `command` was given before its subcommand, where it has no effect.
 void expectNoOptions(const CLI::App& command, const char* subcommand);
 
 void addBakeCommand(CLI::App& program);

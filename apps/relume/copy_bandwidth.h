@@ -1,12 +1,12 @@
-// How fast memory is copied here and now: the floor under every stage that is bound by memory.
+// Measures the bandwidth of copies, which bounds every memory-bound stage.
 #pragma once
 
 #include "engine/vk/device.h"
 
 namespace relume {
 
-// Bytes read and written per second, together: the best of a few copies of buffers beyond any cache but the
-// largest.
+// Returns bytes read plus bytes written per second: the best of a few copies of buffers larger than all but
+// the largest caches.
 double deviceCopyBandwidth(const vk::Device& device);
 double hostCopyBandwidth(int threads);
 

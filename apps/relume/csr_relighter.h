@@ -1,4 +1,4 @@
-// The peer of `relume bench relight`: rows as sparse matrices of a well-kept library.
+// Relighting of rows with a sparse-matrix library, Eigen, for comparison in `relume bench relight`.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -9,12 +9,12 @@
 
 namespace relume {
 
-// A compressed-sparse-row matrix of floats per channel, times the light's coefficients, on all cores.
+// Multiplies a compressed-sparse-row float matrix per channel by the light's entries, on all cores.
 class CsrRelighter {
   public:
     CsrRelighter(const SparseTransport& transport, int faceSize);
 
-    // The tuples, channel by channel, but for rounding.
+    // Computes the tuples per channel, equal to relight() up to rounding.
     void relight(const LightVector& light, std::array<Eigen::VectorXf, 3>& tuples) const;
 
   private:

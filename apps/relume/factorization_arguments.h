@@ -1,4 +1,4 @@
-// How a BRDF is factored: options that several subcommands share.
+// The options that say how a BRDF is factored, shared by several subcommands.
 #pragma once
 
 #include "engine/math/disk_map.h"
@@ -11,13 +11,14 @@ namespace relume {
 
 // --terms, --factorization, --map
 struct FactorizationArguments {
-    FactorizationOptions options; // `terms` is the most that are allowed where an error is wanted
+    FactorizationOptions options; // if an error is wanted, `terms` is the upper bound
     DiskMapping mapping = DiskMapping::EqualArea;
 
-    // Help tells of `defaults`; without, what the bake has is kept.
+    // Help shows `defaults`; without them, options not given keep what the bake has.
     void add(CLI::App& command, const std::optional<FactorizationOptions>& defaults);
-    // Fills the above from what was given, else from these; a method without --map brings its own map, and
-    // terms that are to reach an error a method that can say how many do. Throws UsageError.
+    // Fills `options` and `mapping` from the given options, otherwise from the arguments. A method without
+    // --map implies its own mapping; --terms auto:E implies a method whose terms are nested, if none is
+    // given. Throws UsageError.
     void resolve(const FactorizationOptions& otherwise = {}, DiskMapping map = DiskMapping::EqualArea);
 
   private:

@@ -1,4 +1,4 @@
-// How --help looks: options with the words that they take, their defaults beside the text, wrapped.
+// The format of --help: options with their argument names, defaults beside the text, wrapped lines.
 #pragma once
 
 #include <CLI/CLI.hpp>

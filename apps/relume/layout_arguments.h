@@ -1,4 +1,4 @@
-// How transport is kept: options that several subcommands share.
+// The options that say how transport is stored, shared by several subcommands.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -11,10 +11,10 @@ namespace relume {
 
 // --layout, --budget, --error
 struct LayoutArguments {
-    // Without `hasDefaults` nothing has a default but what resolve() is told.
+    // If not `hasDefaults`, help says that options not given keep those of the bake.
     void add(CLI::App& command, bool hasDefaults);
     bool areGiven() const { return mLayout || mBudget || mError; }
-    // What was given, else of these. Throws UsageError.
+    // Returns the given options, and `otherwise` for the others. Throws UsageError.
     LayoutOptions resolve(const LayoutOptions& otherwise = {}) const;
 
   private:
@@ -24,7 +24,7 @@ struct LayoutArguments {
 
 enum class LayoutOrigin { Baked, Converted };
 
-// Says where what was asked for was missed, and why. `bytesPerVertex`: that it takes.
+// Warns if a wanted size or error was missed, and says why. `bytesPerVertex` is the actual size.
 void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex, LayoutOrigin origin);
 
 } // namespace relume

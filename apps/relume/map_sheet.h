@@ -1,4 +1,4 @@
-// Light maps as a picture, for people to look at.
+// Draws light maps as a picture, for inspection.
 #pragma once
 
 #include "engine/image/image.h"
@@ -6,10 +6,10 @@
 
 namespace relume {
 
-// The first eight light maps, four to a row, texels as squares of 4 pixels or more: s to the right, t upwards
-// (polar: the azimuth to the right, the zenith below). Each is scaled by its own largest magnitude; where the
-// sum of the channels is negative, its magnitude is shown in magenta. Display values; dark gray outside the
-// maps' domain.
+// Returns the first eight light maps, four per row, with texels of at least 4 × 4 pixels: s to the right, t
+// upwards (polar maps: azimuth to the right, zenith below). Each map is scaled by its largest magnitude;
+// texels whose channels sum to a negative value show its magnitude in magenta. Display values; dark gray
+// outside the maps' domain.
 Image drawMapSheet(const FactoredBrdf& brdf);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Options that several subcommands share, and what they stand for.
+// Options that several subcommands share, and the values they stand for.
 #pragma once
 
 #include "apps/relume/command_files.h"
@@ -33,7 +33,8 @@ struct CameraArguments {
     int width = 960, height = 720;
 
     void add(CLI::App& command);
-    // `turn` in radians is added to the azimuth (an eye turns about the target's vertical axis).
+    // Returns the camera, with `turn` radians added to the azimuth (with --eye, about the target's vertical
+    // axis).
     Camera camera(const Asset& asset, float turn = 0) const;
 
   private:
@@ -49,17 +50,18 @@ struct LightArguments {
     double seconds = 0;
 
     void add(CLI::App& command);
-    // A single environment and nothing else.
+    // Returns whether the light is a single environment.
     bool isEnvironment() const {
         return mDistant.empty() && mSphere.empty() && mBlend.empty() && mFile.empty() &&
                !isSequence(mEnvironment);
     }
-    // The environment file, or the built-in sky; at full resolution. Only if isEnvironment().
+    // Returns the environment file or the built-in sky at full resolution. Only if isEnvironment().
     Environment environment() const;
-    // All of it, not rotated; with what backgrounds are drawn from, if wanted.
+    // Returns the whole light, not rotated; with what backgrounds are drawn from if `withPictures`.
     MovingLight moving(bool withPictures = false) const;
-    Light light() const { return moving().at(seconds); } // at that moment
-    // Those that the options name; moving().files() are those that a light file or a sequence names.
+    Light light() const { return moving().at(seconds); }
+    // Adds the files that the options name. Those that a light file or a sequence names are in
+    // moving().files().
     void addInputs(CommandFiles& files) const;
 
   private:
@@ -72,8 +74,8 @@ struct LightArguments {
     float mIntensity = 1;
 };
 
-// Returns the light of an environment (.exr, .hdr; empty: the built-in sky) or of a light file (.json) at its
-// beginning; with what backgrounds are drawn from, if wanted.
+// Returns the light of an environment (.exr, .hdr; empty: the built-in sky), or of a light file (.json) at
+// its beginning; with what backgrounds are drawn from if `withPictures`.
 Light stillLight(const std::string& file, bool withPictures);
 
 // -o, --exposure, --tone, --background, --background-blur, --ground-fade
@@ -81,24 +83,25 @@ struct ImageArguments {
     std::filesystem::path output;
 
     void add(CLI::App& command);
-    // Throws UsageError for a name that is neither .exr nor .png, and for what the other options do not go
-    // with; before any work is done.
+    // Throws UsageError, before any work is done, for a name that ends in neither .exr nor .png, and for
+    // options that do not go together.
     void check() const;
 
-    // The light is drawn behind the object, by the caller, who has it out of focus by so many radians.
+    // Returns whether the caller must draw the light behind the object, out of focus by backgroundBlur()
+    // radians.
     bool showsLight() const;
     float backgroundBlur() const { return radians(mBlurDegrees); }
 
-    // The fade of the ground, or none to draw all of it. Throws UsageError if a fade is asked for and the
-    // bake has no ground.
+    // Returns the fade of the ground, or nothing to draw all of it. Throws UsageError if a fade is asked for
+    // but the bake has no ground.
     std::optional<GroundFade> groundFade(const Asset& asset) const;
 
-    // The stops that --exposure says or, if it says none, those that an image without background asks for,
-    // which are logged.
+    // Returns the stops given by --exposure or, with "auto", those chosen for the object in `view`, which are
+    // logged; 0 for .exr.
     float exposureFor(const Image& view) const;
 
     // Writes linear .exr or tone-mapped .png, by the extension of `path`. Radiance is premultiplied by alpha,
-    // and alpha 1 where a background was drawn.
+    // which is 1 where a background was drawn.
     void write(const std::filesystem::path& path, const Image& image, float exposure) const;
 
   private:
@@ -112,12 +115,12 @@ struct ImageArguments {
 
 // --samples
 void addSamples(CLI::App& command, int& samples);
-// Warns where the device draws fewer than were asked for.
+// Warns if the device draws fewer samples than were asked for.
 void tellSamples(int drawn, int wanted, const vk::Device& device);
 
 float radians(float degrees);
 
-// Adds an option whose value is chosen by name. Help and errors list the names.
+// Adds an option whose value is chosen by name; help and errors list the names.
 template <typename Value>
 CLI::Option* addChoice(CLI::App& command, const std::string& option, Value& value,
                        const std::map<std::string, Value>& choices, const std::string& help) {
@@ -129,7 +132,7 @@ CLI::Option* addChoice(CLI::App& command, const std::string& option, Value& valu
         ->check(CLI::IsMember(names));
 }
 
-// Accepts numbers from `low` to `high`; not infinity, not NaN (which CLI::Range lets pass).
+// Accepts finite numbers from `low` to `high` (CLI::Range lets NaN pass).
 CLI::Validator between(float low, float high);
 
 } // namespace relume

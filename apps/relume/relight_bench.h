@@ -1,4 +1,4 @@
-// The same transport and light, relit from every layout on the device and on the CPU, in alternation.
+// Times relighting in every layout on device and CPU, with the same transport and light, in alternation.
 #pragma once
 
 #include "engine/render/light_pass.h"
@@ -13,36 +13,36 @@ namespace relume {
 // One asset's transport in several layouts.
 struct RelightBenchInput {
     const Asset* source = nullptr;                       // in rows, longer than those that are timed
-    std::vector<std::pair<std::string, Asset>> variants; // by name; "rows" among them
+    std::vector<std::pair<std::string, Asset>> variants; // by name; one is called "rows"
 };
 
-// Milliseconds, one value a round.
+// Milliseconds, one value per round.
 struct LayoutSeries {
     std::vector<double> deviceMs; // to record, submit and wait for relighting alone
     std::vector<double> cpuMs;
-    std::vector<double> bytesTouched; // of transport that is read at least, and of tuples
-    std::vector<double> errors;       // of tuples, relative L2 to the source's under the light as given
+    std::vector<double> bytesTouched; // least number of bytes of transport read, plus bytes of tuples
+    std::vector<double> errors; // of tuples, relative L2 to the source's under the light without selection
     // With a small lamp beside the light, after it moved by a degree.
-    std::vector<double> lampMs;                   // in full
-    std::vector<double> incrementalMs;            // by what changed
-    std::map<int, std::vector<double>> msByCount; // by how many of the light's largest coefficients are kept
+    std::vector<double> lampMs;                   // full relighting
+    std::vector<double> incrementalMs;            // incremental relighting
+    std::map<int, std::vector<double>> msByCount; // full relighting by number of largest light entries kept
 };
 
 struct RelightSeries {
     std::map<std::string, LayoutSeries> layouts;
     std::vector<double> csrMs, lightMs;
     std::vector<double> lightCoefficients;
-    std::vector<double> lampCoefficients, lampChanges; // with the lamp: kept, and not as before it moved
+    std::vector<double> lampCoefficients, lampChanges; // with the lamp: entries kept, and changed by it
 };
 
 struct RelightRounds {
-    int count = 9;             // after one that warms up
-    float rotationDegrees = 0; // of the first; each further one turns the light by a degree
+    int count = 9;             // after a warm-up round
+    float rotationDegrees = 0; // of the first round; the light is rotated by a further degree in each
     LightSelection selection;
-    std::vector<int> counts; // of kept light coefficients, to relight from as well
+    std::vector<int> counts; // additional numbers of light entries to relight from
 };
 
-// The lamp is one of 3 degrees that alone would light white to radiance 1.
+// The lamp has a radius of 3 degrees and alone would light white to radiance 1.
 RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& input, const Light& light,
                            const RelightRounds& rounds, bool quiet);
 

@@ -1,4 +1,4 @@
-// What every program does around its work.
+// Runs a program's work with its command line, messages and exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,11 +6,11 @@
 
 namespace relume {
 
-// Words for people go to stderr, after their level; `name` is the program's. Data is stdout's.
+// Sends log messages to stderr, after level and the program's `name`. stdout is for data.
 void logToStderr(const char* name);
 
-// Parses the command line, runs what it calls back, then `work`; what fails becomes words on stderr and an
-// exit code (engine/base/error.h).
+// Parses the command line, runs its callbacks, then `work`. Exceptions become messages on stderr and an exit
+// code (engine/base/error.h).
 int runProgram(CLI::App& program, int argc, char** argv, const std::function<void()>& work);
 
 } // namespace relume

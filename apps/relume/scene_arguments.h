@@ -1,4 +1,4 @@
-// What to bake and how: the options of `relume bake`, shared with `relume bench`.
+// The options of `relume bake` that say what to bake and how, shared with `relume bench`.
 #pragma once
 
 #include "apps/relume/factorization_arguments.h"
@@ -14,7 +14,7 @@
 
 namespace relume {
 
-// Of one material or several, as options name them: the text that readMaterials() takes.
+// Returns one or several materials, as options name them, as text for readMaterials().
 std::string joinMaterials(const std::vector<std::string>& materials, bool separate);
 
 // MESH|SCENE.json, --material, --separate, --up, --ground…
@@ -23,22 +23,22 @@ struct SceneArguments {
     bool ground = false;
 
     void add(CLI::App& command);
-    // Throws UsageError for options that the input cannot obey, Error for bad files. `isRefined`: a ground
-    // whose tessellation is not given starts coarse.
+    // Throws UsageError for options that do not apply to the input, and Error for bad files. `isRefined`: a
+    // ground without given tessellation starts coarse.
     Scene load(bool isRefined) const;
 
   private:
     void checkMaterials(const Scene& scene) const;
-    // None: the mesh's own.
+    // Returns none for the mesh's own materials.
     std::optional<std::string> chosenMaterial() const;
 
-    std::vector<std::string> mMaterials; // none: the mesh's own, else kDefaultMaterial
+    std::vector<std::string> mMaterials; // empty: the mesh's own, or kDefaultMaterial
     bool mSeparate = false;
     CLI::Option* mMaterialOption = nullptr;
     CLI::Option* mUpOption = nullptr;
     CLI::Option* mBrushOption = nullptr;
     float mBrushRotation = 0;
-    std::vector<CLI::Option*> mGroundDetails; // mean nothing without --ground
+    std::vector<CLI::Option*> mGroundDetails; // need --ground
     CLI::Option* mTessellationOption = nullptr;
     std::string mUp = "y";
     std::string mGroundMaterial = "white-diffuse";
@@ -49,13 +49,13 @@ struct SceneArguments {
 struct BakeArguments {
     BakeOptions options; // after resolve()
 
-    // `takesLayout`: without, all is kept in rows, of direct light alone.
+    // Without `takesLayout`, transport is in rows, of direct light only.
     void add(CLI::App& command, bool takesLayout = true);
-    // Fills what needs parsing and validates. Throws UsageError.
+    // Parses and validates all options. Throws UsageError.
     void resolve();
 
   private:
-    // None: the preset's.
+    // None: as in the preset.
     FactorizationArguments mFactorization;
     LayoutArguments mLayout;
     std::optional<int> mCoefficients, mMapSize, mFaceSize, mVisibilitySize, mTransportSamples, mBounces;
@@ -64,13 +64,13 @@ struct BakeArguments {
     bool mTakesLayout = true;
 };
 
-// --bounces; `standard` is what the help says for none.
+// --bounces; `standard` is the default that help shows.
 void addBounces(CLI::App& command, std::optional<int>& bounces, const std::string& standard);
 
 // --preset
 void addPreset(CLI::App& command, BakePreset& preset, const std::string& help);
 
-// Bakes in memory with progress on stderr.
+// Bakes in memory, with progress on stderr.
 Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions& options, bool quiet,
                        BakeTimes& times);
 

@@ -1,5 +1,4 @@
-// --threshold, --coefficients, --area-weighted and --no-area-weighted: which coefficients of the light are
-// kept.
+// --threshold, --coefficients, --area-weighted and --no-area-weighted: the selection of light entries.
 #pragma once
 
 #include "engine/light/light_selection.h"

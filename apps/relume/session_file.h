@@ -1,4 +1,4 @@
-// Sessions that the viewer saves: docs/session_format.md.
+// Reads sessions saved by the viewer (docs/session_format.md).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,8 +7,8 @@
 
 namespace relume {
 
-// Gives options of `command` the values that a session file has for them, unless they, or options that they
-// exclude, were given beside it. Throws Error that names file and key.
+// Sets options of `command` from a session file, unless they, or options that exclude them, were given as
+// well. Throws Error naming file and key.
 void applySession(const std::filesystem::path& file, CLI::App& command);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// The light that errors are studied under, as options name it.
+// The light for error studies, from options.
 #pragma once
 
 #include "apps/relume/options.h"
@@ -12,8 +12,8 @@ struct StudiedLightArguments {
     SelectionArguments selection;
 
     void add(CLI::App& command);
-    // At the moment that the options name; a single environment's fine cube has all of its
-    // resolution that 6 × kTruthFaceSize² texels can hold. Throws Error for light that is black.
+    // Returns the light at the time given by the options. The fine cube of a single environment has as much
+    // of its resolution as 6 × kTruthFaceSize² texels can hold. Throws Error for a black light.
     StudiedLight studied() const;
 
   private:

@@ -1,5 +1,4 @@
-// A bake beside the window: `relume bake`, in a process of its own, so that neither its work nor its failure
-// is the window's.
+// Runs `relume bake` in a process of its own, so that its work and its failures do not affect the window.
 #pragma once
 
 #include <filesystem>
@@ -9,37 +8,37 @@
 
 namespace relume {
 
-// What can be told of a bake in hand.
+// The progress of a running bake.
 struct BakeProgress {
     std::string stage;
     double fraction = 0;
-    double secondsLeft = -1; // below 0: not known yet
+    double secondsLeft = -1; // negative: unknown
 
     bool operator==(const BakeProgress&) const = default;
 };
 
 class BakeProcess {
   public:
-    // Begins a bake of `input` to `output`, previews first. `options` are
-    // `relume bake`'s. Throws Error when the program `relume` is not beside this one.
+    // Starts a bake of `input` to `output`, with previews. `options` are passed to `relume bake`. Throws
+    // Error if the program `relume` is not beside this one.
     BakeProcess(const std::filesystem::path& input, const std::filesystem::path& output,
                 const std::vector<std::string>& options);
-    // Stops it, and waits for that; what it baked is kept for the next time.
+    // Stops the bake and waits for its end; its checkpoint remains.
     ~BakeProcess();
     BakeProcess(const BakeProcess&) = delete;
     BakeProcess& operator=(const BakeProcess&) = delete;
 
-    // Reads what the bake has said since; never waits. True: the output is there anew.
+    // Reads the bake's output without waiting. Returns true if `output` was written.
     bool poll();
 
-    // Asks it to end; what it baked is kept. It still runs until a poll() after that finds it ended.
+    // Asks the bake to end; its checkpoint remains. It counts as running until a poll() finds that it ended.
     void stop();
 
     const std::filesystem::path& input() const { return mInput; }
     const std::filesystem::path& output() const { return mOutput; }
     const BakeProgress& progress() const { return mProgress; }
     bool isRunning() const { return mProcess > 0; }
-    // Why it failed; empty if it did not.
+    // Returns why the bake failed; empty if it did not.
     const std::string& failure() const { return mFailure; }
 
   private:
@@ -48,7 +47,7 @@ class BakeProcess {
 
     std::filesystem::path mInput, mOutput;
     pid_t mProcess = -1;
-    int mEvents = -1, mWords = -1; // its standard output, and error
+    int mEvents = -1, mWords = -1; // its standard output and standard error
     std::string mPartialEvent, mSaid;
     BakeProgress mProgress;
     std::string mFailure;

@@ -1,4 +1,4 @@
-// The reference image of what is shown, found beside the frames and better with every pass.
+// Renders the reference image of the current view in the background, improving with every pass.
 #pragma once
 
 #include "apps/viewer/model.h"
@@ -10,51 +10,52 @@
 
 namespace relume {
 
+// Renders references on a thread of its own, one view at a time.
 class Comparison {
   public:
-    // A view, and what it was relit to.
+    // A view and its relit image.
     struct View {
         std::shared_ptr<const Model> model;
         Camera camera;
         LightCube light;
         Appearance appearance;
         Image relit;
-        int samples = 1; // of its pixels
+        int samples = 1; // per pixel
     };
-    // What is known of it so far.
+    // The state of the reference.
     struct Result {
         int passes = 0;
         Image reference;
         std::optional<ReferenceError> error; // of the relit image
-        std::string failure;                 // why there is none; mostly empty
+        std::string failure;                 // why there is no reference; empty if there is
     };
 
-    // `wake` is called from another thread when a result is there.
+    // `wake` is called from another thread when there is a result.
     explicit Comparison(std::function<void()> wake);
     ~Comparison();
     Comparison(const Comparison&) = delete;
     Comparison& operator=(const Comparison&) = delete;
 
-    // Begins with another view.
+    // Starts on another view.
     void begin(View view);
-    // Nothing is to be found any more; results of before are dropped, and the model is let go.
+    // Stops rendering, drops earlier results and releases the model.
     void stop();
-    // The newest result since the last call; none: nothing new.
+    // Returns the newest result since the last call, if any.
     std::optional<Result> take();
-    // So many passes are the end.
+    // The number of passes after which rendering ends.
     static constexpr int kPasses = 1024;
 
   private:
     void run(std::stop_token stop);
     void publish(Result result, const std::stop_token& stop);
-    // One view, until another is wanted. Throws Error.
+    // Renders one view until another is wanted. Throws Error.
     void work(const View& view, ProgressiveReference& reference, std::stop_token stop);
 
     std::function<void()> mWake;
     std::mutex mMutex;
     std::condition_variable_any mChanged;
     std::optional<View> mWanted;
-    std::stop_source mPass; // of the view in hand
+    std::stop_source mPass; // of the current view
     std::optional<Result> mResult;
     std::jthread mThread; // last: it uses all of the above
 };

@@ -1,5 +1,5 @@
-// What is opened: bakes on the device, environments, a light file; and what reads and bakes beside the
-// frames.
+// What is open in the viewer: bakes on the device, environments, a light file. Reads and bakes files in the
+// background.
 #pragma once
 
 #include "apps/viewer/bake_process.h"
@@ -12,37 +12,37 @@
 
 namespace relume {
 
-// Something under way, for people.
+// Background work, as shown to the user.
 struct Task {
-    std::string title;                      // empty: nothing
-    double fraction = -1, secondsLeft = -1; // below 0: not to be told
+    std::string title;                      // empty: none
+    double fraction = -1, secondsLeft = -1; // negative: not shown
     bool canCancel = false;
 };
 
-// All of it belongs to the thread that draws.
+// To be used only from the thread that draws.
 class Content {
   public:
     using Tell = std::function<void(const std::string& words, bool isFailure)>;
 
-    // `device` and `light`, whose environments and file this fills, must outlive it. `wake` is called from
-    // another thread when something is there.
+    // Keeps references to `device` and `light`, whose environments and file it fills; both must outlive it.
+    // `wake` is called from another thread when a result is ready.
     Content(const vk::Device& device, const std::string& deviceSelect, LightState& light, Tell tell,
             std::function<void()> wake);
 
-    // Begins to read it, or to bake it; it is shown when it is there. A bake in hand goes on after it. Throws
-    // Error for a file of no known kind.
+    // Starts reading or baking a file, which is shown once it is ready. A running bake continues after it.
+    // Throws Error for a file of unknown kind.
     void open(const std::filesystem::path& file);
     void openBuiltIn();
 
-    // Takes in what is there since. True: something else is to be shown.
+    // Takes in results of background work. Returns true if a frame must be drawn.
     bool poll();
 
-    // The one in hand; what it baked is kept.
+    // Cancels the running bake; its checkpoint remains.
     void cancelBake();
-    // Reads all models anew, the shown one first.
+    // Reads all models again, starting with the one shown.
     void reload();
 
-    // The bakes that are open; `shown` among them, null before the first.
+    // The open bakes, and the one that is shown; null before the first.
     const std::vector<std::shared_ptr<Model>>& models() const { return mModels; }
     const std::shared_ptr<Model>& shown() const { return mShown; }
     void show(size_t model) { mShown = mModels.at(model); }
@@ -50,14 +50,14 @@ class Content {
 
     Task task() const;
     bool isBaking() const { return mBake && mBake->isRunning(); }
-    // Nothing is read or baked, and the newest of it is there.
+    // Returns whether nothing is being read or baked, and the newest results are in use.
     bool isSettled() const { return mWorker.isIdle() && !mBake && mNextBakes.empty(); }
 
-    // Files that were opened, the newest first.
+    // The files that were opened, newest first.
     void remember(const std::filesystem::path& file);
     const std::vector<std::filesystem::path>& recent() const { return mRecent; }
     void setRecent(std::vector<std::filesystem::path> files) { mRecent = std::move(files); }
-    // Returns the mesh or scene that a bake was made of in view; empty: none was.
+    // Returns the mesh or scene from which the viewer baked a file; empty if it did not.
     std::filesystem::path inputOf(const std::filesystem::path& bake) const;
 
   private:
@@ -70,11 +70,11 @@ class Content {
     void load(const std::filesystem::path& bake, OnError onError);
     void load(const std::filesystem::path& bake);
     void beginBake(const Bake& bake);
-    // Shows the scene unshadowed until its bake has a preview.
+    // Shows the scene unshadowed until there is a preview of its bake.
     void sketch(const Bake& bake);
     void take(std::shared_ptr<Model> model);
     std::vector<std::shared_ptr<Model>>::iterator find(const std::filesystem::path& file);
-    // Shows a bake that is open; else nothing changes.
+    // Shows a bake if it is open.
     void showOpen(const std::filesystem::path& file);
     void openLight(const std::filesystem::path& file);
     void readEnvironment(size_t number);
@@ -88,13 +88,13 @@ class Content {
     std::vector<std::shared_ptr<Model>> mModels;
     std::shared_ptr<Model> mShown;
     std::unique_ptr<BakeProcess> mBake;
-    std::vector<std::unique_ptr<BakeProcess>> mStopping; // bakes that were asked to end
-    std::deque<Bake> mNextBakes;                         // once they have, one after the other
-    bool mMustReload = false;                            // the bake in hand has written since it was read
+    std::vector<std::unique_ptr<BakeProcess>> mStopping; // asked to end
+    std::deque<Bake> mNextBakes;                         // wait for those to end, then run one by one
+    bool mMustReload = false; // the running bake has written its file since that was read
     bool mHasChanged = false;
     std::vector<std::filesystem::path> mRecent;
-    std::map<std::filesystem::path, std::filesystem::path> mInputs; // of bakes
-    std::filesystem::path mBuiltIn;                                 // empty: it was not asked for
+    std::map<std::filesystem::path, std::filesystem::path> mInputs; // per bake
+    std::filesystem::path mBuiltIn;                                 // empty: not opened
     Worker mWorker;                                                 // last: its work uses all of the above
 };
 

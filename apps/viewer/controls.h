@@ -1,4 +1,4 @@
-// What hands do, as changes of what is looked at.
+// Translates input into changes of the scene's state, and commands.
 #pragma once
 
 #include "apps/viewer/scene_state.h"
@@ -8,11 +8,11 @@
 
 namespace relume {
 
-// What a control asks for beyond changes of the state.
+// Requests by controls other than changes of state.
 enum class Command {
     None,
-    Focus, // on what is under the cursor
-    Why,   // explain what is under the cursor
+    Focus, // the point under the cursor
+    Why,   // explain the vertex under the cursor
     Pick,  // the part under the cursor
     Undo,
     Redo,
@@ -30,7 +30,7 @@ enum class Command {
     Quit
 };
 
-// A key, and what it does, as the help shows it.
+// Keys and what they do, for the help.
 struct KeyHelp {
     const char *keys, *action;
 };
@@ -38,7 +38,7 @@ std::vector<KeyHelp> keyHelp();
 
 class Controls {
   public:
-    // One input, in a window of this size. `model`: what is looked at, if there is anything; its bounds.
+    // Handles one input in a window of this size. `model` is the bounds of the model shown, null if none is.
     Command take(const InputEvent& event, SceneState& state, ivec2 size, const Bounds* model);
 
     bool isDragging() const { return mHeld >= 0; }
@@ -49,17 +49,17 @@ class Controls {
     void takeMove(vec2 place, SceneState& state, ivec2 size);
     Command takeKey(const InputEvent& event, SceneState& state);
 
-    int mHeld = -1, mModifiers = 0; // the button of a drag, and what was held with it
-    bool mDragsSplit = false;       // the line between two images
-    vec2 mPressed{-1e6f};           // where the left button went down, until it moves from there
+    int mHeld = -1, mModifiers = 0; // button of a drag, and modifiers held when it began
+    bool mDragsSplit = false;       // the drag moves the line between two images
+    vec2 mPressed{-1e6f};           // where the left button went down, until the cursor leaves that place
     vec2 mCursor{0};
-    vec2 mLastClick{-1e6f}; // where the left button was pressed last, and when
+    vec2 mLastClick{-1e6f}; // place of the last left click, and its time below
     double mLastClickTime = 0;
     struct KeptView {
         std::optional<Orbit> orbit;
         float fovDegrees = 0;
     };
-    std::array<KeptView, 9> mViews; // of number keys
+    std::array<KeptView, 9> mViews; // views stored on number keys
 };
 
 } // namespace relume

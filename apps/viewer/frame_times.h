@@ -1,4 +1,4 @@
-// What the last frames spent their time on.
+// Statistics of the times of recent frames.
 #pragma once
 
 #include "engine/vk/commands.h"
@@ -12,20 +12,20 @@ class FrameTimes {
   public:
     static constexpr size_t kFrames = 120;
 
-    // A frame that took `seconds` from its input to its image, and passes of it.
+    // Adds a frame that took `seconds` from its input to its image, and the times of its passes.
     void add(double seconds, const vk::PassTimes& passes);
 
-    // Milliseconds of the last frames, the newest last.
+    // Returns the times of the last frames, newest last.
     std::vector<float> milliseconds() const;
-    // Of every pass that some frame had, the newest.
+    // The newest time of every pass that any frame had.
     struct Pass {
         std::string name;
         double seconds;
-        uint64_t frame; // that had it; isOfLastFrame()
+        uint64_t frame; // that had it last
     };
     const std::vector<Pass>& passes() const { return mPasses; }
     bool isOfLastFrame(const Pass& pass) const { return pass.frame == mCount; }
-    // If frames followed each other: by those of the last second of drawing.
+    // Returns the rate at which frames could follow each other, from the last second of drawing.
     double framesPerSecond() const;
 
   private:

@@ -1,4 +1,4 @@
-// What the program remembers from one time to the next: viewer.json in the user's state folder.
+// What the program remembers between runs: viewer.json in the user's state folder.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -12,15 +12,15 @@ namespace relume {
 
 struct Habits {
     std::optional<ivec2> size;                       // of the window
-    std::vector<std::filesystem::path> recent;       // files that were opened, the newest first
-    std::vector<std::filesystem::path> environments; // to choose from
+    std::vector<std::filesystem::path> recent;       // that were opened, newest first
+    std::vector<std::filesystem::path> environments; // that can be chosen
     nlohmann::json settings = nlohmann::json::object();
 };
 
-// What there is of it: what is missing or makes no sense is left out.
+// Returns what was remembered, without missing or invalid values.
 Habits readHabits();
 
-// Fails with a warning.
+// Saves it; failure is logged as a warning.
 void writeHabits(const Habits& habits);
 
 } // namespace relume

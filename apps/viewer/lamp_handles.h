@@ -1,4 +1,4 @@
-// Lamps as handles on a sphere around the object, to be dragged in the view.
+// Lamps as draggable handles on a sphere around the object.
 #pragma once
 
 #include "apps/viewer/scene_state.h"
@@ -8,20 +8,21 @@ namespace relume {
 
 class LampHandles {
   public:
-    // One input; `camera` is what the window of this size shows. True: it was for a handle, nobody else's.
+    // Handles one input; `camera` is the view of the window of this size. Returns true if the input was for a
+    // handle.
     bool take(const InputEvent& event, LightState& light, const Camera& camera, const Bounds& model,
               ivec2 size);
     bool isDragging() const { return mHeld.has_value(); }
 
-    // Between Ui::begin() and end(), behind all panels.
+    // Draws the handles behind all panels, between Ui::begin() and end().
     void draw(const LightState& light, const Camera& camera, const Bounds& model, ivec2 size) const;
 
   private:
     void drag(LampChoice& lamp, float rotation, const Camera& camera, const Bounds& model, ivec2 size);
 
-    std::optional<size_t> mHeld; // the lamp in hand
-    bool mIsBehind = false;      // it is on the sphere's far side
-    bool mIsOff = false;         // the cursor is beside the sphere
+    std::optional<size_t> mHeld; // the lamp being dragged
+    bool mIsBehind = false;      // on the far side of the sphere
+    bool mIsOff = false;         // the cursor is outside the sphere
     vec2 mCursor{0};
 };
 

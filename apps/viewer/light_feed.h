@@ -1,4 +1,4 @@
-// The light of a light file at some moment, found beside the frames: it may have to read images.
+// Evaluates a moving light file in the background, since it may have to read images.
 #pragma once
 
 #include "apps/viewer/worker.h"
@@ -11,19 +11,20 @@ namespace relume {
 class LightFeed {
   public:
     using OnError = std::function<void(const std::string&)>;
-    // `wake` as Worker's. `onError` is called on the thread that draws.
+    // `wake` is as for Worker. `onError` is called on the thread that draws.
     LightFeed(std::function<void()> wake, OnError onError);
 
-    // What is wanted. Something older may be there until it is found.
+    // Requests the light at a time. light() may be older until it is ready.
     void want(const std::shared_ptr<MovingLight>& file, double seconds);
-    // True: there is something newer than at the last call.
+    // Returns true if there is a newer light than at the last call.
     bool poll();
 
-    // Of the file that was wanted last; null: nothing yet. Another pointer for another light.
+    // Returns the light of the file requested last, or null if there is none yet. Every light has its own
+    // pointer.
     const std::shared_ptr<const Light>& light() const { return mLight; }
-    // Of that light.
+    // Returns the time of that light.
     double seconds() const { return mThere.seconds; }
-    // What was wanted last is there, or cannot be.
+    // Returns whether the light requested last is there, or failed.
     bool isNewest() const { return mWanted == mThere; }
 
   private:

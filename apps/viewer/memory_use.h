@@ -1,12 +1,12 @@
-// How much memory the program uses.
+// Measures how much memory the program uses.
 #pragma once
 
 #include <cstdint>
 
 namespace relume {
 
-// Bytes of main memory that it has at the moment (on software devices: with all that is "on the device"); 0
-// where the system does not say.
+// Returns the bytes of main memory in use (with software devices, including what is "on the device"), or 0 if
+// the system does not tell.
 uint64_t memoryInUse();
 
 } // namespace relume

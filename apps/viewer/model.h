@@ -1,4 +1,4 @@
-// A bake on the device, ready to be drawn, and on the host, ready to be asked.
+// A bake, on the device to be drawn and on the host to be queried.
 #pragma once
 
 #include "engine/render/view_pass.h"
@@ -10,9 +10,9 @@
 namespace relume {
 
 struct Model {
-    // Reads and uploads; takes a while. Throws Error.
+    // Reads and uploads a bake, which takes a while. Throws Error.
     Model(const vk::Device& device, const std::filesystem::path& path);
-    // Of a sketch (precompute/bake/sketch.h): what the bake at this path will be, unshadowed.
+    // Takes a sketch (precompute/bake/sketch.h), to be shown unshadowed until there is a bake at `path`.
     Model(const vk::Device& device, const std::filesystem::path& path, Asset sketch);
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
@@ -27,19 +27,20 @@ struct Model {
     Relighter relighter;
     ViewPass view;
     RayTracer surfaces;     // one mesh per part
-    CpuVisibility occluder; // what cast the shadows of the bake
+    CpuVisibility occluder; // the mesh that casts shadows in the bake
 
   private:
     Model(const vk::Device& device, const std::filesystem::path& path, Asset asset, bool isSketch);
 };
 
-// The largest K of its parts' first sets.
+// Returns the largest K of the parts' first sets.
 int termsOf(const Model& model);
 
-// What a pixel's ray meets, the pixel given from the upper left of an image of this size; none: nothing.
+// Returns the hit of the ray through a pixel, given from the upper left of an image of this size; none if it
+// misses.
 std::optional<RayHit> pick(const Model& model, const Camera& camera, vec2 pixel, ivec2 size);
 
-// Where that is.
+// Returns the position of a hit.
 vec3 positionOf(const Model& model, const RayHit& hit);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// What files are that someone opens, and where what is baked of them is kept.
+// Recognizes the kind of files that a user opens, and names the files of their bakes.
 #pragma once
 
 #include <filesystem>
@@ -6,24 +6,26 @@
 
 namespace relume {
 
+// The kinds of files that can be opened; Bakeable ones are meshes and scenes.
 enum class FileKind { Bake, Bakeable, Environment, Light, Session };
 
-// In small letters: ".obj".
+// Returns the extension in lower case: ".obj".
 std::string extensionOf(const std::filesystem::path& file);
 
-// Returns the absolute path, by which files are told apart.
+// Returns the absolute path, by which files are compared.
 std::filesystem::path wholePath(const std::filesystem::path& file);
 
-// By its name; of a .json by whether it has "parts", as scenes do, or "session". Throws Error for other
-// files.
+// Returns the kind by the file's name; of a .json by its content: "parts" for scenes, "session" for sessions.
+// Throws Error for other files.
 FileKind kindOf(const std::filesystem::path& file);
 
-// Returns the scene that is shown for want of another, which it puts into the user's cache. Throws Error.
+// Writes the scene that is shown when no file is given, into the user's cache; returns its path. Throws
+// Error.
 std::filesystem::path writeBuiltInScene();
-constexpr const char* kBuiltInScene = "built-in scene"; // the name of that file, and of what is baked of it
+constexpr const char* kBuiltInScene = "built-in scene"; // name of that file and of its bake
 
-// The bake of a mesh or scene file, as it and the files that a scene names are now, in the user's cache.
-// Makes the folder. Throws Error.
+// Returns the path, in the user's cache, of the bake of a mesh or scene file. It depends on the path and
+// modification time of the file, and of the files that a scene names. Makes the folder. Throws Error.
 std::filesystem::path bakePath(const std::filesystem::path& input);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// The camera as a hand moves it.
+// The camera as the user moves it.
 #pragma once
 
 #include "engine/scene/camera.h"
@@ -7,7 +7,8 @@
 
 namespace relume {
 
-// About a target, at a distance from it. Angles in radians, azimuth and elevation as orbitCamera() has them.
+// A camera at a distance from its target. Angles are in radians; azimuth and elevation are as for
+// orbitCamera().
 struct Orbit {
     vec3 target{0};
     float azimuth = 0, elevation = 0, distance = 1;
@@ -17,21 +18,22 @@ struct Orbit {
 
     Camera camera() const;
 
-    // By a drag of so many pixels, in an image of this height: the point under the hand follows it.
+    // Moves the camera for a drag in an image of this height, so that the point under the cursor follows it.
     void turn(vec2 pixels, float height);
     void pan(vec2 pixels, float height);
-    // Nearer by so many steps of the wheel, so that what is under the cursor stays there; `cursor` in [-1,
-    // 1], from the image's middle, y down.
+    // Moves nearer by `steps` of the wheel, keeping what is under the cursor in place. `cursor` is in [-1, 1]
+    // from the image's center, y down.
     void zoom(float steps, vec2 cursor, float aspect, float radius);
 };
 
-// Where a point is seen in an image of this size, in pixels from the upper left; none: behind the eye.
+// Returns where a point appears in an image of this size, in pixels from the upper left; none if it is behind
+// the eye.
 std::optional<vec2> pixelOf(vec3 point, const Camera& camera, ivec2 size);
 
-// What a camera shows.
+// Returns the orbit of a camera.
 Orbit orbitOf(const Camera& camera);
 
-// What defaultCamera() shows.
+// Returns the orbit of defaultCamera().
 Orbit defaultOrbit(const Bounds& bounds, float verticalFov, float aspect);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// What is written of a session: screenshots, recordings, timing captures.
+// Writes screenshots, recordings and timing captures.
 #pragma once
 
 #include "apps/viewer/model.h"
@@ -9,7 +9,7 @@
 
 namespace relume {
 
-// "relume-", the time to the millisecond, and this: a name in the folder that the program was started in.
+// Returns "relume-", the time to the millisecond, and `ending`: a name in the working folder.
 std::string outputName(const std::string& ending);
 
 // Writes a light file or session. Throws Error.
@@ -18,36 +18,36 @@ void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_js
 class Outputs {
   public:
     using Tell = std::function<void(const std::string& words, bool isFailure)>;
-    // `commands` draw the frames. Both must outlive this. `wake` as Worker's.
+    // Keeps references to `device` and `commands`, which draw the frames. `wake`: see Worker.
     Outputs(const vk::Device& device, vk::Commands& commands, Tell tell, std::function<void()> wake);
 
-    // Of the next frame: .exr of the view, linear; else .png of the window.
+    // Saves the next frame: the view's linear radiance for .exr, otherwise the window as .png.
     void wantScreenshot(const std::filesystem::path& file) { mScreenshots.push_back(file); }
 
-    // The next frame will be written to a file.
+    // Returns whether the next frame will be written to a file.
     bool wantsFrame() const { return !mScreenshots.empty() || mRecorder; }
 
-    // Every frame from now on, in a folder of its own; where ffmpeg is found, a video is made of them
-    // afterwards. Throws Error.
+    // Records every frame from now on to a new folder; endRecording() makes a video of them where ffmpeg is
+    // found. Throws Error.
     void beginRecording();
     void endRecording();
-    // Tells what has become of videos, which are made beside the frames.
+    // Reports videos that have been finished on another thread.
     void poll() { mWorker.apply(); }
     bool isSettled() const { return mWorker.isIdle(); }
     bool isRecording() const { return mRecorder != nullptr; }
 
-    // What frames spend their time on. Throws Error.
+    // Captures the times of frames' passes. Throws Error.
     void beginCapture(const std::filesystem::path& file);
     void endCapture();
-    // Null: none is under way.
+    // Returns the running capture, or null.
     vk::TimingCapture* capture() { return mCapture ? &*mCapture : nullptr; }
     bool isCapturing() const { return mCapture.has_value(); }
 
-    // Copies the window's image, in COLOR_ATTACHMENT_OPTIMAL, if it is wanted; then it is in
-    // TRANSFER_SRC_OPTIMAL, and save() is due once this has ended.
+    // Copies the window's image, in COLOR_ATTACHMENT_OPTIMAL, if a file is wanted of it. Returns true if so:
+    // the image is then in TRANSFER_SRC_OPTIMAL, and save() must be called after the submission.
     bool record(const vk::Image& window);
-    // Writes it all; `model` is what the view shows, null: nothing yet; `fadesGround`:
-    // SceneView::fadesGround(). Throws Error for what cannot be written, after the rest was.
+    // Writes all wanted files. `model` is the one in the view, null before the first; `fadesGround` is from
+    // SceneView::fadesGround(). Throws Error for files that cannot be written, after writing the others.
     void save(const SceneState& state, const Model* model, bool fadesGround);
 
   private:
@@ -61,7 +61,7 @@ class Outputs {
     std::filesystem::path mCaptureFile;
     std::unique_ptr<Recorder> mRecorder;
     std::vector<std::filesystem::path> mScreenshots;
-    vk::Buffer mScreen; // the window's image
+    vk::Buffer mScreen; // of the window's image
     vk::ImageOptions mWindow;
     Worker mWorker; // makes videos
 };

@@ -1,4 +1,4 @@
-// What all panels are written with.
+// The building blocks of panels.
 #pragma once
 
 #include <cmath>
@@ -10,18 +10,18 @@
 
 namespace relume {
 
-// Sizes are in lines of text, so that all of it grows with the font.
+// Returns the height of a line of text, the unit of all sizes, which scale with the font.
 inline float line() { return ImGui::GetFontSize(); }
 
-// A tooltip of the item before.
+// Adds a tooltip to the preceding item.
 inline void explain(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
 inline void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
 
-// A slider that takes no number beyond its ends, and nothing that is none, also where one is typed. True: it
-// was moved.
+// Draws a slider that accepts only finite values within its range, also when they are typed. Returns true if
+// it changed.
 inline bool slider(const char* label, float& value, float low, float high, const char* format,
                    ImGuiSliderFlags flags = 0) {
     float changed = value;
@@ -36,12 +36,12 @@ inline bool slider(const char* label, int& value, int low, int high, const char*
     return ImGui::SliderInt(label, &value, low, high, format, flags | ImGuiSliderFlags_AlwaysClamp);
 }
 
-// A button that asks where to save; returns the file once that is confirmed. `proposed` is the name it begins
-// with.
+// Draws a button that asks for a file name, which is `proposed` at first. Returns the file once the user
+// confirms it.
 std::optional<std::filesystem::path> saveButton(const char* label, const char* explanation,
                                                 const std::string& proposed);
 
-// Buttons of which one is pressed, side by side.
+// Draws radio buttons side by side.
 template <typename Choice, size_t kCount>
 void chooseOne(const char* const (&names)[kCount], Choice& chosen) {
     for (size_t i = 0; i < kCount; i++) {

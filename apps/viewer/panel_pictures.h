@@ -1,4 +1,4 @@
-// The pictures of panels, kept as what they show changes.
+// The pictures in panels, updated when what they show changes.
 #pragma once
 
 #include "apps/viewer/panels.h"
@@ -10,23 +10,23 @@ namespace relume {
 
 class PanelPictures {
   public:
-    // `wake` as Worker's.
+    // Keeps a reference to `pictures`. `wake` is as for Worker.
     PanelPictures(Pictures& pictures, std::function<void()> wake);
 
-    // Takes in what was painted beside the frames. True: a frame is to be drawn.
+    // Takes in pictures made in the background. Returns true if a frame must be drawn.
     bool poll();
 
-    // After a frame, of a view that is there: what panels show of its light, if it is still or some time has
-    // passed, and thumbnails and swatches of what has come.
+    // Updates pictures after a frame: those of the light if it is still or some time has passed, and new
+    // thumbnails and swatches.
     void update(const SceneState& state, const std::shared_ptr<Model>& model, const SceneView& view);
 
-    // Asks why this vertex of the model has its color; the answer follows light, eye and material.
+    // Explains the color of this vertex of the model; the answer is updated with light, eye and material.
     void ask(const Model& model, size_t part, uint32_t vertex) {
         mAsked = Asked{model.file, part, vertex, 0};
     }
     void stopAsking();
 
-    // Their places, and the answer.
+    // Fills in the places of all pictures, and the answer.
     void describe(PanelFacts& facts) const;
     bool isSettled() const { return mWorker.isIdle(); }
 
@@ -35,9 +35,9 @@ class PanelPictures {
         std::filesystem::path model;
         size_t part = 0;
         uint32_t vertex = 0;
-        uint64_t version = 0; // of the view that was asked about
+        uint64_t version = 0; // of the view for which it was answered
     };
-    // What the light's pictures are of.
+    // What the pictures of the light show.
     struct ShownLight {
         uint64_t version = 0;
         bool showsVector = false;
@@ -51,9 +51,9 @@ class PanelPictures {
     void updateWhy(const SceneState& state, const std::shared_ptr<Model>& model, const SceneView& view);
 
     Pictures& mPictures;
-    std::vector<std::optional<Picture>> mEnvironments; // none: not tried yet
+    std::vector<std::optional<Picture>> mEnvironments; // none: not made yet
     std::map<std::string, Picture> mSwatches;          // by description
-    std::map<std::string, std::string> mDescriptions;  // of the model's materials, by name
+    std::map<std::string, std::string> mDescriptions;  // by name: descriptions of the model's materials
     std::weak_ptr<const Model> mDescribed;
     Picture mLightMap, mLightGiven, mLightKept, mVisibility, mTransport, mContributions;
     ShownLight mShownLight;

@@ -1,4 +1,4 @@
-// What is written over the view: panels, times, help, what is under way.
+// Everything drawn over the view: panels, times, help, background work.
 #pragma once
 
 #include "apps/viewer/content.h"
@@ -13,44 +13,44 @@ namespace relume {
 // Parts with the same materials.
 struct PartMaterials {
     std::vector<size_t> parts;
-    std::string title;                          // the parts' names
+    std::string title;                          // names of the parts
     std::vector<std::vector<std::string>> sets; // names; materials of one set can be blended
 };
 
-// What panels show beside the state they change.
+// What panels show besides the state that they change.
 struct PanelFacts {
     const Content* content = nullptr;
     const FrameTimes* times = nullptr;
     const Pictures* pictures = nullptr;
     std::vector<PartMaterials> materials;
     std::map<std::string, Picture> swatches; // by material
-    std::vector<Picture> environments;       // by choice; of no size: not there yet
-    Picture lightMap, lightGiven, lightKept; // of the light as it was recorded last
+    std::vector<Picture> environments;       // by choice; empty: not there yet
+    Picture lightMap, lightGiven, lightKept; // of the light recorded last
     std::optional<LightStats> light;
     std::string device;
-    uint64_t memory = 0; // bytes of the program
-    // Of the reference: passes so far, and the relit image's error.
+    uint64_t memory = 0; // that the program uses, in bytes
+    // Of the reference: number of passes, and the relit image's error.
     int passes = 0;
     std::optional<ReferenceError> error;
     const Why* why = nullptr;
-    Picture visibility, transport, contributions; // of it
+    Picture visibility, transport, contributions; // pictures of `why`
     bool isCapturing = false, isRecording = false;
-    std::string notice; // what just happened
+    std::string notice; // the latest message
     bool isFailure = false;
 };
 
-// What was pressed.
+// What the user asked for in the panels.
 struct PanelWishes {
     bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, togglesRecording = false,
          resetsView = false, dismissesNotice = false, reloadsShaders = false, undoes = false, redoes = false;
     std::optional<std::filesystem::path> opens, savesLight, savesSession;
-    std::optional<size_t> shows, closes; // models
+    std::optional<size_t> shows, closes; // indices of models
 };
 
-// Between Ui::begin() and end(). Changes `state` as it is told to.
+// Draws all panels, between Ui::begin() and end(), and changes `state` as the user does.
 PanelWishes drawPanels(SceneState& state, const PanelFacts& facts);
 
-// The parts of the main panel, and windows of their own.
+// The sections of the main panel, and separate windows.
 void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes);
 void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes);
 void drawMaterialPanel(SceneState& state, const PanelFacts& facts);

@@ -8,30 +8,33 @@
 
 namespace relume {
 
-// A place for one, in pixels; of no size: none.
+// A place for an image, in pixels of the texture; empty if its size is 0.
 struct Picture {
     ivec2 place{0}, size{0};
     explicit operator bool() const { return size.x > 0; }
 };
 
-// They lie in the texture that Dear ImGui has its letters in: its Vulkan backend draws from no other before
-// 1.88.
+// Images are stored in Dear ImGui's font texture, the only one from which its Vulkan backend draws before
+// version 1.88.
 class Pictures {
   public:
-    // Takes room in the texture; before the backend makes it. `device` must outlive this.
+    // Reserves room in the texture; must precede the creation of the backend. Keeps a reference to `device`.
     explicit Pictures(const vk::Device& device);
 
-    // Room for good; of no size where there is none left.
+    // Reserves a place for good; returns an empty one if there is no room left.
     Picture add(int width, int height);
 
-    // What a place holds from the next record() on: as large, and display values as toneMap() gives them.
+    // Sets a place's content from the next record() on. `image` has the same size and display values, as from
+    // toneMap().
     void set(const Picture& picture, const Image& image);
-    // Copies what was set since.
+    // Copies what was set since the last call.
     void record(vk::Commands& commands);
 
-    // Between Ui::begin() and end(): a panel's next item, so wide; as high as that makes it.
+    // Draws a picture as a panel's next item, with this width and proportional height. Between Ui::begin()
+    // and end().
     void draw(const Picture& picture, float width) const;
-    // The same as a button that is marked if `isChosen`; true: it was pressed. `name` tells it apart.
+    // Draws it as a button, highlighted if `isChosen`. Returns true if it was pressed. `name` identifies the
+    // button.
     bool drawButton(const char* name, const Picture& picture, float width, bool isChosen) const;
 
   private:
@@ -39,12 +42,12 @@ class Pictures {
         Picture picture;
         std::vector<uint32_t> texels;
     };
-    // Corners in texture coordinates.
+    // Returns corners in texture coordinates.
     std::array<vec2, 2> cornersOf(const Picture& picture) const;
 
     const vk::Device& mDevice;
-    int mRoom; // Dear ImGui's number of it
-    // Rows of pictures of one height, from the top.
+    int mRoom; // Dear ImGui's id of the reserved rectangle
+    // A row of pictures of one height; rows are listed from the top.
     struct Row {
         int top, height, used;
     };

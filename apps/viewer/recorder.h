@@ -1,4 +1,4 @@
-// What the window shows, frame by frame, as numbered images.
+// Records the window frame by frame as numbered images.
 #pragma once
 
 #include "apps/viewer/worker.h"
@@ -10,16 +10,16 @@ namespace relume {
 
 class Recorder {
   public:
-    // Of the time that passes in a recording, however long frames take.
+    // Frame rate in recorded time, however long frames take.
     static constexpr double kFramesPerSecond = 30;
 
-    // Makes the folder, which must not be there. Throws Error.
+    // Makes the folder, which must not exist. Throws Error.
     explicit Recorder(std::filesystem::path folder);
 
-    // Writes the next frame (frame_0001.png …) beside those that are drawn, or before add() returns where
-    // too many wait.
+    // Writes the next frame (frame_0001.png …) in the background, or before returning if too many are
+    // waiting.
     void add(Image frame);
-    // Waits until all are written. Throws Error if one could not be.
+    // Waits until all frames are written. Throws Error if one could not be.
     void finish();
 
     const std::filesystem::path& folder() const { return mFolder; }

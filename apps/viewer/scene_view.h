@@ -1,4 +1,4 @@
-// The view that the window shows: draws of it what has changed since the last frame.
+// The view in the window; redraws what has changed since the last frame.
 #pragma once
 
 #include "apps/viewer/comparison.h"
@@ -13,24 +13,24 @@ namespace relume {
 class SceneView {
   public:
     using Tell = std::function<void(const std::string& words, bool isFailure)>;
-    // `wake` is called from other threads when there is something new to be shown.
+    // `wake` is called from other threads when there is something new to show.
     SceneView(const vk::Device& device, std::function<void()> wake, Tell tell);
 
-    // Takes in what other threads have found. True: a frame is to be drawn.
+    // Takes in results of other threads. Returns true if a frame must be drawn.
     bool poll();
 
-    // Records whatever of the model must be redrawn at this size, and corrects impossible settings in
-    // `state`. A view that differs from the last frame's is drawn as a draft of one sample a pixel, unless
+    // Records the redrawing of what changed, at this size, and corrects impossible settings in `state`. A
+    // view that differs from the last frame's is drawn as a draft with one sample per pixel, unless
     // `isFinal`.
     void record(vk::Commands& commands, SceneState& state, const std::shared_ptr<Model>& model, ivec2 size,
                 bool isFinal);
-    // The last frame has fewer samples than are wanted, so that another one must be drawn.
+    // Returns whether the last frame has fewer samples than wanted, so that another must be drawn.
     bool isDraft(const SceneState& state) const;
-    // Call it after the recorded commands have finished. Returns true if it found a new exposure, so that the
-    // frame must be recorded and shown again.
+    // To be called after the recorded commands have finished. Returns true if it found a new exposure, so
+    // that the frame must be recorded and shown again.
     bool submitted(SceneState& state);
 
-    // With the shaders that the device has now.
+    // Recreates the passes with the shaders that the device has now.
     void remakePrograms() {
         mComparePass.emplace(mDevice);
         mBackgroundPass.emplace(mDevice);
@@ -38,27 +38,28 @@ class SceneView {
         mImage = nullptr;
     }
 
-    // Linear, in TRANSFER_SRC_OPTIMAL; null: nothing is there yet.
+    // Returns the image to show, linear, in TRANSFER_SRC_OPTIMAL; null if there is none yet.
     const vk::Image* image() const;
-    // Image() is not radiance, but has colors of its own.
+    // Returns whether image() has false colors instead of radiance.
     bool isFalseColor(const SceneState& state) const;
 
-    // The state as it is drawn: of a light file that plays, the moment.
+    // Returns `state` as it was drawn: with the time of a light file at which it was evaluated.
     SceneState drawn(SceneState state) const;
 
-    // The newest light is shown.
+    // Returns whether the newest light is shown.
     bool isSettled(const SceneState& state) const;
-    // They count changes of the light and of what is seen. The view is still: the last frame changed neither.
+    // Versions count changes of the light and of the view. The view is still if the last frame changed
+    // neither.
     uint64_t lightVersion() const { return mLightVersion; }
     uint64_t viewVersion() const { return mViewVersion; }
     bool isStill() const { return mIsStill; }
 
     const std::optional<LightStats>& lightStats() const { return mLightStats; }
-    // A reference is wanted: comparing is on, and what is seen is radiance.
+    // Returns whether a reference is wanted: comparison is on, and radiance is shown.
     static bool compares(const SceneState& state);
-    // The ground of the model that is shown ends before its edge.
+    // Returns whether the ground of the model shown fades out before its edge.
     bool fadesGround(const SceneState& state) const;
-    // Of the reference of what is seen; no passes: none is there.
+    // Returns the result for the reference of the view; without passes if there is none.
     const Comparison::Result& compared() const { return mCompared; }
 
   private:
@@ -71,7 +72,7 @@ class SceneView {
         Inspect inspect = Inspect::Off;
         bool fadesGround = false;
     };
-    // The model and light that the automatic exposure belongs to.
+    // The model and light for which exposure was chosen.
     struct Exposed {
         std::weak_ptr<const Model> model;
         std::weak_ptr<const Environment> map;
@@ -91,17 +92,17 @@ class SceneView {
     Comparison mComparison;
     std::optional<ComparePass> mComparePass;
     std::optional<BackgroundPass> mBackgroundPass;
-    Light mLight;                                      // what the tuples were made for, not turned
+    Light mLight;                                      // for which the tuples were computed, not rotated
     std::optional<std::pair<uint64_t, float>> mBehind; // light version and blur that the pass has
     std::optional<Exposed> mExposed;
     std::shared_ptr<Model> mModel;
     std::vector<WeightedMaterial> mBound;
-    std::optional<LightState> mLit; // what the tuples on the device were made for
+    std::optional<LightState> mLit; // for which the tuples on the device were computed
     std::shared_ptr<const Light> mLitFile;
     std::optional<Seen> mSeen;
     std::optional<LightStats> mLightStats;
     uint64_t mLightVersion = 0, mViewVersion = 0;
-    uint64_t mComparedVersion = 0; // that the comparison is of; 0: none is under way
+    uint64_t mComparedVersion = 0; // view version of the comparison; 0: none is running
     bool mIsStill = false;
     vk::Image mReference;
     bool mReferenceIsNew = false; // still in SHADER_READ_ONLY_OPTIMAL

@@ -1,4 +1,4 @@
-// What a window shows, as files keep it.
+// Converts what the window shows to images and command lines.
 #pragma once
 
 #include "apps/viewer/scene_state.h"
@@ -9,17 +9,17 @@
 
 namespace relume {
 
-// The display values of pixels as a swapchain of this format has them: four bytes each.
+// Returns the display values of pixels from a swapchain of this format, four bytes each.
 Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkFormat format);
 
-// Whether lightFileOf() must be written for a command to say what lights the object.
+// Returns whether a command line can only express this light by a light file (lightFileOf()).
 bool needsLightFile(const LightState& light);
 
-// What is drawn: linear radiance without a background, or a picture as it is seen without panels.
+// What is drawn: linear radiance without background, or a picture like the window without panels.
 enum class Drawn { Radiance, Picture };
 
-// Returns the options of `relume render`, by name, that draw the same view bit for bit; without a light that
-// needsLightFile(). `state` has its orbit; `fadesGround`: SceneView::fadesGround().
+// Returns the options of `relume render`, by name, that draw the same view bit for bit, without a light that
+// needsLightFile(). `state` must have an orbit; `fadesGround` is from SceneView::fadesGround().
 nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, Drawn drawn);
 
 // Returns the command line with these options.

@@ -1,5 +1,5 @@
-// A look as a file: what is shown, from where, in which light and materials. `relume render --session` draws
-// it, too. Format: docs/session_format.md.
+// Sessions: what is shown, from where, in which light and materials, as a file that `relume render --session`
+// draws, too (docs/session_format.md).
 #pragma once
 
 #include "apps/viewer/scene_state.h"
@@ -9,20 +9,20 @@
 
 namespace relume {
 
-// What a session shows, once it is open.
+// The content of a session file.
 struct Session {
-    std::filesystem::path opened; // a bake; or a mesh or scene, which is baked in view
-    SceneState state;             // with its light and view
-    Camera camera;                // these two once its model is there
+    std::filesystem::path opened; // a bake; or a mesh or scene, which the viewer bakes
+    SceneState state;             // including light and view
+    Camera camera;                // applied, like `material`, once the model is there
     std::vector<WeightedMaterial> material;
 };
 
-// Returns the content of a session file. `state` has its orbit; `fadesGround`: SceneView::fadesGround();
-// `input`: what the bake was made of in view, or empty.
+// Returns the content of a session file. `state` must have an orbit; `fadesGround` is from
+// SceneView::fadesGround(); `input` is the file from which the viewer made the bake, or empty.
 nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
                                  const std::filesystem::path& input, ivec2 size);
 
-// Reads a session file; what it does not say stays as in `state`. Throws Error.
+// Reads a session file; what it does not mention stays as in `state`. Throws Error.
 Session readSession(const std::filesystem::path& file, const SceneState& state);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Settings as scripts give them and the program remembers them: docs/viewer.md lists them.
+// Settings by name, for scripts and for remembering them (docs/viewer.md).
 #pragma once
 
 #include "apps/viewer/scene_state.h"
@@ -7,12 +7,12 @@
 
 namespace relume {
 
-// `model`: the bounds of what is shown, if there is anything; then `state` has its orbit. Throws Error for a
-// setting that there is not, or a value that it cannot have.
+// Applies a setting. `model` is the bounds of the model shown, null if none; with a model, `state` has an
+// orbit. Throws Error for an unknown setting or invalid value.
 void applySetting(SceneState& state, const std::string& name, const nlohmann::json& value,
                   const Bounds* model);
 
-// Those that are the same the next time, by name.
+// Returns, by name, the settings that are remembered between runs.
 nlohmann::json keptSettings(const SceneState& state);
 
 } // namespace relume

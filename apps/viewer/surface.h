@@ -1,4 +1,4 @@
-// What a window is to Vulkan.
+// The Vulkan surface of a window.
 #pragma once
 
 #include <vulkan/vulkan.h>

@@ -1,4 +1,4 @@
-// What a material looks like, in small.
+// Renders small images of materials.
 #pragma once
 
 #include "engine/image/image.h"
@@ -7,9 +7,9 @@
 
 namespace relume {
 
-// A ball of a material (AssetMaterial::description) under the built-in sky and without shadows, linear, with
-// its exact BRDF; alpha is coverage. Takes about a tenth of a second. Throws Error for measured data that is
-// gone.
+// Returns an image of a ball of a material (AssetMaterial::description) under the built-in sky, with the
+// exact BRDF but without shadows; linear, alpha is coverage. Takes about a tenth of a second. Throws Error if
+// measured data is missing.
 Image renderSwatch(const std::string& description, int size);
 
 } // namespace relume

@@ -10,28 +10,28 @@
 
 namespace relume {
 
-// Whether input is for panels.
+// Which input Dear ImGui claims for panels.
 struct UiWants {
     bool mouse, keyboard;
 };
 
 class Ui {
   public:
-    // `window` and `device` must outlive this. One at a time.
+    // Keeps references to `window`, `device` and `swapchain`. Only one may exist at a time.
     Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swapchain);
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    // The swapchain's images are other ones now.
+    // To be called when the swapchain has new images.
     void resized();
 
-    // ImGui calls belong between begin() and end().
+    // Begin and end a frame; calls of ImGui belong between them.
     void begin();
     void end();
 
-    // Pass "ui": draws what was there at end() over the swapchain's image, in COLOR_ATTACHMENT_OPTIMAL before
-    // and after.
+    // Records the pass "ui", which draws the frame as of end() over an image of the swapchain, in
+    // COLOR_ATTACHMENT_OPTIMAL before and after.
     void record(vk::Commands& commands, uint32_t image) const;
 
     void setDark(bool dark);
@@ -39,7 +39,7 @@ class Ui {
     Pictures& pictures() { return *mPictures; }
     const Pictures& pictures() const { return *mPictures; }
 
-    // As of the last frame.
+    // Returns the claims of the last frame.
     static UiWants wants();
     // Whether a slider, field or button of a panel is held or edited.
     static bool isItemHeld();

@@ -1,15 +1,15 @@
-// Where a user's files are, by the XDG Base Directory specification.
+// The folders of a user's files by the XDG Base Directory specification.
 #pragma once
 
 #include <filesystem>
 
 namespace relume {
 
-// What can be made again: $XDG_CACHE_HOME/relume, else ~/.cache/relume. Made if it is not there; throws Error
-// where it cannot be.
+// Returns the folder for files that can be recreated, $XDG_CACHE_HOME/relume or ~/.cache/relume, after making
+// it. Throws Error if it cannot be made.
 std::filesystem::path cacheFolder();
 
-// What a program remembers: $XDG_STATE_HOME/relume, else ~/.local/state/relume. Likewise.
+// Returns the folder for what programs remember, $XDG_STATE_HOME/relume or ~/.local/state/relume, likewise.
 std::filesystem::path stateFolder();
 
 } // namespace relume

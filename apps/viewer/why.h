@@ -1,4 +1,4 @@
-// Why a vertex has the color that it has from where the eye is, in numbers and pictures.
+// Explains in numbers and pictures why a vertex has its color as seen from the eye.
 #pragma once
 
 #include "apps/viewer/model.h"
@@ -6,7 +6,7 @@
 
 namespace relume {
 
-// A vertex, an eye, and the light that it is relit by: as it was given, and as it was kept.
+// A vertex, an eye, and the light, as given and as the selected entries.
 struct WhyQuestion {
     std::shared_ptr<const Model> model;
     PartAppearance bound;
@@ -17,23 +17,24 @@ struct WhyQuestion {
     LightVector kept;
 };
 
-// Pictures are of display values: crosses of crossOf() as large as kCrossSide texels a face makes them, and
-// maps of kMapWidth.
+// Sizes of pictures: faces of crosses by crossOf() have at most kCrossSide pixels per side; maps are
+// kMapWidth wide.
 constexpr int kCrossSide = 64, kMapWidth = 512;
 
+// The answer to a WhyQuestion.
 struct Why {
     std::string part;
     uint32_t vertex = 0;
     vec3 position{0};
     std::vector<vec3> tuple; // K
     vec3 radiance{0};        // of the vertex, towards the eye
-    float openShare = 0;     // of the hemisphere above it that nothing blocks
-    Image visibility;        // cross: white is open, dark blocked, below the horizon transparent
-    Image transport;         // cross: what a texel of light adds, the brightest hundredth white
+    float openShare = 0;     // share of the hemisphere above the vertex that is unoccluded
+    Image visibility;        // cross: white is unoccluded, dark is occluded, below the horizon is transparent
+    Image transport;         // cross: contribution per texel of light, scaled to its 99th percentile
     Image contributions;     // map: the light in gray, and over it what reaches the eye, from red to yellow
 };
 
-// Takes a few hundredths of a second; any thread.
+// Answers in a few hundredths of a second, on any thread.
 Why explain(const WhyQuestion& question);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// The window, and what is done to it.
+// The window and its input events.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -12,53 +12,55 @@ struct GLFWwindow;
 
 namespace relume {
 
-// Pixels of a window that may be asked for.
+// Limits of a window's size, in pixels.
 constexpr ivec2 kSmallestWindow(320, 240);
 constexpr int kLargestWindow = 16384;
 
-// Keys, buttons and modifiers are GLFW's. Places in pixels of the framebuffer, from the upper left.
+// An input event. Keys, buttons and modifiers are GLFW's; places are in pixels of the framebuffer, from the
+// upper left.
 struct InputEvent {
     enum class Kind { Button, Move, Scroll, Key, Drop } kind;
-    int code = 0; // of a button or key
+    int code = 0; // of the button or key
     bool isDown = false;
     int modifiers = 0;
-    vec2 place{0};                                 // of the cursor; of Scroll: how far the wheel was turned
-    std::vector<std::filesystem::path> files = {}; // that were dropped
-    double seconds = 0;                            // of a clock; of a script: 0
-    bool isScripted = false;                       // no panel is in its way
+    vec2 place{0};                                 // of the cursor; for Scroll, the rotation of the wheel
+    std::vector<std::filesystem::path> files = {}; // files dropped
+    double seconds = 0;                            // time of a clock; 0 for scripts
+    bool isScripted = false;                       // panels do not intercept it
 };
 
 class Window {
   public:
-    // Throws NoDeviceError when there is no display, or Vulkan cannot draw on it.
+    // Throws NoDeviceError if there is no display, or if Vulkan cannot draw on it.
     Window(const std::string& title, ivec2 size);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
     GLFWwindow* handle() const { return mWindow; }
-    // What DeviceOptions::surfaceExtensions wants.
+    // Returns the extensions for DeviceOptions::surfaceExtensions.
     std::vector<std::string> surfaceExtensions() const;
-    // To be destroyed with the instance's vkDestroySurfaceKHR.
+    // Returns a surface, to be destroyed by vkDestroySurfaceKHR() of the instance.
     VkSurfaceKHR makeSurface(VkInstance instance) const;
 
-    // Looks for events; waits for one for at most so many seconds.
+    // Processes events; waits for one for at most `seconds`.
     void poll(double seconds);
-    // Makes a poll() that waits return; from any thread.
+    // Makes a waiting poll() return. Callable from any thread.
     static void wake();
 
-    // Since the last time. The window system's own (of a script: none) come in their order.
+    // Returns the events since the last call: those of the window system (none when scripted) and added ones,
+    // in order.
     std::vector<InputEvent> takeEvents();
     void add(InputEvent event) { mEvents.push_back(std::move(event)); }
 
     bool wantsClose() const;
     void close();
-    // Since the last time: whether it was resized, uncovered or moved, and must be drawn anew.
+    // Returns whether the window was resized, uncovered or moved since the last call and must be redrawn.
     bool takeDamage();
 
     ivec2 size() const; // of the framebuffer
     void resize(int width, int height);
-    // How much larger than usual things are to be drawn.
+    // Returns the display's scale, by which fonts and sizes are multiplied.
     float scale() const;
     bool isFullScreen() const;
     void setFullScreen(bool fullScreen);
@@ -68,7 +70,7 @@ class Window {
     GLFWwindow* mWindow = nullptr;
     std::vector<InputEvent> mEvents;
     bool mIsDamaged = true;
-    int mPlace[4] = {}; // x, y, width, height of the window when it is not full screen
+    int mPlace[4] = {}; // x, y, width, height when not full screen
 };
 
 } // namespace relume

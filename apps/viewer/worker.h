@@ -1,4 +1,4 @@
-// Work beside the frames: reading files, making things of them.
+// Background work, such as reading files.
 #pragma once
 
 #include <condition_variable>
@@ -11,30 +11,31 @@
 
 namespace relume {
 
-// One thread that does one piece of work after the other.
+// A thread that does one piece of work after the other.
 class Worker {
   public:
-    // What is left to do where the results belong, on the thread that draws.
+    // The rest of the work, to be run on the thread that draws.
     using Result = std::function<void()>;
 
-    // `wake` is called, from the thread, whenever a result is there.
+    // `wake` is called from the worker's thread when a result is ready.
     explicit Worker(std::function<void()> wake);
-    // Drops what has not begun, and waits for what has.
+    // Drops work that has not begun and waits for the current piece.
     ~Worker();
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    // `title` is for people: "reading bunny.obj". An exception is left to `onError`, with its text.
+    // Queues work. `title` is shown to the user: "reading bunny.obj". If `work` throws, `onError` gets the
+    // message.
     void post(std::string title, std::function<Result()> work,
               std::function<void(const std::string&)> onError);
 
-    // Runs the results that are there.
+    // Runs the results that are ready, or their `onError`.
     void apply();
 
-    // Of the work in hand, else of what waits; empty: none.
+    // Returns the title of the current work, or of the next in the queue; empty if there is none.
     std::string title() const;
     bool isIdle() const;
-    // Until nothing is in hand and nothing waits.
+    // Waits until the queue is empty and nothing is running.
     void wait();
 
   private:

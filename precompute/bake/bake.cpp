@@ -31,7 +31,7 @@ BakeTimes timesOf(const BakePlan& plan) {
 
 bool needsScale(const BakePlan& plan) { return isCompressed(plan.options.layout.layout); }
 
-// Visibility in a file that may hold any, or not even be one.
+// Opens the visibility in a file; returns null if it has none or is not an asset.
 std::unique_ptr<KeptVisibility> findKept(const std::filesystem::path& path) {
     try {
         auto kept = std::make_unique<KeptVisibility>(path);
@@ -41,7 +41,7 @@ std::unique_ptr<KeptVisibility> findKept(const std::filesystem::path& path) {
     return nullptr;
 }
 
-// Unless it is that of the plan, and whole.
+// Drops `kept` unless its key is the plan's and it is intact.
 void dropUnfit(std::unique_ptr<KeptVisibility>& kept, const BakePlan& plan) {
     if (!kept) return;
     try {
@@ -55,7 +55,7 @@ void dropUnfit(std::unique_ptr<KeptVisibility>& kept, const BakePlan& plan) {
     }
 }
 
-// What a checkpoint was begun with, else what is kept, else what is faster.
+// Sets the method with which the checkpoint was begun, else that of kept visibility, else the faster one.
 void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, const KeptVisibility* kept,
                       BakePlan& plan) {
     constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Traced, VisibilityMethod::Raster};
@@ -70,13 +70,13 @@ void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, co
     setVisibility(plan, fasterVisibility(device, plan.asset));
 }
 
-// All blocks, or a shard's.
+// Bakes all blocks of a plan, or those of a shard, and writes the file.
 BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility* kept,
                         const OutputOptions& outputOptions, Checkpoint& checkpoint,
                         const std::filesystem::path& output, const BakeLimits& limits,
                         BakeObserver& observer) {
     const std::optional<Shard>& shard = outputOptions.shard;
-    std::optional<Checkpoint> interpolated; // goes in the end, whoever began it
+    std::optional<Checkpoint> interpolated; // removed at the end, even if an earlier run made it
     if (outputOptions.previews || std::filesystem::exists(interpolatedPath(output)))
         interpolated.emplace(interpolatedPath(output));
     checkpoint.resume(plan);
@@ -102,7 +102,7 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
         if (observer.wantsStop()) throw BakeStopped("stopped");
     };
     const auto writeFile = [&](const std::function<void(const ChunkWriter::Output&)>& writeTo) {
-        // Of its own name: the checkpoint's lock keeps other bakes off.
+        // The temporary name needs no random part, since the checkpoint's lock excludes other bakes.
         AtomicFile file(output, ".partial");
         writeTo([&](std::span<const std::byte> bytes) {
             poll();
@@ -194,7 +194,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
 }
 
 std::filesystem::path checkpointPath(const std::filesystem::path& output) {
-    // Beside the file that a symbolic link leads to: it is that which two bakes must not write at once.
+    // A symbolic link is resolved, since two bakes must not write the same file.
     std::error_code failure;
     const bool isLink = std::filesystem::is_symlink(output, failure);
     return (isLink ? std::filesystem::weakly_canonical(output) : output).string() + ".checkpoint";

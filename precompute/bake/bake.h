@@ -1,4 +1,4 @@
-// From a scene to an asset, in memory or on disk.
+// Bakes a scene to an asset, in memory or on disk.
 #pragma once
 
 #include "precompute/bake/block_baker.h"
@@ -8,48 +8,48 @@
 
 namespace relume {
 
-// Bakes every part in memory, for callers that use the asset at once. Vertices are put in bake order
-// (vertex_order.h). The same scene, options and device give the same asset. Throws Error.
+// Bakes every part and returns the asset in memory. Vertices are put in bake order (vertex_order.h). The
+// result depends only on scene, options and device. Throws Error.
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options);
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
            BakeTimes* times = nullptr);
 
-// What bakeToFile() writes, beside or instead of the whole bake: not both. And what it need not find.
+// Optional outputs (one shard, or previews; not both) and a file whose visibility may be reused.
 struct OutputOptions {
-    std::optional<Shard> shard = std::nullopt; // its blocks alone: a file for mergeShards() (merge.h)
-    bool previews = false;                     // until the bake is done (preview.h)
-    // A bake that may keep the visibility of these very vertices; empty: the file that is written over.
+    std::optional<Shard> shard = std::nullopt; // bake only its blocks, to a file for mergeShards() (merge.h)
+    bool previews = false; // write previews to the output until the bake is done (preview.h)
+    // Reuses the visibility kept in this asset if its key matches; empty: that of the file being replaced.
     std::filesystem::path visibility = {};
 };
 
-// What bakeToFile() made.
+// The result of bakeToFile().
 struct BakeSummary {
     uint64_t vertices = 0, resumed = 0; // of the shard, if any; resumed: found in the checkpoint
     BakeTimes times;                    // of this run
-    uint64_t bytes = 0;                 // of transport in memory; 0 of a shard
-    TransportLayout kept{};
-    std::optional<LayoutRecord> layout; // as the asset has it
+    uint64_t bytes = 0;                 // that transport takes in memory; 0 for a shard
+    TransportLayout kept{};             // the layout of transport
+    std::optional<LayoutRecord> layout; // as recorded in the asset
 };
 
-// The checkpoint of a bake to `output`.
+// Returns the path of the checkpoint of a bake to `output`.
 std::filesystem::path checkpointPath(const std::filesystem::path& output);
-// A file like it, of blocks that were interpolated for previews.
+// Returns the path of the checkpoint-like file that holds the blocks interpolated for previews.
 std::filesystem::path interpolatedPath(const std::filesystem::path& output);
 
-// Bakes to a file of the bytes that encodeAsset(bake(…)) has, holding no more than a few blocks at a time.
-// Finished blocks go to the checkpoint beside it, which a later call with the same scene, options and device
-// goes on from; the file itself appears whole, after the last block, and the checkpoint goes. With a shard
-// only its blocks are baked, and the file is one for mergeShards() (merge.h). Throws BakeStopped, Error; then
-// the checkpoint stays and `output` is as it was, or with previews the last of these. Visibility that
-// `output`, or the file that outputOptions.visibility names, keeps of the same key is not found again; the
-// log says so.
+// Bakes to a file that is byte for byte encodeAsset(bake(…)), holding no more than a few blocks in memory.
+// Finished blocks are appended to the checkpoint beside it, from which a later call with the same scene,
+// options and device resumes. After the last block the file is written whole and the checkpoint deleted.
+// Visibility with the right key, kept in `output` or in outputOptions.visibility, is reused; the log says so.
+// Throws BakeStopped and Error; the checkpoint then remains, and `output` is as before or, with previews, the
+// last preview.
 BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions& options,
                        const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
                        const OutputOptions& outputOptions = {});
 
-// The same for a bake that keeps its visibility: to the file that bakeToFile() makes of its inputs with these
-// materials and options, as planRebake() takes them. `output` may be the bake itself. Throws also when the
-// kept visibility is not that of the bake on this device by this program.
+// Bakes the asset `skeleton`, read without rows, anew from its kept visibility, with `materials` and
+// `options` as planRebake() takes them; the file is the one bakeToFile() would write. `output` may be the
+// asset itself. Throws as bakeToFile(), and Error when `kept` was not computed for these meshes by this
+// program on this device.
 BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset skeleton,
                          const std::vector<std::string>& materials, const BakeOptions& options,
                          const std::filesystem::path& output, const BakeLimits& limits,

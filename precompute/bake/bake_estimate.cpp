@@ -4,7 +4,7 @@ namespace relume {
 
 namespace {
 
-// So much of a part must be measured before that stands for the rest of it.
+// Vertices of a part to be measured before they represent the rest of it.
 constexpr uint64_t kMeasuredVertices = 256;
 
 } // namespace

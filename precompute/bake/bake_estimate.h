@@ -1,4 +1,4 @@
-// How far a bake is and how long it will take, where vertices of different parts cost differently.
+// Estimates the progress and the remaining time of a bake whose parts differ in cost per vertex.
 #pragma once
 
 #include "precompute/bake_observer.h"
@@ -7,18 +7,18 @@
 
 namespace relume {
 
-// Vertices weigh what a vertex of their part costs: as measured while the part is baked, before that as its
-// probe said, corrected by how wrong the probes of the parts before were.
+// Weights vertices by the cost per vertex of their part: measured once enough of the part is baked; before
+// that, the probed cost, scaled by how far probes were off so far.
 class BakeEstimate {
   public:
     struct Part {
-        uint64_t vertices = 0, doneBefore = 0; // doneBefore: in a checkpoint
-        double probedSeconds = 1;              // per vertex, before any is baked; only ratios count
+        uint64_t vertices = 0, doneBefore = 0; // doneBefore: found in a checkpoint
+        double probedSeconds = 1;              // per vertex, from a probe before baking; only ratios matter
     };
 
     explicit BakeEstimate(std::vector<Part> parts);
 
-    // `vertices` more of a part are done, after `seconds` of work on them.
+    // Records that `vertices` more of a part were baked in `seconds`.
     void add(size_t part, uint64_t vertices, double seconds);
 
     BakeStatus status() const;

@@ -25,7 +25,7 @@ int defaultCoefficients(TransportLayout layout) { return layout == TransportLayo
 FactorizationOptions defaultFactorization() { return {.terms = 8, .method = Factorization::NonNegative}; }
 
 int BakeOptions::mostTransportSamples() const {
-    const int ratio = visibilitySize / std::max(faceSize, 1); // of sizes that are not validated yet
+    const int ratio = visibilitySize / std::max(faceSize, 1); // sizes may not be validated yet
     return std::max(ratio * ratio, 1);
 }
 

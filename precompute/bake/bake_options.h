@@ -1,4 +1,4 @@
-// Every choice that decides a bake's bytes.
+// The options that determine the bytes of a bake.
 #pragma once
 
 #include "precompute/brdf/factorization.h"
@@ -11,38 +11,38 @@
 
 namespace relume {
 
-// N where none is named: what rows of the paper have; what others are made from may be as good as it can.
+// Returns the default N: 96 for rows, as in the paper; 384 for layouts that are encoded from rows.
 int defaultCoefficients(TransportLayout layout);
 
-// Returns the default: the best pictures with the residual, for their bytes and time (docs/residual.md).
+// Returns the default: the best image quality with the residual for its size and time (docs/residual.md).
 FactorizationOptions defaultFactorization();
 
 struct BakeOptions {
     LayoutOptions layout;
-    // K, 1 to 32, and how they are found. At most so many: a diffuse part needs a single one.
+    // K, 1 to 32, and the method. K is an upper bound: a diffuse material needs one term.
     FactorizationOptions factorization = defaultFactorization();
     int coefficients = defaultCoefficients(TransportLayout::Bases); // N, 1 to 6 F²
     int mapSize = 48;                                               // S, 4 to 64
     DiskMapping mapping = DiskMapping::EqualArea;
     int faceSize = 64;        // F: 32 or 64
     int visibilitySize = 256; // 64, 128 or 256
-    // None: the faster one on the device, measured: see fasterVisibility().
+    // None: whichever fasterVisibility() measures to be faster on the device.
     std::optional<VisibilityMethod> visibilityMethod = VisibilityMethod::Traced;
-    int transportSamples = 1; // 1, 4 or 16 light-map evaluations per lighting texel
-    // Reflections between surfaces, besides the last towards the eye: 0, direct light alone, to kMostBounces.
+    int transportSamples = 1; // light-map evaluations per lighting texel: 1, 4 or 16
+    // Reflections between surfaces before the last one towards the eye, 0 (direct light only) to
+    // kMostBounces.
     int bounces = 0;
-    // The plan leaves bounces out where several materials share terms in a set (docs/bounces.md). This is not
-    // recorded: an asset's bounces are those that it has.
+    // Leave bounces out where materials of a set share terms (docs/bounces.md). Not recorded: an asset
+    // records the bounces that it has.
     bool areBouncesAuto = false;
-    // Triangles that cast shadows, 0: all; the rest are simplified away.
+    // Triangle count to which the occluder is simplified; 0: keep all.
     size_t occluderTriangles = 0;
-    // Whether a file keeps the visibility it was made from: KeptVisibility. An asset in memory does not.
+    // Store visibility in the file, for rebakes (KeptVisibility). Assets baked in memory never keep it.
     bool keepVisibility = false;
-    // None: meshes stay as they are. A bake's options hold what is wanted, an asset's what came of it as
-    // well.
+    // None: meshes stay as they are. Before a bake this holds the wanted error, in an asset also the result.
     std::optional<RefinementRecord> refinement = std::nullopt;
 
-    // Returns the most transportSamples: the visibility texels in a lighting texel.
+    // Returns the largest valid transportSamples: the number of visibility texels per lighting texel.
     int mostTransportSamples() const;
     // Throws UsageError naming the option, its valid values and what was given.
     void validate() const;

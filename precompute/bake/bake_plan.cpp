@@ -37,7 +37,7 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Says where paint cannot show.
+// Warns where paint has no effect.
 void checkPaint(const AssetPart& part) {
     constexpr size_t kPaintedMaterials = 4;
     if (!part.isPainted()) return;
@@ -66,7 +66,7 @@ nlohmann::json describeInputs(const Scene& scene) {
     return inputs;
 }
 
-// Tells brushed parts from others. Each BRDF is made once: that of measured data reads a file.
+// Recognizes brushed parts. Makes each BRDF once, since measured data is read from a file.
 class BrushedParts {
   public:
     bool has(const AssetPart& part) {
@@ -86,8 +86,8 @@ class BrushedParts {
     std::map<std::string, bool> mKnown;
 };
 
-// Only anisotropic materials follow tangents: the frames of others follow from their normals, of which what
-// nothing shadows is a function (docs/residual.md).
+// Keeps tangents for anisotropic materials only. The frames of others follow from their normals, so that
+// their unshadowed light is a function of the normal (docs/residual.md).
 void setTangents(AssetPart& part, float brushRotation, BrushedParts& brushed, BakeObserver& observer) {
     if (!brushed.has(part)) {
         part.mesh.tangents.clear();
@@ -121,7 +121,7 @@ RefinementGoal goalOf(const RefinementRecord& record, const Scene& scene) {
     if (!record.isAuto) return {.wanted = record.wanted};
     RefinementGoal goal{.wanted = record.wanted, .isRefined = std::vector<bool>(scene.parts.size(), false)};
     uint64_t given = 0;
-    for (size_t i = scene.parts.size(); i-- > 0;) { // the ground comes last, and must be among them
+    for (size_t i = scene.parts.size(); i-- > 0;) { // the ground comes last, and must be included
         const Part& part = scene.parts[i];
         const uint64_t vertices = part.mesh.vertexCount();
         if (part.keepsVertices || vertices >= kCoarseVertices || given + vertices > kMostAutoGiven) continue;
@@ -132,7 +132,7 @@ RefinementGoal goalOf(const RefinementRecord& record, const Scene& scene) {
     return goal;
 }
 
-// The occluder stays what it was: the same surface, with fewer triangles.
+// Refines the meshes. The occluder remains, being the same surface with fewer triangles.
 void refineMeshes(const RefinementGoal& goal, BakePlan& plan, BakeObserver& observer) {
     Asset& asset = plan.asset;
     RefinementRecord& record = *plan.options.refinement;
@@ -158,7 +158,7 @@ void cutBlocks(BakePlan& plan) {
     }
 }
 
-// META holds every number and text of an asset, provenance included.
+// Hashes META, which holds every number and text of an asset, and everything else that determines its bytes.
 std::string identityOf(const BakePlan& plan) {
     size_t sets = 0;
     for (const AssetPart& part : plan.asset.parts) sets += part.sets.size();
@@ -178,7 +178,7 @@ std::string identityOf(const BakePlan& plan) {
     return hash.text();
 }
 
-// Settings and provenance, but for inputs and what setVisibility() decides.
+// Sets sizes and provenance, except for the inputs and what setVisibility() sets.
 void describeTo(const vk::Device& device, const BakeOptions& options, Asset& asset) {
     asset.faceSize = options.faceSize;
     asset.visibilitySize = options.visibilitySize;
@@ -295,7 +295,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     plan.asset = std::move(skeleton);
     describeTo(device, options, plan.asset);
     plan.asset.truncationError = plan.asset.quantizationError = 0;
-    const bool didShareTerms = sharesTerms(plan.asset); // with bounces that were asked for, if any
+    const bool didShareTerms = sharesTerms(plan.asset); // any bounces were then asked for explicitly
 
     const Clock::time_point stage = Clock::now();
     observer.stage(BakeStage::Factorisation, "");

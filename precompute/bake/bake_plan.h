@@ -1,4 +1,4 @@
-// What a bake will do, decided before any vertex is baked.
+// Everything that is decided about a bake before its first vertex is baked.
 #pragma once
 
 #include "engine/import/scene.h"
@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// Vertices [first, end) of a part: the unit of work, of checkpoints, and of a run in the file.
+// Vertices [first, end) of a part: the unit of work, of checkpoints and of runs in the file.
 struct BakeBlock {
     uint32_t part, first, end;
 
@@ -21,45 +21,45 @@ class BouncedTransport;
 
 struct BakePlan {
     BakeOptions options;
-    Asset asset; // all but the rows, whose numbers are set, and the measured errors
-    // What encodes blocks that are not kept in rows: known once a sample of them is baked (layout_sample.h).
+    Asset asset; // complete except for rows (their numbers are set) and measured errors
+    // How blocks are encoded, in layouts other than rows; set once a sample is baked (layout_sample.h).
     std::optional<LayoutScale> scale;
-    // Bounced light, which is added to blocks as they are baked. Null until it was found, and where none is
-    // asked for.
+    // Bounced light, which is added to blocks as they are baked. Null before it is computed, and without
+    // bounces.
     std::shared_ptr<const BouncedTransport> bounced;
-    uint32_t blockVertices = 0, visibilityRun = 0; // vertices; the second divides the first
-    std::vector<BakeBlock> blocks;                 // part after part, in vertex order
-    std::vector<uint32_t> firstSet;                // per part: its first set's number, counted over all parts
+    uint32_t blockVertices = 0, visibilityRun = 0; // in vertices; visibilityRun divides blockVertices
+    std::vector<BakeBlock> blocks;                 // ordered by part, then by vertex
+    std::vector<uint32_t> firstSet;                // per part: index of its first set, counted over all parts
     std::string visibilityKey;                     // visibility_key.h
-    // Content hash of everything that decides the file's bytes: program and kernels, device and driver,
-    // options, and all of the asset. Results of plans with equal identities can be joined.
+    // Hash of everything that determines the file's bytes: program and kernels, device and driver, options,
+    // and the asset. Blocks baked from plans of equal identity can be combined.
     std::string identity;
     double factorisationSeconds = 0, occluderSeconds = 0;
 
     uint64_t vertices() const;
 };
 
-// Puts vertices in bake order (vertex_order.h), makes the occluder, factors the materials and refines the
-// meshes where `options` ask for it. The device only gives its name. Options that leave the visibility's
-// method open give a plan for Traced. Throws Error.
+// Plans a bake: puts vertices in bake order (vertex_order.h), makes the occluder, factors the materials and
+// refines the meshes if `options` ask for it. Uses only the name and the capabilities of the device. Where
+// `options` leave the visibility method open, the plan is for Traced. Throws Error.
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer);
 
-// For the meshes, occluder, textures and inputs of a bake that was read without rows (readSkeleton): gives
-// the plan that planBake() gives for the same with these materials. `materials`: of every part as
-// readMaterials() takes them, paths being relative to the current folder; where it is empty, the part keeps
-// its own, factored anew if `options` ask for that. `options` must agree with the bake's own in all that
-// decides visibility. Throws Error.
+// Plans a bake of an existing asset with other materials: returns the plan of planBake() for the meshes,
+// occluder, textures and inputs of `skeleton`, an asset read without rows (readSkeleton). `materials` has one
+// text per part, as readMaterials() takes it, with paths relative to the current folder; a part whose text is
+// empty keeps its materials, factored anew if `options` require it. All `options` that affect visibility must
+// be those of the asset. Throws Error.
 BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<std::string>& materials,
                     const BakeOptions& options, BakeObserver& observer);
 
-// The plan that a bake had whose asset this is, rows left out, but for its options. `visibilityKey`: of its
-// kept visibility; empty for none.
+// Returns the plan from which `asset` (without rows) was baked, except for its options. `visibilityKey` is
+// that of its kept visibility; empty for none.
 BakePlan planOf(Asset asset, const std::string& visibilityKey = {});
 
-// Makes the transport of every set empty, in the layout that the plan's options name.
+// Replaces the transport of every set by an empty one in the layout of the plan's options.
 void prepareTransport(BakePlan& plan);
 
-// Decides how visibility is found, and the identity with it.
+// Sets the visibility method and updates what depends on it: recorded options, visibility key and identity.
 void setVisibility(BakePlan& plan, VisibilityMethod method);
 
 } // namespace relume

@@ -6,10 +6,10 @@ namespace relume {
 
 namespace {
 
-// Triangles. The paper tells of a simplified occluder and of no number.
+// In triangles. The paper mentions a simplified occluder but no number.
 constexpr size_t kPaperOccluder = 5000;
 
-// Two take two fifths of a bake's time more (docs/bounces.md).
+// Two bounces add two fifths to the time of a bake (docs/bounces.md).
 constexpr int kDefaultBounces = 2;
 
 BakeOptions paperOptions() {
@@ -43,7 +43,7 @@ std::optional<BakePreset> presetOf(const BakeOptions& options) {
         const auto& baked = options.refinement;
         if (wanted.refinement && baked && baked->isAuto && baked->wanted == wanted.refinement->wanted)
             wanted.refinement = baked;
-        // Refined where parts came coarse, it is not recorded where none did.
+        // Automatic refinement is not recorded if no part was coarse.
         if (wanted.refinement && !baked) wanted.refinement.reset();
         if (describeOptions(options) == describeOptions(wanted)) return preset;
     }

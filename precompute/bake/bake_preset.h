@@ -1,4 +1,4 @@
-// Options of a bake that one word asks for.
+// Named sets of bake options.
 #pragma once
 
 #include "precompute/bake/bake_options.h"
@@ -7,20 +7,20 @@ namespace relume {
 
 enum class BakePreset {
     Default,
-    // The method of All-Frequency Relighting of Non-Diffuse Objects using Separable BRDF Approximation
-    // (2004): visibility drawn from a simplified occluder, the BRDF at every visibility texel, eigenpairs of
-    // orthographic tables, K = 4, rows of 96 coefficients.
+    // The method of the paper (All-Frequency Relighting of Non-Diffuse Objects using Separable BRDF
+    // Approximation, 2004): visibility rasterized from a simplified occluder, the BRDF evaluated at every
+    // visibility texel, eigenpairs of orthographic tables, K = 4, rows of 96 coefficients.
     Paper,
 };
 inline constexpr BakePreset kBakePresets[] = {BakePreset::Default, BakePreset::Paper};
 
 BakeOptions presetOptions(BakePreset preset);
 
-// "default" and "paper".
+// Returns "default" or "paper".
 std::string_view presetName(BakePreset preset);
 
-// Returns the preset that has these options, or nothing if none has. What came of refinement does not count,
-// nor that none is recorded where nothing was coarse.
+// Returns the preset that has these options, or nothing if none has. Ignores the results of refinement, and
+// whether refinement was dropped because no mesh was coarse.
 std::optional<BakePreset> presetOf(const BakeOptions& options);
 
 } // namespace relume

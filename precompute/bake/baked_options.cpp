@@ -19,11 +19,11 @@ constexpr const char* kVertexOrder = "bisected";
 
 constexpr const char* kRemedy = "bake it again from its inputs";
 
-// Reads members of the options' object, each of which must be there.
+// Reads the members of the options' object, all of which must be present.
 class OptionReader {
   public:
     explicit OptionReader(const std::string& text) {
-        constexpr size_t kLongest = 4096; // the options are a handful: no depth to speak of either
+        constexpr size_t kLongest = 4096; // the options are short and shallow
         if (text.size() <= kLongest) mOptions = json::parse(text, nullptr, false);
         if (!mOptions.is_object()) fail("expected a JSON object");
     }
@@ -44,7 +44,7 @@ class OptionReader {
         return value.get<double>();
     }
 
-    // Of bakes that refined their meshes alone.
+    // Only bakes that refined their meshes record this.
     std::optional<RefinementRecord> refinement() {
         if (!mOptions.contains("refinement")) return std::nullopt;
         const json& value = take("refinement");
@@ -66,10 +66,10 @@ class OptionReader {
                                 count("vertices"),      value.contains("auto") && value["auto"] == true};
     }
 
-    // Bakes of direct light do not have the option.
+    // Bakes without bounces do not record the option.
     int bounces() { return mOptions.contains("bounces") ? integer("bounces") : 0; }
 
-    // `parse` gives an std::optional, empty for a name it does not know.
+    // `parse` returns an std::optional, empty for an unknown name.
     template <typename Parse>
     auto name(const char* key, const Parse& parse) {
         const json& value = take(key);
@@ -150,7 +150,7 @@ BakeOptions optionsOf(const Asset& asset) {
     options.layout.layout = in.name("layout", [](const std::string& name) { return layoutFromName(name); });
     options.layout.bytesPerVertex = in.amount("layout_bytes", kMostLayoutBytes);
     options.layout.error = in.amount("layout_error", 1);
-    // A standard error is that of the materials, which may change.
+    // A default error depends on the materials, which may change.
     if (options.layout.error == kDefaultLayoutError || options.layout.error == kDiffuseLayoutError)
         options.layout.error.reset();
     options.mapSize = in.integer("map_size");

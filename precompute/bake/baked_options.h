@@ -1,4 +1,4 @@
-// What an asset says that it was baked with.
+// Conversion between bake options and what an asset records of them.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -6,15 +6,15 @@
 
 namespace relume {
 
-// Every option that decides bytes, but whether visibility is kept, as Provenance::options holds them.
+// Returns as text, for Provenance::options, every option that determines bytes, except keepVisibility.
 std::string describeOptions(const BakeOptions& options);
 
-// From an asset's provenance, validated. keepVisibility is false. Throws Error for options that are none, or
-// not those of the asset's numbers.
+// Returns the options recorded in an asset, validated; keepVisibility is false. Throws Error if the record is
+// invalid or contradicts the asset's sizes.
 BakeOptions optionsOf(const Asset& asset);
 
-// A part's materials as readMaterials() takes them, to be factored anew. Throws Error for descriptions that
-// are no JSON objects.
+// Returns a part's materials as text for readMaterials(), so that they can be factored anew. Throws Error if
+// a description is not a JSON object.
 std::string materialsOf(const AssetPart& part);
 
 } // namespace relume

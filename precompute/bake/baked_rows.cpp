@@ -46,7 +46,7 @@ void setErrors(const TransportLosses& losses, Asset& asset) {
     asset.truncationError = relative(losses.dropped, losses.total);
     asset.quantizationError = relative(losses.quantized, losses.total - losses.dropped);
     if (!asset.layout) return;
-    uint64_t vertices = 0; // each set's are of its own unit
+    uint64_t vertices = 0; // counted once per set, whose errors have normalizations of their own
     for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount() * part.sets.size();
     asset.layout->error = std::sqrt(losses.layout / double(std::max<uint64_t>(1, vertices)));
 }

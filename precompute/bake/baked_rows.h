@@ -1,4 +1,4 @@
-// What baking some vertices of a part gives.
+// Baked rows of vertices, as they come from the device.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"
@@ -9,29 +9,30 @@
 
 namespace relume {
 
-// Of one set: rows, and what each lost.
+// Rows of one set, and the losses of each row.
 struct BakedRows {
-    SparseTransport transport; // its first vertex is the first that was baked
+    SparseTransport transport; // counted from the first baked vertex
     std::vector<TransportLosses> losses;
 
     explicit BakedRows(uint32_t terms);
-    // Of vertices [first, end) alone.
+    // Returns a copy of vertices [first, end).
     BakedRows vertices(uint32_t first, uint32_t end) const;
-    // Adds those vertices behind its own.
+    // Appends the vertices of `more`.
     void append(const BakedRows& more);
 };
 
-// A block: its rows, a BakedRows per set of its part, and its visibility.
+// A baked block: rows per set of its part, and visibility.
 struct BakedBlock {
     std::vector<BakedRows> sets;
-    std::vector<uint32_t> visibility;          // bits, vertex after vertex, where the plan keeps them
-    std::vector<StoredChunk> packedVisibility; // in their place, once packed (stored_blocks.h)
+    std::vector<uint32_t> visibility;          // bits, vertex by vertex, if the plan keeps them
+    std::vector<StoredChunk> packedVisibility; // replaces the bits once packed (stored_blocks.h)
 
-    // Summed set after set, row by row: the same however it was baked.
+    // Returns the sum over sets and rows in a fixed order, so that the bits do not depend on how it was
+    // baked.
     TransportLosses losses() const;
 };
 
-// `losses`: summed over the asset's blocks in their order.
+// Sets the asset's measured errors from `losses`, summed over its blocks in order.
 void setErrors(const TransportLosses& losses, Asset& asset);
 
 } // namespace relume

@@ -9,26 +9,26 @@
 
 namespace relume {
 
-// More keeps no device busier: a software one has 1,500 subgroups to run for each point, a large GPU room for
-// some ten thousand at a time. A bake stops between submissions only.
+// Larger batches keep no device busier: a software device runs 1,500 subgroups per point, a large GPU has
+// room for some ten thousand. A bake stops only between submissions.
 constexpr uint64_t kMostSoftwarePoints = 64, kMostPoints = 256;
 
-// Of rows as they are collected, cut into blocks, encoded and compressed.
+// Host memory per row entry while rows are collected, cut into blocks, encoded and compressed.
 constexpr uint64_t kHostBytesPerEntry = 32;
 
 uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
                    const BakeLimits& limits) {
     const auto size = uint64_t(options.visibilitySize);
-    // The rasterizer's layers: one byte a texel, before packing.
+    // The layers of the rasterizer take a byte per texel before packing.
     const bool isDrawn = options.visibilityMethod != VisibilityMethod::Traced;
     const uint64_t blockedBytes = isDrawn ? 6 * size * size : 0;
     const uint32_t layers = device.info().outputsLayers ? device.info().largestLayerCount : UINT32_MAX;
     const uint64_t drawnPoints =
         std::min(layers / 6, uint32_t(device.largestStorageBuffer() / (6 * size * size)));
-    // A quarter of the largest heap, and never more than 1 GiB: the rest belongs to others.
+    // A quarter of the largest heap, at most 1 GiB; the rest is left to others.
     uint64_t memory = std::min<uint64_t>(device.info().largestHeap / 4, 1ull << 30);
     if (limits.memory > 0) memory = std::min(memory, limits.memory);
-    // Kept visibility: as it comes back, in the block, and coded.
+    // Kept visibility is in memory as read back, in the block, and encoded.
     const uint64_t copies = options.keepVisibility ? 4 : 1;
     const uint64_t bytesPerPoint = 2 * blockedBytes + copies * visibilityBytes(uint32_t(size)) +
                                    TransportPass::bytesPerPoint(terms, options) +

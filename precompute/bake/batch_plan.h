@@ -1,4 +1,4 @@
-// How many points a submission bakes, from the device's limits.
+// Sizes a batch by the limits of the device.
 #pragma once
 
 #include "engine/vk/device.h"
@@ -6,14 +6,14 @@
 
 namespace relume {
 
-// What a user lets a bake take.
+// Limits that a user sets on a bake.
 struct BakeLimits {
-    uint64_t memory = 0; // bytes of a batch, on device and host together; 0: as planBatch() finds right
+    uint64_t memory = 0; // for a batch, device and host together, in bytes; 0: chosen by planBatch()
 };
 
-// Points of one submission: as many as the device's layers, storage-buffer range and a share of its memory
-// allow for a part of `terms` terms, and no more than keep it busy. At least 1. Throws UsageError when
-// `limits` leaves no room for a single one.
+// Returns the number of points per submission for a part of `terms` terms, at least 1: the most that the
+// device's layer count, storage-buffer range and a share of its memory allow, but no more than keep it busy.
+// Throws UsageError if `limits` leave no room for one point.
 uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
                    const BakeLimits& limits = {});
 

@@ -21,12 +21,12 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A submission cannot be stopped: it is kept so short that a stop takes less than a second.
+// A submission cannot be interrupted, so it is kept short enough to stop within a second.
 constexpr double kSubmissionSeconds = 0.4;
-constexpr uint32_t kFirstSubmission = 16; // points, before their cost is known
+constexpr uint32_t kFirstSubmission = 16; // in points, before their cost is known
 
-// Parts of fewer vertices to be baked are not worth a probe. A probe bakes points that are spread over its
-// part, in rounds that take turns with the other parts'; the quickest counts.
+// Parts with fewer vertices to bake are not probed. A probe bakes points spread over its part, in rounds that
+// alternate with those of other parts; the fastest round counts.
 constexpr uint64_t kProbedVertices = 2048;
 constexpr uint32_t kProbePoints = 16;
 constexpr int kProbeRounds = 3;
@@ -39,7 +39,7 @@ int termsOf(const AssetPart& part) {
     return terms;
 }
 
-// Of points of a part: rows, per set, and visibility bits where these are found and kept.
+// Rows of points of a part, per set, and visibility bits if these are computed and kept.
 struct BakedPoints {
     std::vector<BakedRows> rows;
     std::vector<uint32_t> visibility;
@@ -53,7 +53,7 @@ class BlockBaker {
         : mDevice(device), mPlan(plan), mLimits(limits), mSink(sink), mObserver(observer), mKept(kept),
           mEstimate(estimateParts(blocks, all)) {}
 
-    // Blocks of one part.
+    // Bakes blocks of one part.
     void bakePart(std::span<const uint32_t> blocks, BakeTimes& times);
 
   private:
@@ -61,7 +61,7 @@ class BlockBaker {
                                                   std::span<const uint32_t> all);
     void probe(std::vector<BakeEstimate::Part>& parts, uint32_t first);
     void bakeGroup(std::span<const uint32_t> blocks);
-    // `given`: the points' bits, where visibility is kept already.
+    // `given` holds the points' bits if visibility is kept already.
     BakedPoints bakePoints(std::span<const shared::BakePoint> points, std::span<const uint32_t> given = {});
     BakedPoints tryPoints(std::span<const shared::BakePoint> points, std::span<const uint32_t> given);
     std::vector<shared::BakePoint> pointsOf(const BakeBlock& block) const;
@@ -103,7 +103,7 @@ std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32
     for (uint32_t block : all) parts[mPlan.blocks[block].part].vertices += mPlan.blocks[block].count();
     for (BakeEstimate::Part& part : parts) part.doneBefore = part.vertices;
     for (uint32_t block : blocks) parts[mPlan.blocks[block].part].doneBefore -= mPlan.blocks[block].count();
-    if (mKept) { // what is left to do goes with the terms
+    if (mKept) { // the remaining cost is in proportion to the terms
         for (size_t number = 0; number < parts.size(); number++)
             parts[number].probedSeconds = termsOf(mPlan.asset.parts[number]);
         return parts;
@@ -112,15 +112,15 @@ std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32
     return parts;
 }
 
-// Visibility costs what its points ask for, the rest what a part's terms do: the passes of the first part to
-// be baked tell both for all.
+// Probes the parts with the passes of the first part to be baked. The cost of visibility depends on the
+// points, that of the rest on the number of terms, so these passes suffice for all parts.
 void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
     usePasses(first);
     const double ownTerms = termsOf(part());
     const auto rowSeconds = [&] {
         return vk::secondsOf(mPasses->times()) - vk::secondsOf(mPasses->times(), "visibility");
     };
-    bakePoints(std::vector(1, bakePoint(part().mesh, 0, mPlan.asset.visibilityOffset))); // warms up
+    bakePoints(std::vector(1, bakePoint(part().mesh, 0, mPlan.asset.visibilityOffset))); // warm-up
     for (int round = 0; round < kProbeRounds; round++)
         for (size_t number = 0; number < parts.size(); number++) {
             const AssetPart& probed = mPlan.asset.parts[number];
@@ -138,7 +138,7 @@ void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
             double& best = parts[number].probedSeconds;
             best = round == 0 ? seconds : std::min(best, seconds);
         }
-    // Those that were not probed count as one that was.
+    // Parts without a probe are taken to cost as much as the first probed one.
     const double usual = std::ranges::find_if(parts, isProbed)->probedSeconds;
     for (BakeEstimate::Part& part : parts)
         if (!isProbed(part)) part.probedSeconds = usual;
@@ -172,7 +172,7 @@ BakedPoints BlockBaker::tryPoints(std::span<const shared::BakePoint> points,
     BakedPoints baked{emptyRows(part()), {}};
     const size_t givenWords = given.size() / points.size();
     while (!points.empty()) {
-        // Evenly, rather than full ones and a rest.
+        // Points are divided evenly among submissions.
         const size_t largest = std::min(mLargest, mPasses->batch());
         const size_t submissions = (points.size() + largest - 1) / largest;
         const size_t count = (points.size() + submissions - 1) / submissions;
@@ -250,10 +250,10 @@ void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const 
             baker.bakePart(own, times);
             blocks = blocks.subspan(own.size());
         }
-    } catch (...) { // what is baked is not lost
+    } catch (...) { // keep what is baked
         try {
             sink.finish();
-        } catch (...) { // the first error tells more
+        } catch (...) { // the first error says more
         }
         throw;
     }

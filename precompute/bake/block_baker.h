@@ -1,4 +1,4 @@
-// Bakes blocks of a plan, one after another.
+// Bakes the blocks of a plan and hands them to a sink.
 #pragma once
 
 #include "engine/transport/kept_visibility.h"
@@ -11,30 +11,31 @@
 
 namespace relume {
 
-// Where a bake's time went.
+// The times of a bake, in seconds.
 struct BakeTimes {
-    double total = 0; // wall-clock seconds, all told
+    double total = 0; // wall clock
     double factorisation = 0;
-    double occluder = 0;  // merging and simplifying
-    double bounces = 0;   // gathering bounced light, on the host
-    double previews = 0;  // making and writing them
-    vk::PassTimes device; // device seconds by pass
-    uint32_t batch = 0;   // most points of a submission
+    double occluder = 0;  // merging and simplifying the occluder
+    double bounces = 0;   // gathering bounced light on the host
+    double previews = 0;  // making and writing previews
+    vk::PassTimes device; // device time by pass
+    uint32_t batch = 0;   // largest number of points per submission
 };
 
-// Takes blocks as they are finished.
+// Receives blocks as they are finished.
 class BakeSink {
   public:
     virtual ~BakeSink() = default;
     virtual void take(uint32_t block, BakedBlock baked) = 0;
-    // Returns once all that was taken is where it goes.
+    // Returns once all blocks taken have reached their destination.
     virtual void finish() {}
 };
 
-// Bakes the blocks of these numbers in their order; those of a part had best be together. Progress is told of
-// `all` blocks, those done before among them. What a block gives depends on the plan alone. A device or host
-// short of memory halves the batch, saying so. Finishes the sink, whatever it throws: BakeStopped when the
-// observer wants it, Error. `kept`: verified visibility of the plan's key, taken instead of finding it.
+// Bakes `blocks` in this order; it is fastest if those of a part are consecutive. Progress is reported
+// relative to `all` blocks, which include those done before. A block's result depends on the plan alone. When
+// device or host run out of memory, the batch is halved and the log says so. `kept`, if any, is verified
+// visibility with the plan's key, used instead of computing it. Finishes the sink, also after an
+// exception. Throws BakeStopped when the observer wants it, and Error.
 void bakeBlocks(const vk::Device& device, const BakePlan& plan, std::span<const uint32_t> blocks,
                 std::span<const uint32_t> all, const BakeLimits& limits, BakeSink& sink,
                 BakeObserver& observer, BakeTimes& times, KeptVisibility* kept = nullptr);

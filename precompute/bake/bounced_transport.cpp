@@ -21,10 +21,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The sources, transport that lights others, have the smallest sizes that the kernels make.
+// Sources, the transport that lights others, have the smallest sizes that the kernels support.
 constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 96;
 
-// A plan of the bound sets alone, at low resolution, without an occluder yet.
+// Returns a low-resolution plan of the bound sets alone, without an occluder yet.
 BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
     BakePlan sources{plan.options};
     sources.options.keepVisibility = false;
@@ -45,7 +45,7 @@ BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
     return sources;
 }
 
-// Returns the rows of kBounceFaceSize that are part of a larger cube's.
+// Returns the coefficients of rows of a larger cube that exist at kBounceFaceSize.
 SparseTransport coarseRows(const SparseTransport& rows, int faceSize) {
     SparseTransport coarse{rows.vertices, rows.terms, {0}, {}, {}, {}};
     for (size_t row = 0; row < rows.rows(); row++) {
@@ -72,7 +72,7 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
         rows.push_back(emptyRows(uint32_t(part.sets[bound[number].set].brdf.terms)));
     }
     BakePlan sources = planOfSources(plan, bound);
-    std::swap(sources.asset.occluder, plan.asset.occluder); // large: never twice
+    std::swap(sources.asset.occluder, plan.asset.occluder); // large: never two copies
     const TakeRows take = [&](uint32_t part, std::span<const BakedRows> sets) {
         appendRows(rows[part], coarseRows(sets[0].transport, kSourceFaceSize));
     };
@@ -81,7 +81,7 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
     return rows;
 }
 
-// Throws Error where the host cannot hold the rows that bouncing takes at once.
+// Throws Error if the host cannot hold the rows needed for bounces.
 void expectMemory(const BakePlan& plan, const Appearance& bound) {
     const uint64_t needed = bounceBytes(plan.asset, bound);
     const uint64_t present = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
@@ -92,9 +92,9 @@ void expectMemory(const BakePlan& plan, const Appearance& bound) {
                                 plan.vertices(), double(needed) * 1e-9, double(present) * 1e-9));
 }
 
-// Tells of parts whose factors reflect more than they receive.
+// Logs parts whose factors reflect more light than they receive.
 void logHeld(const BakePlan& plan, const BounceGather& gather) {
-    std::map<size_t, float> shares; // by part, the largest of its layers
+    std::map<size_t, float> shares; // by part, the largest over its layers
     for (const BounceGather::HeldLayer& held : gather.heldLayers())
         shares[held.part] = std::max(shares[held.part], held.share);
     for (const auto& [part, share] : shares)
@@ -104,7 +104,7 @@ void logHeld(const BakePlan& plan, const BounceGather& gather) {
                 plan.asset.parts[part].name, share));
 }
 
-// Adds row to row.
+// Adds transport row by row.
 SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
     SparseTransport rows{a.vertices, a.terms, {0}, {}, {}, {}};
     RowSum sum(kBounceCoefficients);
@@ -124,7 +124,7 @@ uint64_t bounceBytes(const Asset& asset, const Appearance& bound) {
     uint64_t bytes = 0;
     for (size_t number = 0; number < asset.parts.size(); number++) {
         const AssetPart& part = asset.parts[number];
-        // Direct transport, and that with the bounce before; and bounced rows of all sets.
+        // Direct transport, that with the previous bounce, and bounced rows of all sets.
         uint64_t ofVertex =
             2 * uint64_t(part.sets[bound[number].set].brdf.terms) * (kSourceKept * kEntryBytes + kRowBytes);
         for (const MaterialSet& set : part.sets)

@@ -1,4 +1,4 @@
-// Light that reaches vertices by way of other surfaces, as transport to be added to what was baked.
+// Bounced light, as transport that is added to directly baked rows.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -6,42 +6,42 @@
 
 namespace relume {
 
-// The version is raised when bounced light comes out differently: checkpoints and shards of before do not
-// fit.
+// Raised whenever bounced light comes out differently, which invalidates older checkpoints and shards.
 constexpr uint32_t kBouncesVersion = 3;
 
-// Rows of bounced light, which are added to blocks as they are baked.
+// Rows of bounced light per part and set.
 class BouncedTransport {
   public:
-    // Takes rows per part and set, as BounceGather gives them.
+    // Takes rows per part and set, as BounceGather::gather() returns them.
     explicit BouncedTransport(std::vector<std::vector<SparseTransport>> rows) : mRows(std::move(rows)) {}
 
-    // Adds them to the rows of a part's vertices from `first` on, per set. Rows keep their `kept` largest
-    // coefficients; what is lost by that is added to their losses.
+    // Adds bounced light to `sets`, the rows per set of a part's vertices from `first` on. Rows keep their
+    // `kept` largest entries; what that loses is added to their losses.
     void addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize, int kept) const;
 
-    // Adds one to all coefficients of a row of a set.
+    // Adds the bounced light of one row to all its coefficients.
     void addTo(std::span<vec3> coefficients, size_t part, size_t set, size_t row, int faceSize) const;
 
     const SparseTransport& rows(size_t part, size_t set) const { return mRows[part][set]; }
 
   private:
-    std::vector<std::vector<SparseTransport>> mRows; // of kBounceFaceSize
+    std::vector<std::vector<SparseTransport>> mRows; // coefficients of a cube of kBounceFaceSize
 };
 
-// Returns the most bytes of host memory that rows take while light bounces.
+// Returns an upper bound on the host memory, in bytes, that rows take while bounces are computed.
 uint64_t bounceBytes(const Asset& asset, const Appearance& bound);
 
-// Finds the light of as many bounces as the plan's options have, of the parts in the first material of each,
-// or as they are painted. Direct transport is baked for it at a low resolution. Throws BakeStopped, and Error
-// where there is less memory than bounceBytes() or what a bake throws; then nothing more can be baked of
-// `plan`, whose occluder is borrowed. `lastSources`, if any: what the last bounce was gathered from.
+// Computes the bounces that the plan's options ask for, with every part in its default appearance (its first
+// material, or as painted). Direct transport is first baked at a low resolution as the source. If
+// `lastSources` is given, it receives the transport from which the last bounce was gathered. Throws
+// BakeStopped, and Error if the machine has less memory than bounceBytes() or baking fails; `plan`, whose
+// occluder is moved out meanwhile, is then unusable.
 std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device, BakePlan& plan,
                                                         const BakeLimits& limits, BakeObserver& observer,
                                                         BakeTimes& times,
                                                         std::vector<SparseTransport>* lastSources = nullptr);
 
-// Finds again the bounced light that an asset was baked with, at least one bounce. Throws as above.
+// Recomputes the bounced light of a baked asset, which must have at least one bounce. Throws as above.
 std::shared_ptr<const BouncedTransport>
 bouncedTransportOf(const vk::Device& device, const Asset& asset, BakeObserver& observer,
                    std::vector<SparseTransport>* lastSources = nullptr);

@@ -28,7 +28,8 @@ constexpr size_t kHeaderBytes = kMagic.size() + 4 + kIdentityBytes + 8;
 constexpr uint32_t kScale = 0xffffffff; // in place of a block's number
 constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kLossBytes = 4 * 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
 
-// What a crash of the machine may cost, as a crash of the program costs nothing that was appended.
+// Time between flushes to disk: what a crash of the machine may lose. A crash of the program loses nothing
+// appended.
 constexpr std::chrono::seconds kSyncInterval{5};
 
 std::vector<std::byte> headerOf(const BakePlan& plan) {
@@ -41,7 +42,7 @@ std::vector<std::byte> headerOf(const BakePlan& plan) {
     return out.take();
 }
 
-// Of a record's header before the checksum, and its body.
+// Returns the checksum of a record: of its header before the checksum, and of its body.
 uint64_t recordChecksum(std::span<const std::byte> header, std::span<const std::byte> body) {
     std::vector<std::byte> both(header.begin(), header.end());
     both.insert(both.end(), body.begin(), body.end());
@@ -102,7 +103,7 @@ Checkpoint::Checkpoint(std::filesystem::path path) : mPath(std::move(path)) {
     }
 }
 
-// A checkpoint that was just removed by a finished bake must not be taken for one: hence the second look.
+// Checks after locking that the file still has its name: a finished bake may just have removed it.
 void Checkpoint::lock() {
     for (;;) {
         mFile = open(mPath.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW, 0666);
@@ -177,8 +178,8 @@ void Checkpoint::resume(const BakePlan& plan) {
     mSynced = std::chrono::steady_clock::now();
 }
 
-// Reads the record at mBytes and goes past it, if it is whole and of a block that is missing yet, or the
-// scale that comes before blocks that are not in rows.
+// Reads the record at mBytes and advances past it, if it is intact and is either a block not yet read or the
+// scale, which precedes all blocks that are not in rows.
 bool Checkpoint::readRecord(const BakePlan& plan) {
     std::array<std::byte, kRecordHeaderBytes> header{};
     if (!read(mBytes, header)) return false;

@@ -1,4 +1,4 @@
-// Finished blocks of a bake on disk, so that nothing stops it for good: docs/checkpoint_format.md.
+// The checkpoint: finished blocks of a bake on disk, from which it resumes (docs/checkpoint_format.md).
 #pragma once
 
 #include "precompute/bake/stored_blocks.h"
@@ -9,35 +9,36 @@
 
 namespace relume {
 
-// An append-only file of blocks. One process at a time has it.
+// An append-only file of blocks, locked by one process at a time.
 class Checkpoint : public StoredBlocks {
   public:
-    // Makes or opens the file and locks it. Throws Error when another process has it, when it is no
-    // checkpoint, or cannot be written.
+    // Opens or creates the file and locks it. Throws Error if another process holds it, if it is not a
+    // checkpoint, or if it cannot be written.
     explicit Checkpoint(std::filesystem::path path);
-    // Removes a file that holds nothing.
+    // Unlocks the file, and deletes it if it is empty.
     ~Checkpoint() override;
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
-    // Whether it is of this very plan.
+    // Returns whether the file was begun for this plan.
     bool matches(const BakePlan& plan) const;
 
-    // Finds the blocks of this very plan, once, before what follows; drops what a crash left half written,
-    // and everything, saying so, where the plan is another.
+    // Reads the blocks of this plan; to be called once, before the functions below. Drops what a crash left
+    // half written; if the file is of another plan, drops everything and logs a warning.
     void resume(const BakePlan& plan);
 
     bool has(uint32_t block) const { return mBlocks[block].has_value(); }
-    // Entries have offsets into the checkpoint.
+    // Returns entries whose offsets are relative to the checkpoint file.
     const std::vector<ChunkEntry>& chunks(uint32_t block) const override { return mBlocks[block]->chunks; }
     const TransportLosses& losses(uint32_t block) const override { return mBlocks[block]->losses; }
     std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override;
 
-    // What the blocks that are not in rows are encoded with, once it is kept: before them.
+    // Returns the scale that the blocks are encoded with, if stored. Needed, and appended, only for layouts
+    // other than rows, before their blocks.
     const std::optional<LayoutScale>& scale() const { return mScale; }
     void append(const LayoutScale& scale);
 
-    // On failure, a full disk say, throws Error and leaves the file as it was before.
+    // Throws Error on failure, such as a full disk, and leaves the file as it was.
     void append(uint32_t block, const StoredBlock& stored);
 
     // Deletes the file.
@@ -59,7 +60,7 @@ class Checkpoint : public StoredBlocks {
 
     std::filesystem::path mPath;
     int mFile = -1;
-    uint64_t mBytes = 0; // of the valid file
+    uint64_t mBytes = 0; // length of the valid part of the file
     std::vector<std::optional<Kept>> mBlocks;
     std::optional<LayoutScale> mScale;
     std::chrono::steady_clock::time_point mSynced;

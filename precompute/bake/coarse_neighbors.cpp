@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t kLeafPoints = 8;
 constexpr size_t kMostNeighbors = 8;
-// How much the distance from another vertex's tangent plane counts beside that along it: what lies in another
-// layer, or around a corner, sees other things.
+// Weight of the distance from a vertex's tangent plane relative to that along it: what lies in another layer
+// or around a corner has different visibility.
 constexpr float kPlaneWeight = 3;
 
 constexpr float kSlopeDamping = 0.05f;
@@ -29,7 +29,7 @@ struct CoarseNeighbors::Search {
         uint32_t coarse;
     };
     Point of;
-    std::vector<Found> found; // rising; the last is the first that is left out
+    std::vector<Found> found; // ascending; the last is the first to be left out
 
     bool isFull() const { return found.size() > kMostNeighbors; }
     bool canBe(float squaredDistance) const {
@@ -45,7 +45,7 @@ struct CoarseNeighbors::Search {
 
 CoarseNeighbors::Point CoarseNeighbors::pointOf(const Mesh& mesh, uint32_t vertex) const {
     const vec3 p = mesh.positions[vertex] * mScale, normal = mesh.normals[vertex];
-    // Rows are of light maps in the vertex's frame: where frames turn, so do they.
+    // Rows belong to light maps in the vertex's frame and change as it rotates.
     const vec3 n = normal * kNormalWeight, s = frameOf(mesh, vertex).s * kNormalWeight;
     return {{p.x, p.y, p.z, n.x, n.y, n.z, s.x, s.y, s.z}, normal, 0};
 }
@@ -116,7 +116,8 @@ void CoarseNeighbors::search(uint32_t number, Search& search) const {
     }
 }
 
-// Makes the middle of the neighbors, in the tangent plane, the vertex itself, where it lies among them.
+// Scales weights so that the neighbors' weighted mean, in the tangent plane, is the vertex, if it lies among
+// them.
 void CoarseNeighbors::balance(uint32_t vertex, std::vector<CoarseNeighbor>& neighbors) const {
     const TangentFrame frame = tangentFrame(mMesh.normals[vertex]);
     std::vector<vec2> places;
@@ -129,7 +130,7 @@ void CoarseNeighbors::balance(uint32_t vertex, std::vector<CoarseNeighbor>& neig
         spread += neighbor.weight * glm::outerProduct(place, place);
         places.push_back(place);
     }
-    // Places in a line, or all one, leave a slope open; this keeps it small.
+    // Damping keeps the slope small where collinear or coincident places leave it undetermined.
     spread += kSlopeDamping * (spread[0][0] + spread[1][1]) * glm::mat2(1);
     if (!(glm::determinant(spread) > 0)) return;
     const vec2 slope = glm::inverse(spread) * middle;
@@ -143,12 +144,12 @@ std::vector<CoarseNeighbor> CoarseNeighbors::of(uint32_t vertex) const {
     RELUME_CHECK(!search.found.empty());
     const float nearest = std::sqrt(search.found.front().squaredDistance);
     if (nearest < 1e-6f || search.found.size() == 1) return {{search.found.front().coarse, 1}};
-    // Where there are no more, the last is taken all the same.
+    // If there are no further neighbors, the last one is used, too.
     const float reach = std::sqrt(search.found.back().squaredDistance) * (search.isFull() ? 1 : 1.5f);
     std::vector<CoarseNeighbor> neighbors;
     for (const Search::Found& found : search.found) {
         const float distance = std::sqrt(found.squaredDistance);
-        // Relative to the nearest, so that nothing overflows.
+        // Distances are relative to the nearest, to avoid overflow.
         const float weight = squared((reach - distance) / reach * (nearest / distance));
         if (weight > 0) neighbors.push_back({found.coarse, weight});
     }

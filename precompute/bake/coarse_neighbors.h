@@ -1,4 +1,4 @@
-// The coarse vertices that a vertex between them is interpolated from.
+// Finds the coarse vertices from which another vertex is interpolated, and their weights.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -8,33 +8,35 @@
 
 namespace relume {
 
-// A coarse vertex by its place in their list, and its share.
+// An index into the list of coarse vertices, and its weight.
 struct CoarseNeighbor {
     uint32_t coarse;
     float weight;
 };
 
-// Finds the nearest in place, tangent frame and plane. Shares add up to one and change continuously over a
-// smooth surface (Shepard's weights, which Franke and Little let vanish at the first neighbor left out);
-// they are balanced, so that what changes linearly over the surface is met.
+// Finds nearest neighbors in position, tangent frame and distance from the tangent plane. Weights are
+// Shepard's, as modified by Franke and Little to vanish at the first neighbor left out: they add up to one
+// and change continuously over a smooth surface. They are then balanced so that linear functions over the
+// surface are reproduced.
 class CoarseNeighbors {
   public:
-    // Of a mesh that outlives it, with `coarse` of coarseVertices() and the spacing it was given.
+    // Keeps a reference to `mesh`. `coarse` is from coarseVertices(), `spacing` what was passed to it.
     CoarseNeighbors(const Mesh& mesh, std::span<const uint32_t> coarse, float spacing);
 
-    // A coarse vertex has itself alone. None has a neighbor whose normal is not like its own
-    // (kLeastNormalCosine).
+    // Returns the neighbors of a vertex; a coarse vertex has only itself. The normals of neighbors differ by
+    // less than kLeastNormalCosine allows.
     std::vector<CoarseNeighbor> of(uint32_t vertex) const;
 
   private:
-    // Place, normal and tangent, in spacings.
+    // Position, normal and tangent, in units of the spacing.
     using Feature = std::array<float, 9>;
     struct Point {
         Feature feature;
         vec3 normal;
         uint32_t coarse;
     };
-    // A box around points [first, end); unless a leaf, its halves are the nodes next to it and `right`.
+    // A bounding box of points [first, end). Unless it is a leaf (right == 0), its children are the next node
+    // and `right`.
     struct Node {
         Feature low, high;
         uint32_t first, end, right;

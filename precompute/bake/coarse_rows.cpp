@@ -16,8 +16,8 @@ namespace {
 
 constexpr uint64_t kVerticesPerCoarse = 12;
 constexpr uint64_t kCoarseRowBytes = uint64_t(256) << 20;
-constexpr int kMostInterpolated = 96;        // coefficients of a row: more do not show
-constexpr uint32_t kVerticesTogether = 2048; // interpolated between two looks at whether to stop
+constexpr int kMostInterpolated = 96;        // row entries; more make no visible difference
+constexpr uint32_t kVerticesTogether = 2048; // interpolated between polls for a stop
 
 } // namespace
 
@@ -45,7 +45,7 @@ CoarseRows::CoarseRows(const vk::Device& device, BakePlan& plan, std::span<const
         for (size_t set = 0; set < sets.size(); set++) mRows[plan.firstSet[part] + set].append(sets[set]);
     };
     StageObserver coarseObserver(observer, BakeStage::Preview);
-    BakeTimes times; // which previews have apart
+    BakeTimes times; // not reported: previews have a time of their own
     bakeVertices(device, plan, chosen, limits, take, coarseObserver, times);
 }
 

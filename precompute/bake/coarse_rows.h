@@ -1,4 +1,4 @@
-// Rows of some vertices, which previews show in place of those that are not baked yet.
+// Coarse rows, from which previews interpolate the vertices that are not baked yet.
 #pragma once
 
 #include "precompute/bake/block_baker.h"
@@ -8,33 +8,33 @@
 
 namespace relume {
 
-// Rows of direct light of one vertex in twelve, fewer where they would take more than 256 MiB. What is
+// Rows of direct light for one vertex in twelve, or fewer so that they take at most 256 MiB. What is
 // interpolated from them depends on the plan alone.
 class CoarseRows {
   public:
-    // Bakes rows for the parts of `blocks`. Throws BakeStopped, Error; then nothing more can be baked of
-    // `plan`, whose occluder is borrowed.
+    // Bakes coarse rows for the parts that contain `blocks`. Throws BakeStopped and Error; `plan`, whose
+    // occluder is moved out meanwhile, is then unusable.
     CoarseRows(const vk::Device& device, BakePlan& plan, std::span<const uint32_t> blocks,
                const BakeLimits& limits, BakeObserver& observer);
 
-    // Gives to `store` each of `blocks` as the plan keeps it, with bounced light where it was found. Throws
-    // BakeStopped, and what `store` throws.
+    // Interpolates `blocks` and passes each to `store`, encoded in the plan's layout, with bounced light if
+    // the plan has it. Throws BakeStopped, and what `store` throws.
     void interpolate(const BakePlan& plan, std::span<const uint32_t> blocks,
                      const std::function<void(uint32_t block, StoredBlock stored)>& store,
                      BakeObserver& observer) const;
 
-    // Returns the most bytes that the interpolated rows of a plan's vertices take.
+    // Returns an upper bound on the bytes of interpolated rows for all vertices of a plan.
     static uint64_t interpolatedBytes(const BakePlan& plan);
 
   private:
-    // The coarse vertices of a part; none of one that needs no blocks.
+    // The coarse vertices of a part; none if no block of it is wanted.
     struct Part {
         std::vector<uint32_t> vertices;
         float spacing = 1;
     };
 
     std::vector<Part> mParts;
-    std::vector<BakedRows> mRows; // per set, over all parts
+    std::vector<BakedRows> mRows; // per set, counted over all parts
 };
 
 } // namespace relume

@@ -21,7 +21,7 @@ float vertexSpacing(const Mesh& mesh, size_t count) {
 
 namespace {
 
-// Place and normal, in spacings.
+// Position and normal, in units of the spacing.
 using Feature = std::array<float, 6>;
 
 class Grouping {
@@ -91,9 +91,10 @@ class Grouping {
 std::vector<uint32_t> coarseVertices(const Mesh& mesh, size_t count, float spacing) {
     RELUME_CHECK(count >= 1 && count <= mesh.vertexCount());
     std::vector<uint32_t> coarse = Grouping(mesh, spacing).middles(count);
-    // Those that are added differ in their normals by more than that cosine: there is room for few.
+    // Few vertices are added, since the normals of added ones differ from each other by more than the cosine
+    // allows.
     const std::vector<vec3>& normals = mesh.normals;
-    size_t like = 0; // that of the vertex before, most often
+    size_t like = 0; // starts with that of the previous vertex, most often the same
     for (uint32_t vertex = 0; vertex < mesh.vertexCount(); vertex++) {
         const auto isLike = [&](uint32_t other) {
             return glm::dot(normals[vertex], normals[other]) > kLeastNormalCosine;

@@ -1,22 +1,22 @@
-// Which vertices of a mesh stand for all of them.
+// Chooses vertices of a mesh that represent all of them.
 #pragma once
 
 #include "engine/scene/mesh.h"
 
 namespace relume {
 
-// Other vertices whose normal's cosine to one's own is at most this say nothing about it.
+// A vertex is represented only by vertices whose normals have a cosine above this with its own.
 constexpr float kLeastNormalCosine = 0.25f;
 
-// The side of the square that each of `count` vertices would have of the mesh's surface, > 0.
+// Returns the side of the square that each of `count` vertices would have of the mesh's surface; > 0.
 float vertexSpacing(const Mesh& mesh, size_t count);
 
-// How much a normal's turn counts, in spacings a radian.
+// The weight of a normal's rotation in distances, in spacings per radian.
 constexpr float kNormalWeight = 5;
 
-// At least `count` (1 to all) vertices, rising, spread as the vertices are: the middles of `count` groups of
-// equally many vertices that are near in place and normal. And a few more, so that for every vertex there
-// is one whose normal is like its own. `spacing` is vertexSpacing(mesh, count).
+// Returns at least `count` (1 to all) vertices in ascending order, distributed as the mesh's vertices are:
+// the middles of `count` groups of equal size, near in position and normal, and a few more, so that every
+// vertex has one with a similar normal (kLeastNormalCosine). `spacing` is vertexSpacing(mesh, count).
 std::vector<uint32_t> coarseVertices(const Mesh& mesh, size_t count, float spacing);
 
 } // namespace relume

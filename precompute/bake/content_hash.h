@@ -1,4 +1,4 @@
-// A hash of several arrays and texts, one after another.
+// A hash of a sequence of arrays and texts.
 #pragma once
 
 #include "engine/base/hash.h"
@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// Where one ends and the next begins shows in the hash.
+// Includes the length of each array and text, so that boundaries matter.
 class ContentHash {
   public:
     template <typename Element>

@@ -13,16 +13,16 @@ namespace relume {
 
 namespace {
 
-// Of the vertices of all parts, so many or such a share; of a part's at least so many, while the parts are
-// few; in all never more than so many vertices and bytes of rows, which are held in memory: docs/layouts.md.
+// Size of the sample: a number or a share of the vertices of all parts; a least number per part, while there
+// are few parts; and limits on vertices and on bytes of rows, which are held in memory (docs/layouts.md).
 constexpr uint64_t kSampleVertices = 8192, kSampleShare = 4, kLeastOfPart = 1024;
 constexpr uint64_t kMostSampled = 32768, kSampleBytes = uint64_t(256) << 20;
-// Vertices of a part that tell its sets' units: such a share, within bounds, of which the lower one is less
-// where the parts are many.
+// Vertices of a part from which its sets' normalization is computed: a share, within bounds; the lower bound
+// decreases with many parts.
 constexpr uint64_t kUnitShare = 64, kLeastForUnit = 512, kMostForUnit = 4096;
 constexpr uint64_t kLeastForUnits = 16384, kLeastOfManyForUnit = 64; // of all parts, of each
 
-// Of `all`, cut into `count` stretches: the middle of one.
+// Returns the middle of one of `count` stretches into which `all` is divided.
 uint64_t middleOf(uint64_t stretch, uint64_t count, uint64_t all) {
     return (2 * stretch + 1) * all / (2 * count);
 }
@@ -42,7 +42,7 @@ class SampleSink : public BakeSink {
     const BakePlan& mPlan;
 };
 
-// To rows of these vertices of a part, one after the other.
+// Adds bounced light to rows of these vertices of a part.
 void addBounces(const BakePlan& plan, uint32_t part, std::span<const uint32_t> vertices,
                 std::vector<BakedRows>& rows) {
     std::vector<BakedRows> sum;
@@ -56,9 +56,9 @@ void addBounces(const BakePlan& plan, uint32_t part, std::span<const uint32_t> v
     rows = std::move(sum);
 }
 
-// Per set, from vertices spread over its part: a few blocks would not tell. A ground's shadow is on one in
-// twenty. Visibility that was kept would be of little use: it is packed by blocks, and to unpack all of one
-// for a few vertices takes longer than to find theirs.
+// Returns the normalization of each set, from vertices spread over its part; a few blocks would not do, since
+// a ground's shadow is on one in twenty. Kept visibility is not used: it is packed by blocks, and unpacking
+// one for a few vertices takes longer than computing theirs.
 std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeLimits& limits,
                            BakeObserver& observer, BakeTimes& times) {
     std::vector<std::vector<uint32_t>> chosen;
@@ -72,9 +72,9 @@ std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeL
     }
     const std::vector<float> spectrum = lightSpectrum(plan.asset.faceSize);
     std::vector<float> units;
-    std::vector<UnitSum> sums; // of the sets of one part at a time: rows are not held
+    std::vector<UnitSum> sums; // of the sets of one part at a time, so that rows need not be held
     uint32_t summed = 0;       // that part
-    size_t taken = 0;          // of its vertices
+    size_t taken = 0;          // of the vertices of that part
     const auto endPart = [&] {
         for (const UnitSum& sum : sums) units.push_back(sum.unit());
         sums.clear();
@@ -111,7 +111,7 @@ LayoutScale scaleOf(const BakePlan& plan, std::span<const SampledBlock> blocks,
     return findScale(samples, plan.asset.faceSize, plan.vertices(), plan.options.layout);
 }
 
-// Of these blocks, so that neither vertices nor bytes are too many; 1 where they are not.
+// Returns the share of these blocks that stays within the limits on vertices and bytes, at most 1.
 double shareThatFits(const BakePlan& plan, std::span<const uint32_t> blocks) {
     uint64_t vertices = 0, bytes = 0;
     for (const uint32_t number : blocks) {

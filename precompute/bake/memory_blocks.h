@@ -1,4 +1,4 @@
-// Finished blocks that are held in memory.
+// Finished blocks held in memory.
 #pragma once
 
 #include "precompute/bake/stored_blocks.h"
@@ -13,7 +13,7 @@ class MemoryBlocks : public StoredBlocks {
         std::vector<ChunkEntry>& entries = mEntries[block];
         for (size_t i = 0; i < stored.chunks.size(); i++) {
             entries.push_back(stored.chunks[i].entry);
-            entries.back().offset = i; // there
+            entries.back().offset = i; // index of the chunk, in place of a file offset
         }
         mBlocks[block] = std::move(stored);
     }

@@ -105,7 +105,7 @@ void ShardBlocks::addShard(const ShardFile& file) {
             file.name(), found, file.shard().index, file.shard().count, used));
 }
 
-// Nothing is passed on that a reader of the whole would refuse.
+// Checks everything that a reader of the whole would refuse.
 std::vector<std::byte> ShardBlocks::load(uint32_t block, const ChunkEntry& entry) const {
     const ShardFile& file = fileOf(block);
     std::vector<std::byte> stored = file.chunks().loadStored(entry);

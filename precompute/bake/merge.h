@@ -1,14 +1,14 @@
-// The shards of a bake joined.
+// Joins the shards of a bake.
 #pragma once
 
 #include "precompute/bake/shard_file.h"
 
 namespace relume {
 
-// Writes the bytes of a bake that was not cut into shards, whatever the order of these. Holds the meshes, the
-// materials and one chunk of transport. Throws Error, maybe after output began: for shards of different
-// bakes, saying how they differ; for missing and doubled ones; for whatever does not check out. Gives its
-// vertices.
+// Writes the asset, byte for byte as an unsharded bake would; the order of `shards` does not matter. Holds
+// the meshes, the materials and one chunk of transport in memory. Returns the number of vertices. Throws
+// Error, maybe after output began, for shards of different bakes (saying how they differ), missing or
+// duplicate shards, and invalid content.
 uint64_t mergeShards(std::span<const ShardFile> shards, const ChunkWriter::Output& output);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// The device passes that bake the vertices of one part, a batch a submission.
+// The device passes that bake the vertices of one part, one batch per submission.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -11,27 +11,30 @@
 
 namespace relume {
 
-// Whether visibility is found by the passes, or was found before and is given to them.
+// Whether the passes compute visibility, or are given it.
 enum class VisibilitySource { Found, Given };
 
 class PartPasses {
   public:
-    // For a part whose sets are factored, of an asset whose occluder is made. The batch is planned from the
-    // device's limits and `limits` (batch_plan.h), and halved as often as memory asks for, saying so. Throws
-    // vk::OutOfMemory or std::bad_alloc when not even one point fits. `asset` and `part` must outlive it.
+    // Takes a part with factored sets, of an asset with an occluder. The batch is planned from the limits of
+    // the device and `limits` (batch_plan.h), and halved, with a warning, while memory does not suffice.
+    // Throws vk::OutOfMemory or std::bad_alloc when not even one point fits. Keeps references to `asset` and
+    // `part`, which must outlive it.
     PartPasses(const vk::Device& device, const Asset& asset, const AssetPart& part,
                const BakeOptions& options, const BakeLimits& limits = {},
                VisibilitySource source = VisibilitySource::Found);
 
-    uint32_t batch() const { return mBatch; } // most points of a submission
+    uint32_t batch() const { return mBatch; } // most points per submission
 
-    // Bakes any number of points. Appends their rows to `rows`, one per set: the same for any batch. After an
-    // OutOfMemory or std::bad_alloc `rows` may hold some of them; halveBatch() and another try may do.
-    // `given`: the points' visibility bits, where it is not found here. `found`: these are appended to it.
+    // Bakes any number of points and appends their rows to `rows`, one per set; the result does not depend on
+    // the batch. `given` holds the points' visibility bits if they are not computed here. `found`, if any,
+    // has computed bits appended. After vk::OutOfMemory or std::bad_alloc, `rows` may be incomplete;
+    // halveBatch() and try again.
     void bake(std::span<const shared::BakePoint> points, std::span<BakedRows> rows,
               std::span<const uint32_t> given = {}, std::vector<uint32_t>* found = nullptr);
 
-    // Makes everything anew for half the batch or less. False if it is 1. `why` is for the log.
+    // Recreates everything for half the batch or less. Returns false if the batch is 1 already. `why` is
+    // logged.
     bool halveBatch(const std::string& why);
 
     const vk::PassTimes& times() const { return mCommands.times(); }
@@ -47,10 +50,10 @@ class PartPasses {
     vk::Commands mCommands;
     uint32_t mBatch;
     VisibilitySource mSource;
-    std::unique_ptr<Visibility> mVisibility; // where it is found here
-    std::vector<TransportPass> mTransports;  // per set
+    std::unique_ptr<Visibility> mVisibility; // null if visibility is given
+    std::vector<TransportPass> mTransports;  // one per set
     vk::Buffer mPoints, mBits;
-    vk::Buffer mGivenBits, mFoundBits; // on the host, where they are given, or wanted
+    vk::Buffer mGivenBits, mFoundBits; // host-visible; empty if not needed
 };
 
 } // namespace relume

@@ -19,7 +19,7 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Writing a preview again takes at most such a share of the time since the last.
+// Writing previews takes at most this share of the time since the last one.
 constexpr double kWritingShare = 0.1;
 
 constexpr uint64_t kMostDraftBytes = uint64_t(512) << 20;
@@ -30,14 +30,14 @@ std::vector<uint32_t> allBlocks(const BakePlan& plan) {
     return all;
 }
 
-// Writes a preview of which such a share is baked.
+// Writes a preview that records the share of its vertices that is baked.
 void writeShare(BakePlan& plan, float share, const StoredBlocks& blocks, const PreviewWriter& write) {
     plan.asset.provenance.bakedShare = share;
     write(blocks);
     plan.asset.provenance.bakedShare.reset();
 }
 
-// Baked blocks, and interpolated ones in place of the others.
+// The baked blocks, with interpolated ones in place of those missing.
 class MixedBlocks : public StoredBlocks {
   public:
     MixedBlocks(const Checkpoint& baked, const Checkpoint& interpolated)
@@ -55,7 +55,7 @@ class MixedBlocks : public StoredBlocks {
     const Checkpoint &mBaked, &mInterpolated;
 };
 
-// Passes blocks on, and writes a preview after every portion but the last.
+// Passes blocks on and writes a preview after every portion but the last.
 class PreviewSink : public BakeSink {
   public:
     PreviewSink(BakePlan& plan, const Checkpoint& checkpoint, const Checkpoint& interpolated, BakeSink& sink,
@@ -96,15 +96,15 @@ class PreviewSink : public BakeSink {
     BakeSink& mSink;
     const PreviewWriter& mWrite;
     BakeObserver& mObserver;
-    std::vector<uint32_t> mLasts; // of portions
+    std::vector<uint32_t> mLasts; // last block of each portion
     Clock::time_point mWritten;
-    double mWriteSeconds = 0, mSeconds = 0; // the last time, in all
+    double mWriteSeconds = 0, mSeconds = 0; // for the last preview, for all
 };
 
 } // namespace
 
 std::vector<std::vector<uint32_t>> previewPortions(const BakePlan& plan, std::span<const uint32_t> blocks) {
-    // Every fourth block of a part, then those half-way between, then the others.
+    // Every fourth block of a part, then those half-way between, then the rest.
     constexpr std::array<size_t, 4> kPortions = {0, 2, 1, 3};
     std::vector<std::vector<uint32_t>> portions(kPortions.size());
     for (const uint32_t block : blocks) {
@@ -112,7 +112,7 @@ std::vector<std::vector<uint32_t>> previewPortions(const BakePlan& plan, std::sp
         portions[kPortions[place % kPortions.size()]].push_back(block);
     }
     std::erase_if(portions, [](const auto& portion) { return portion.empty(); });
-    // To and fro, so that the passes of a part at an end serve two portions.
+    // Alternating directions let the passes of the last part of a portion serve the next one, too.
     for (size_t number = 1; number < portions.size(); number += 2) std::ranges::reverse(portions[number]);
     return portions;
 }

@@ -1,4 +1,4 @@
-// Rows of vertices that are not baked yet, from rows of some that are.
+// Interpolates rows of vertices from rows of coarse ones.
 #pragma once
 
 #include "precompute/bake/baked_rows.h"
@@ -7,14 +7,15 @@
 
 namespace relume {
 
-// One set's.
+// Interpolates the rows of one set.
 class RowInterpolator {
   public:
-    // `coarse` outlives it. Rows keep the `kept` largest of `coefficients` coefficients.
+    // Keeps a reference to `coarse`. Rows have `coefficients` coefficients, of which the `kept` largest are
+    // stored.
     RowInterpolator(const BakedRows& coarse, int coefficients, int kept);
 
-    // Appends a vertex's rows: sums of its neighbors' times their shares, packed as any (packLargest); those
-    // of a single neighbor as they are. What they lost is taken to be what the neighbors did.
+    // Appends a vertex's rows: the weighted sums of its neighbors' rows, packed by packLargest(); those of a
+    // single neighbor are copied. Losses are the weighted sums of the neighbors' losses.
     void append(std::span<const CoarseNeighbor> neighbors, BakedRows& rows);
 
   private:

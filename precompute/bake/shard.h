@@ -1,4 +1,4 @@
-// A bake's blocks dealt out to several machines.
+// The division of a bake's blocks among machines.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,18 @@ namespace relume {
 
 constexpr uint32_t kMostShards = 1000000;
 
-// Blocks index, index + count, index + 2 count, ….
+// The blocks index, index + count, index + 2 count, ….
 struct Shard {
     uint32_t index = 0, count = 1;
 
     bool has(uint32_t block) const { return block % count == index; }
-    // How many of the first `blocks` blocks it has: none, where there are more shards than blocks.
+    // Returns how many of the first `blocks` blocks it has; none if there are more shards than blocks.
     uint32_t size(uint32_t blocks) const { return blocks / count + (index < blocks % count ? 1 : 0); }
 
     bool operator==(const Shard&) const = default;
 };
 
-// From "I/N", I from 0. Throws UsageError.
+// Parses "I/N", where I counts from 0. Throws UsageError.
 Shard parseShard(const std::string& text);
 
 } // namespace relume

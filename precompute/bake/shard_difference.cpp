@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Text of a file for a message: short, and on one line.
+// Returns a file's text for a message: short and on one line.
 std::string quoted(const std::string& text) {
     constexpr size_t kMost = 120;
     std::string shown = "\"";
@@ -27,7 +27,8 @@ std::string pair(const std::string& what, const std::string& first, const std::s
     return fmt::format("{}: {}, not {}", what, quoted(other), quoted(first));
 }
 
-// Null unless it is JSON that can be gone through: an array or object of flat values or flat objects.
+// Returns null unless the text is JSON that can be compared: an array or object of flat values or flat
+// objects.
 Json parseFlat(const std::string& text) {
     constexpr int kDeepest = 2;
     if (isJsonDeeper(text, kDeepest)) return {};
@@ -95,7 +96,7 @@ bool sameDescriptions(const Asset& first, const Asset& other) {
     return all(first) == all(other);
 }
 
-// Of arrays that were made from the same inputs in the same way, and yet are not the same.
+// Compares arrays that differ although they come from the same inputs and options.
 void compareArrays(const ShardFile& first, const ShardFile& other, std::vector<std::string>& found) {
     const auto differ = [&](std::initializer_list<ChunkTag> tags) {
         const auto checksums = [&](const ShardFile& file) {

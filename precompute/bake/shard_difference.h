@@ -1,11 +1,12 @@
-// In words, why shards cannot be joined.
+// Explains why shards cannot be joined.
 #pragma once
 
 #include "precompute/bake/shard_file.h"
 
 namespace relume {
 
-// What differs between two shards of different bakes: "device: \"B\", not \"A\"" for `other` B and `first` A.
+// Describes what differs between two shards of different bakes: "device: \"B\", not \"A\"" for `other` B,
+// `first` A.
 std::string describeDifference(const ShardFile& first, const ShardFile& other);
 
 } // namespace relume

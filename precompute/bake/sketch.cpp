@@ -6,7 +6,7 @@
 namespace relume {
 
 Asset makeSketch(const vk::Device& device, Scene scene) {
-    // The terms are not looked at, and as cheap as can be.
+    // Terms are not used, and made as cheaply as possible.
     BakeOptions options;
     options.layout = {.layout = TransportLayout::Rows};
     options.factorization.terms = 1;

@@ -1,4 +1,4 @@
-// What can be shown of a scene at once, before anything is baked.
+// Makes an asset that can be shown at once, before anything is baked.
 #pragma once
 
 #include "engine/import/scene.h"
@@ -7,9 +7,9 @@
 
 namespace relume {
 
-// Returns an asset of the scene without transport: what ViewOptions::isUnshadowed draws, exactly, after a
-// tenth of a second for an ordinary mesh. Its meshes are not refined, and its vertices not in the order of
-// the bake. Throws Error.
+// Returns an asset of the scene without transport, which ViewOptions::isUnshadowed can draw exactly; takes a
+// tenth of a second for an ordinary mesh. Meshes are not refined, and vertices are not in bake order. Throws
+// Error.
 Asset makeSketch(const vk::Device& device, Scene scene);
 
 } // namespace relume

@@ -34,12 +34,12 @@ ChunkSizes rawSizes(const BakePlan& plan, uint32_t block, size_t chunk) {
         part.sets[chunk].transport);
 }
 
-// The transport, which holds nothing, of the set whose chunk it is.
+// Returns the empty transport of the set to which a chunk belongs.
 const Transport& transportOf(const BakePlan& plan, uint32_t block, const ChunkEntry& entry) {
     return partOf(plan, block).sets[entry.owner - plan.firstSet[plan.blocks[block].part]].transport;
 }
 
-// Entries of transport that a plausible chunk of a block stands for.
+// Returns the number of row entries or columns that a plausible chunk of a block holds.
 uint64_t entriesOf(const BakePlan& plan, const StoredBlocks& blocks, uint32_t block,
                    const ChunkEntry& entry) {
     const auto load = [&] { return unpackChunk(entry, blocks.load(block, entry), "the bake"); };

@@ -1,4 +1,4 @@
-// Finished blocks in the bytes of the asset's file, wherever they are kept.
+// Finished blocks as bytes of the asset's file, wherever they are kept.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"
@@ -9,52 +9,52 @@
 
 namespace relume {
 
-// A finished block: a chunk of transport per set of its part, in its layout, then visb chunks where
-// visibility is kept.
+// A finished block: one chunk of transport per set of its part, in the plan's layout; then chunks of
+// visibility (visb) if it is kept.
 struct StoredBlock {
     TransportLosses losses;
     std::vector<StoredChunk> chunks;
 };
 
-// Checks the rows, encodes them in the plan's layout, for which its scale is known, and compresses them.
-// Blocks may be stored at the same time. Throws Error for rows that make no valid asset.
+// Checks the rows, encodes them in the plan's layout, whose scale must be known, and compresses them. May be
+// called concurrently. Throws Error for rows of which no valid asset can be made.
 StoredBlock storeBlock(const BakePlan& plan, uint32_t block, BakedBlock baked);
 
-// Makes of a block's visibility the chunks that it will be stored as, some hundredth of its bits.
+// Replaces a block's visibility bits by the chunks that are stored of it, about a hundredth of the size.
 void packVisibility(const BakePlan& plan, uint32_t block, BakedBlock& baked);
 
-// How many chunks a block has.
+// Returns the number of chunks of a block.
 size_t chunksOf(const BakePlan& plan, uint32_t block);
 
-// One of these as it must be, but for sizes and checksum.
+// Returns the tag, owner and run that a block's chunk must have; sizes and checksum are unset.
 ChunkEntry expectedChunk(const BakePlan& plan, uint32_t block, size_t chunk);
 
-// Most bytes of it before compression.
+// Returns the most bytes that the chunk can have before compression.
 uint64_t mostRawBytes(const BakePlan& plan, uint32_t block, size_t chunk);
 
-// Whether an entry can be it.
+// Returns whether `entry` can be that chunk: tag, owner, run and sizes.
 bool isPlausible(const BakePlan& plan, uint32_t block, size_t chunk, const ChunkEntry& entry);
 
-// Bytes that transport takes in memory, of a plausible chunk of it.
+// Returns the bytes that the transport of a plausible chunk takes in memory.
 uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& entry);
 
-// All blocks of a plan, or some, that are kept on disk.
+// All or some blocks of a plan, held in memory or on disk.
 class StoredBlocks {
   public:
     virtual ~StoredBlocks() = default;
 
-    // Of a block that is there: entries that are plausible, and what it lost.
+    // Entries and losses of a block that is present; the entries are plausible.
     virtual const std::vector<ChunkEntry>& chunks(uint32_t block) const = 0;
     virtual const TransportLosses& losses(uint32_t block) const = 0;
 
-    // Stored bytes of one of chunks(block). Throws Error when they cannot be read or are damaged.
+    // Returns the stored bytes of one of chunks(block). Throws Error if they cannot be read or are damaged.
     virtual std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const = 0;
 };
 
-// Puts the asset's file together, holding one chunk of transport at a time: each block is copied to where it
-// belongs. Transport in bases is loaded twice: its columns are counted before anything is written. Sets the
-// plan's measured errors from the blocks' losses. Returns the bytes that its transport takes in memory. Calls
-// `poll` between blocks of the counting; what it throws comes through. Throws Error.
+// Assembles the asset's file, holding one chunk of transport at a time. Transport in bases is loaded twice,
+// since its columns are counted before anything is written. Sets the plan's measured errors from the blocks'
+// losses. Returns the bytes that its transport takes in memory. Calls `poll` between blocks while counting
+// and passes on what it throws. Throws Error.
 uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,
                    const std::function<void()>& poll = {});
 

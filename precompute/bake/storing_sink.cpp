@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-// Of a baked block in memory, about.
+// Returns the approximate size of a baked block in memory.
 uint64_t bytesOf(const BakedBlock& baked) {
     uint64_t bytes = baked.visibility.size() * sizeof(uint32_t);
     for (const BakedRows& set : baked.sets)
@@ -30,9 +30,9 @@ size_t allowedThreads() {
 struct StoringSink::Work {
     uint32_t block;
     BakedBlock baked;
-    uint64_t bytes; // of it
+    uint64_t bytes; // of `baked`
     StoredBlock stored;
-    std::exception_ptr error; // in its place
+    std::exception_ptr error; // set instead of `stored` on failure
     std::atomic<bool> isDone = false;
 };
 
@@ -49,7 +49,7 @@ StoringSink::~StoringSink() {
     mTasks->cancel();
     try {
         mTasks->wait();
-    } catch (...) { // whoever destroys it has an error of its own
+    } catch (...) { // whoever destroys this has an error of its own
     }
 }
 
@@ -81,7 +81,7 @@ void StoringSink::take(uint32_t block, BakedBlock baked) {
     mTasks->run([this, work] {
         try {
             work->stored = storeBlock(mPlan, work->block, std::move(work->baked));
-        } catch (...) { // which must not cancel the others
+        } catch (...) { // must not cancel the other tasks
             work->error = std::current_exception();
         }
         work->isDone = true;

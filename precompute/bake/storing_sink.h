@@ -1,4 +1,4 @@
-// From baked blocks to stored ones, beside the device.
+// Encodes baked blocks on the host while the device bakes the next.
 #pragma once
 
 #include "precompute/bake/block_baker.h"
@@ -11,24 +11,25 @@
 
 namespace relume {
 
-// Stores blocks on other threads while the next are baked, where more than one thread is allowed, and keeps
-// them in their order. Blocks in hand are few, of at most `mostBytes` together, but for a single one.
+// Encodes and compresses blocks on other threads, if more than one is allowed, and passes them on in order.
+// At most two blocks per thread are pending, of at most `mostBytes` together unless a single one is larger.
 class StoringSink : public BakeSink {
   public:
-    // Called from the thread that bakes.
+    // Receives a stored block; called from the thread that bakes.
     using Keep = std::function<void(uint32_t block, StoredBlock stored)>;
 
-    // A share of what a user lets a bake take (BakeLimits), or of what is right else.
+    // Returns the bytes that pending blocks may take: 256 MiB, or a quarter of the memory that `limits` allow
+    // if less.
     static uint64_t bytesInHand(const BakeLimits& limits);
 
-    // `plan` outlives it.
+    // Keeps a reference to `plan`, which must outlive it.
     StoringSink(const BakePlan& plan, uint64_t mostBytes, Keep keep);
-    // Drops what is not finished.
+    // Drops blocks that are pending.
     ~StoringSink() override;
 
-    // Throws what storing and keeping earlier ones do.
+    // Throws what storing and keeping earlier blocks threw.
     void take(uint32_t block, BakedBlock baked) override;
-    // All that can be stored is kept, whatever it throws.
+    // Waits for pending blocks and keeps all that could be stored, then throws the first error.
     void finish() override;
 
   private:
@@ -36,9 +37,9 @@ class StoringSink : public BakeSink {
     void keepFinished();
 
     const BakePlan& mPlan;
-    uint64_t mMostBytes, mBytes = 0; // of blocks in hand
+    uint64_t mMostBytes, mBytes = 0; // mBytes: of pending blocks
     Keep mKeep;
-    std::deque<std::shared_ptr<Work>> mWorks; // blocks as they came
+    std::deque<std::shared_ptr<Work>> mWorks; // pending blocks, in order of arrival
     std::unique_ptr<tbb::task_group> mTasks;
 };
 

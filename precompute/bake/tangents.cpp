@@ -18,14 +18,14 @@ namespace {
 using Complex = std::complex<double>;
 using glm::dvec3;
 
-constexpr double kSmoothing = 0.1; // l, of the mesh's radius
-constexpr double kMostWeight = 10; // of an edge, which slivers exceed
+constexpr double kSmoothing = 0.1; // l, in units of the mesh's radius
+constexpr double kMostWeight = 10; // of an edge; slivers exceed it
 constexpr double kTolerance = 1e-4;
-constexpr int kIterations = 100; // of conjugate gradients, between questions whether to stop
+constexpr int kIterations = 100; // of conjugate gradients, between polls for a stop
 constexpr int kMostRounds = 20;
 
-// Returns for each vertex the first one of the same place and normal: seams of texture coordinates split
-// them.
+// Returns for each vertex the first one of the same position and normal: vertices are duplicated at seams of
+// texture coordinates.
 std::vector<uint32_t> firstOfSame(const Mesh& mesh) {
     const auto key = [&](uint32_t i) {
         const vec3 p = mesh.positions[i], n = mesh.normals[i];
@@ -41,8 +41,8 @@ std::vector<uint32_t> firstOfSame(const Mesh& mesh) {
     return first;
 }
 
-// Returns the factor of s + i t coordinates that takes a tangent of one frame to the other, turned as the
-// normal is on the shortest way; 0 between opposite normals.
+// Returns the factor of s + i t coordinates that takes a tangent of one frame to another by the shortest
+// rotation of the normal; 0 between opposite normals.
 Complex transported(const TangentFrame& from, const TangentFrame& to) {
     const float cosine = glm::dot(from.n, to.n);
     if (!(cosine > -0.99f)) return 0;
@@ -51,7 +51,8 @@ Complex transported(const TangentFrame& from, const TangentFrame& to) {
     return std::abs(factor) > 1e-6 ? factor / std::abs(factor) : Complex(0);
 }
 
-// Returns tangents along u, weighted by the angles of a vertex's corners; 0 where the coordinates tell none.
+// Returns tangents along u, weighted by the angles of a vertex's corners; 0 where the coordinates determine
+// none.
 std::vector<vec3> tangentsAlongU(const Mesh& mesh) {
     std::vector<dvec3> sums(mesh.vertexCount(), dvec3(0));
     for (const uvec3& t : mesh.triangles) {

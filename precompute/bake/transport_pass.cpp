@@ -18,14 +18,15 @@ namespace relume {
 
 namespace {
 
-// Rows as shaders/lib/haar_block.glsl lays them out.
+// Returns the number of blocks of a row, as laid out in shaders/lib/haar_block.glsl.
 uint64_t rowBlocks(uint64_t faceSize) {
     const uint64_t fine = faceSize / 4, coarse = faceSize / 16;
     return 6 * (fine * fine + coarse * coarse + 1);
 }
 
-// For lookups of one fetch a channel: texel ((y · (S + 1) + x) · K + term) · 3 + channel holds what a lookup
-// between the map's texels x - 1 and x, y - 1 and y reads. Borders are clamped, or wrap, here.
+// Makes a table for lookups of one fetch per channel: texel ((y · (S + 1) + x) · K + term) · 3 + channel
+// holds the four values that a lookup between the map's texels x - 1 and x, y - 1 and y needs. Borders are
+// clamped, or wrap around.
 vk::Buffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
     const auto column = [&](int x) {
         return isPolar(brdf.mapping) ? (x + brdf.size) % brdf.size : std::clamp(x, 0, brdf.size - 1);
@@ -57,15 +58,15 @@ uint64_t TransportPass::rowBytes(const BakeOptions& options) {
 
 TransportTuning TransportTuning::of(const vk::Device& device) {
     if (!device.info().isSoftware) return {64, ~0ull};
-    // A group of one subgroup needs no switching between subgroups. Rows that are worked on soon after they
-    // were written come from the cache.
+    // A workgroup of one subgroup avoids switching between subgroups. Rows that are read soon after they were
+    // written come from the cache.
     return {std::min(64u, device.info().subgroupSize),
             uint64_t(std::max(1u, std::thread::hardware_concurrency())) << 21};
 }
 
 uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
     const auto entries = uint64_t(options.coefficients);
-    // Coefficients, selected, values; entries as they come back.
+    // Coefficients and block summaries; selected indices, values, and entries read back.
     return uint64_t(terms) *
            (rowBytes(options) + rowBlocks(uint64_t(options.faceSize)) * sizeof(vec2) + 16 * entries);
 }
@@ -171,7 +172,7 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
 
 void TransportPass::collect(uint32_t count, SparseTransport& transport,
                             std::vector<TransportLosses>& losses) const {
-    // Rows come back group by group, point-major in each; the asset wants point-major over all terms.
+    // Rows are read back group by group, by point in each; the asset orders them by point over all terms.
     std::vector<uint64_t> next(mGroups.size(), 0);
     for (uint32_t point = 0; point < count; point++)
         for (size_t g = 0; g < mGroups.size(); g++) {

@@ -1,4 +1,4 @@
-// From visibility bits to packed transport rows of one part, all on the device.
+// Computes packed transport rows of one part from visibility bits, all on the device.
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
@@ -9,12 +9,12 @@
 
 namespace relume {
 
-// Sums of squares of a row, or over rows: what the bake measured of its own losses.
+// The losses of one or more rows, as sums of squares.
 struct TransportLosses {
     double total = 0;     // of all coefficients
-    double dropped = 0;   // lost by keeping N
+    double dropped = 0;   // lost by keeping only N
     double quantized = 0; // lost by quantization
-    double layout = 0;    // lost by the layout, weighed and in units as ClusterMatrix has them
+    double layout = 0;    // lost by the layout, weighted and normalized as in ClusterMatrix
 
     void add(const TransportLosses& other) {
         total += other.total;
@@ -24,16 +24,16 @@ struct TransportLosses {
     }
 };
 
-// How the kernels are cut for a device. Rows are the same for any; what they lost, but for rounding.
+// Tuning of the kernels for a device. Does not change rows; losses may differ by rounding.
 struct TransportTuning {
-    uint32_t lanes;            // of a workgroup: a power of two, at most 64
-    uint64_t coefficientBytes; // of rows that are worked on together, about
+    uint32_t lanes;            // per workgroup: a power of two, at most 64
+    uint64_t coefficientBytes; // approximate size of the coefficients processed together
 
     static TransportTuning of(const vk::Device& device);
 };
 
-// Evaluates, transforms, selects, quantizes and compacts a batch of points at a time. Terms that do not
-// fit a storage buffer together take turns, and so do points as tuning asks.
+// Evaluates, transforms, selects, quantizes and compacts the rows of a batch of points. Works on as many
+// terms at a time as fit a storage buffer, and on as many points at a time as `tuning` says.
 class TransportPass {
   public:
     TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
@@ -42,29 +42,31 @@ class TransportPass {
     TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
                   uint32_t capacity, const TransportTuning& tuning);
 
-    // SPIR-V of all kernels of it.
+    // Returns the SPIR-V of all its kernels.
     static std::vector<std::span<const uint32_t>> kernels();
 
-    // Records all terms of the first `count` BakePoints, whose bits lie at the front of `bits`.
+    // Records all terms of the first `count` BakePoints of `points`, whose visibility bits are at the start
+    // of `bits`.
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const;
 
-    // After the submission: appends the batch's rows, and what each lost.
+    // Appends the batch's rows and the losses of each. To be called after the submission.
     void collect(uint32_t count, SparseTransport& transport, std::vector<TransportLosses>& losses) const;
 
-    // The coefficients of the last term group, and of the last points that were worked on together, for
-    // parity tests. Rows are laid out as in shaders/lib/haar_block.glsl, see haarSlot(); blocks of texels
-    // that nothing reaches are left as they were.
+    // Returns, for parity tests, the coefficients of the last term group and the last points processed
+    // together. Rows are laid out as in shaders/lib/haar_block.glsl (haarSlot()); blocks that no light
+    // reaches keep their old content.
     const vk::Buffer& coefficients() const { return mCoefficients; }
 
     static uint64_t rowBytes(const BakeOptions& options); // of the coefficients of one row
 
-    // Device and host-visible bytes that one point of a batch takes; and points that fit one storage buffer.
+    // Returns the device and host-visible bytes per point of a batch; and how many points fit a storage
+    // buffer.
     static uint64_t bytesPerPoint(int terms, const BakeOptions& options);
     static uint32_t largestBatch(const vk::Device& device, const BakeOptions& options);
 
   private:
-    // Terms that are evaluated together, and what comes back of them.
+    // Terms that are processed together, and the buffers that receive their results.
     struct TermGroup {
         uint32_t firstTerm, terms;
         vk::Buffer counts, scales, statistics, entries; // mapped

@@ -12,7 +12,7 @@
 namespace relume {
 namespace {
 
-// The low ten bits of `value` with two zeros after each.
+// Spreads the low ten bits of `value`, with two zeros after each.
 uint32_t spread(uint32_t value) {
     value &= 0x3ff;
     value = (value | value << 16) & 0x030000ff;
@@ -21,7 +21,7 @@ uint32_t spread(uint32_t value) {
     return (value | value << 2) & 0x09249249;
 }
 
-// The Morton code of a point of the unit cube, ten bits an axis.
+// Returns the Morton code of a point in the unit cube, ten bits per axis.
 uint32_t mortonCode(vec3 point) {
     const vec3 cell = glm::clamp(point, vec3(0), vec3(1)) * 1023.0f + 0.5f;
     return spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2;
@@ -39,7 +39,7 @@ struct Key {
 std::vector<Key> sortedKeys(const Mesh& mesh) {
     const Bounds bounds = boundsOf(mesh);
     const vec3 extent = bounds.extent();
-    // One scale for all axes keeps the curve's cells cubes.
+    // One scale for all axes keeps the curve's cells cubic.
     const float largest = std::max({extent.x, extent.y, extent.z});
     const float scale = largest > 0 ? 1 / largest : 0;
     std::vector<Key> keys(mesh.vertexCount());
@@ -54,14 +54,14 @@ std::vector<Key> sortedKeys(const Mesh& mesh) {
     return keys;
 }
 
-// The same triangle, its smallest index first.
+// Rotates a triangle's indices so that the smallest is first.
 uvec3 rotated(uvec3 t) {
     if (t.y < t.x && t.y < t.z) return {t.y, t.z, t.x};
     if (t.z < t.x && t.z < t.y) return {t.z, t.x, t.y};
     return t;
 }
 
-// Makes vertex order[i] vertex i; triangles are renumbered and sorted.
+// Makes vertex order[i] vertex i, and renumbers and sorts the triangles.
 void reorder(Mesh& mesh, std::span<const uint32_t> order) {
     std::vector<uint32_t> renumbered(order.size());
     for (size_t i = 0; i < order.size(); i++) renumbered[order[i]] = uint32_t(i);
@@ -72,7 +72,8 @@ void reorder(Mesh& mesh, std::span<const uint32_t> order) {
     });
 }
 
-// The side of a square of a cluster's share of the surface; of a mesh without area, of its box.
+// Returns the side of the square of a cluster's share of the surface, or of the bounding box if the mesh has
+// no area.
 double clusterSide(const Mesh& mesh) {
     double area = 0;
     for (const uvec3& t : mesh.triangles) {
@@ -86,7 +87,7 @@ double clusterSide(const Mesh& mesh) {
     return side > 0 ? side : 1;
 }
 
-// Cuts a mesh's vertices, which come along the Morton curve, into clusters.
+// Divides a mesh's vertices, which are in Morton order, into clusters.
 class Bisection {
   public:
     explicit Bisection(const Mesh& mesh) : mFeatures(mesh.vertexCount()), mOrder(mesh.vertexCount()) {
@@ -104,7 +105,8 @@ class Bisection {
     const std::vector<uint32_t>& order() const { return mOrder; }
 
   private:
-    // A cluster on a sharp edge costs as much as one twice as long.
+    // Weight of normals relative to positions: a cluster across a sharp edge costs as much as one twice as
+    // long.
     static constexpr double kNormalWeight = 2;
 
     size_t widestAxis(std::span<const uint32_t> vertices) const {
@@ -120,7 +122,7 @@ class Bisection {
         return size_t(std::max_element(spread.begin(), spread.end()) - spread.begin());
     }
 
-    // `vertices` rise, before and in each cluster after.
+    // `vertices` ascend; so do those of each cluster afterwards.
     void split(std::span<uint32_t> vertices) {
         const size_t clusters = (vertices.size() + kOrderedVertices - 1) / kOrderedVertices;
         if (clusters < 2) return;

@@ -7,7 +7,7 @@ namespace relume {
 
 namespace {
 
-// A plan of these vertices alone, without an occluder yet.
+// Returns a plan of these vertices alone, without an occluder yet.
 BakePlan planOfVertices(const BakePlan& plan, std::span<const std::vector<uint32_t>> chosen) {
     BakePlan result{plan.options};
     result.asset.faceSize = plan.asset.faceSize;
@@ -57,7 +57,7 @@ uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
 void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,
                   const BakeLimits& limits, const TakeRows& take, BakeObserver& observer, BakeTimes& times) {
     BakePlan fewer = planOfVertices(plan, vertices);
-    std::swap(fewer.asset.occluder, plan.asset.occluder); // large: never twice
+    std::swap(fewer.asset.occluder, plan.asset.occluder); // large: never two copies
     std::vector<uint32_t> blocks(fewer.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
     RowsSink sink(fewer, take);

@@ -1,4 +1,4 @@
-// Rows of some vertices, wherever they are.
+// Bakes rows of arbitrary vertices.
 #pragma once
 
 #include "precompute/bake/block_baker.h"
@@ -7,14 +7,14 @@
 
 namespace relume {
 
-// Most bytes that the rows of a vertex of this part take in memory, with what they lost.
+// Returns the most bytes of memory that the rows of one vertex of this part, with their losses, take.
 uint64_t rowBytes(const Asset& asset, const AssetPart& part);
 
-// Of the next vertices of a part: rows, per set.
+// Receives the rows, per set, of the next vertices of a part.
 using TakeRows = std::function<void(uint32_t part, std::span<const BakedRows> sets)>;
 
-// Bakes these vertices of every part, one list a part, part after part and vertex after vertex. Throws
-// BakeStopped, Error; then nothing more can be baked of `plan`, whose occluder is borrowed.
+// Bakes `vertices` (a list per part) in order and passes their rows to `take`. Throws BakeStopped and Error;
+// `plan`, whose occluder is moved out meanwhile, is then unusable.
 void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,
                   const BakeLimits& limits, const TakeRows& take, BakeObserver& observer, BakeTimes& times);
 

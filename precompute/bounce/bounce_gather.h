@@ -1,12 +1,12 @@
-// One bounce of light: the transport of every vertex by way of the surfaces that it sees.
+// Gathers one bounce of light: the transport of every vertex by way of the surfaces that it sees.
 //
-// Of vertex x, term k and direction ω, in which it sees the point y of another surface:
+// For vertex x, term k and each direction ω in which x sees a point y of another surface:
 //
 //     T'[x, k] = ∫ g_k(ω) cosθ · Σ_m h_m(−ω at y) T[y, m] dω,
 //
-// T being the rows at y of the material that lights others, g and h the light and view maps
-// (docs/bounces.md). All of it is linear in the lighting, so that bounced rows are added to those that were
-// baked.
+// where T are the rows at y of the material that lights others, and g and h are light and view maps
+// (docs/bounces.md). All of it is linear in the lighting, so bounced rows are added to the directly baked
+// ones.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -17,48 +17,50 @@
 
 namespace relume {
 
-// Bounced light is found at a lower resolution of the lighting cube: texels a side of a face.
+// Bounced light has a lower resolution than the lighting cube: texels per side of a face.
 constexpr int kBounceFaceSize = 16;
 constexpr int kBounceCoefficients = 6 * kBounceFaceSize * kBounceFaceSize;
-constexpr int kBounceKept = 64; // most coefficients of a bounced row
+constexpr int kBounceKept = 64; // row entries of bounced light, at most
 
-// Returns which of them a coefficient of a larger cube is, face · size² + y · size + x; none: a finer one.
-// The coefficients of cubes of n texels a side are those of the first n × n of every face of a larger one,
-// times size / n: the Haar basis is nested.
+// Returns the index in a cube of kBounceFaceSize of a coefficient (face · size² + y · size + x) of a larger
+// cube, or nothing if it is too fine. The Haar basis is nested: the coefficients of a cube of n texels per
+// side are the first n × n of every face of the larger one, times size / n.
 std::optional<uint16_t> bounceCoefficient(uint16_t coefficient, int size);
-// Returns the coefficient of a cube of `size` texels a side that one of kBounceFaceSize is.
+// Returns the index in a cube of `size` texels per side of a coefficient of kBounceFaceSize.
 uint16_t coefficientOfBounce(uint16_t coefficient, int size);
 
-// Returns what a layer's terms reflect of even light from all sides, per channel: at most 1 of a BRDF that
-// makes no light, and its factors may exceed it.
+// Returns, per channel, the share of uniform light that a layer's terms reflect (their mean albedo). At most
+// 1 for an energy-conserving BRDF, but factors may exceed it.
 vec3 reflectedShare(const FactoredBrdf& brdf, int layer);
 
-// Returns what its view maps are multiplied by where it lights others: 1, or what brings a larger share down
-// to 1, so that bounces die out.
+// Returns the factor for a layer's view maps where it lights others: 1, or what reduces a larger share to 1,
+// so that bounces converge.
 vec3 sourceGain(vec3 reflectedShare);
 
-// Returns those of the layers that `bound` binds, per part.
+// Returns the gains of the layers that `bound` binds, per part and bound layer.
 std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound);
 
+// Gathers bounced light for all vertices of an asset.
 class BounceGather {
   public:
-    // Every part lights others as it looks in `bound`, times its sourceGain(). Refers to `asset`, of whose
-    // transport it knows nothing. Throws Error when Embree fails.
+    // Every part lights others with the materials bound in `bound`, times their sourceGains(). Keeps a
+    // reference to `asset`, whose transport it does not use. Throws Error if Embree fails.
     BounceGather(const Asset& asset, const Appearance& bound);
 
-    // A layer that is held down.
+    // A layer whose gain is below 1.
     struct HeldLayer {
         size_t part;
-        int layer;   // of the set that is bound
-        float share; // what it would reflect, the largest of the channels
+        int layer;   // of the bound set
+        float share; // reflected share without the gain, largest over channels
     };
     const std::vector<HeldLayer>& heldLayers() const { return mHeld; }
 
-    // The report is told the number of vertices that are done, and returns whether to go on.
+    // Called with the number of vertices done; returns whether to go on.
     using Report = std::function<bool(uint64_t vertices)>;
 
-    // Returns rows per part and set, from those of the bound sets, per part, all of kBounceFaceSize. The same
-    // whatever the threads; empty when stopped.
+    // Gathers rows per part and set, from the rows of the bound sets, `from`, one per part; all are
+    // coefficients of kBounceFaceSize. The result does not depend on the number of threads. Returns nothing
+    // if stopped.
     std::vector<std::vector<SparseTransport>> gather(std::span<const SparseTransport> from,
                                                      const Report& report) const;
 
@@ -71,8 +73,8 @@ class BounceGather {
 
     const Asset& mAsset;
     Appearance mBound;
-    std::vector<std::vector<vec3>> mGains;        // sourceGains()
-    std::vector<std::vector<BoundLayer>> mLayers; // per part: what lights others
+    std::vector<std::vector<vec3>> mGains;        // per part and bound layer
+    std::vector<std::vector<BoundLayer>> mLayers; // per part: the layers that light others
     std::vector<HeldLayer> mHeld;
     RayTracer mTracer; // one mesh per part
 };

@@ -1,4 +1,4 @@
-// The interface of every BRDF model. One file per model beside this one.
+// The interface of BRDF models, each of which has a file in this folder.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -15,33 +15,33 @@ class Brdf {
   public:
     virtual ~Brdf() = default;
 
-    // f(ωi, ωo) in sr⁻¹ per color channel, without the cosine. Unit directions in the local frame,
-    // z along the normal, both with z > 0. Never negative, always finite.
+    // Returns f(ωi, ωo) per color channel in sr⁻¹, without the cosine; finite, never negative. Takes unit
+    // directions in the local frame, z along the normal, both with z > 0.
     virtual vec3 evaluate(vec3 incoming, vec3 outgoing) const = 0;
 
-    // The part of f that a texture of the base color (the diffuse albedo) multiplies, per channel: at most
-    // f, without rounding, so that the rest is never negative. Zero for a model that has no such part.
+    // Returns the part of f that a texture of base color (diffuse albedo) multiplies, per channel: at most f,
+    // up to rounding, so that the rest is never negative. Zero for a model without such a part.
     virtual vec3 evaluateBase(vec3 /*incoming*/, vec3 /*outgoing*/) const { return vec3(0); }
 
-    // Whether f(ωi, ωo) = f(ωo, ωi) by construction.
+    // Returns whether f(ωi, ωo) = f(ωo, ωi) by construction.
     virtual bool isReciprocal() const { return true; }
 
-    // Returns whether a turn of both directions about the normal changes nothing.
+    // Returns whether rotating both directions about the normal changes nothing.
     virtual bool isIsotropic() const { return true; }
 
-    // {"model": NAME, every parameter…}, or of measured data {"measured": PATH, "scale": s, "hash": h}:
-    // makeBrdf of it gives the same BRDF.
+    // Returns JSON from which makeBrdf() makes the same BRDF: {"model": NAME, every parameter…} or, for
+    // measured data, {"measured": PATH, "scale": s, "hash": h}.
     virtual nlohmann::json describe() const = 0;
 };
 
-// An object may also have a "name", which says nothing about the BRDF. From a preset's name ("clay"), a
-// model's name ("ashikhmin-shirley"), a JSON object as text ({"model": "ashikhmin-shirley", "nu": 10} or
-// {"measured": "steel.binary"}), the path of a file of such JSON (.json), or that of measured data (.binary,
-// .brdf). A relative path starts at `folder`, one in a .json file at that file's folder. Throws UsageError
-// naming the nearest valid name, or the valid range of a parameter; Error for a file that cannot be used.
+// Makes a BRDF from a preset's name ("clay"), a model's name ("ashikhmin-shirley"), a JSON object as text
+// ({"model": "ashikhmin-shirley", "nu": 10} or {"measured": "steel.binary"}), the path of a .json file with
+// such an object, or the path of measured data (.binary, .brdf). A "name" in the object is ignored. Relative
+// paths start at `folder`, those in a .json file at its folder. Throws UsageError naming the nearest valid
+// name or a parameter's valid range, and Error for an unusable file.
 std::unique_ptr<Brdf> makeBrdf(const std::string& material, const std::filesystem::path& folder = {});
 
-// Names of all presets, with a line of description each, and their model.
+// All presets: names, one-line descriptions and models.
 struct MaterialPreset {
     std::string name, description, model;
 };

@@ -1,4 +1,4 @@
-// The exact BRDFs behind an asset's materials.
+// A cache of the exact BRDFs of an asset's materials.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -8,7 +8,7 @@
 
 namespace relume {
 
-// Makes each BRDF, which for measured data reads a file, when first asked for it, and keeps it.
+// Makes each BRDF on first use (for measured data this reads a file) and keeps it.
 class MaterialBrdfs {
   public:
     // Throws as makeBrdf() does.

@@ -1,4 +1,4 @@
-// From the text of a part's materials to factored sets.
+// Makes factored material sets from the text of a part's materials.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -10,19 +10,19 @@
 
 namespace relume {
 
-// Factors equal materials once, however many parts have them and whatever they are called.
+// Factors equal materials once, regardless of their names and of how many parts use them.
 class MaterialFactory {
   public:
     MaterialFactory(const FactorizationOptions& options, int mapSize, DiskMapping mapping)
         : mOptions(options), mMapSize(mapSize), mMapping(mapping) {}
 
-    // The sets that readMaterials() gives, without transport. For a part with a texture of base colors,
-    // BRDFs that have a base are split into it and the rest; the log names those without, in which the
+    // Returns the sets that readMaterials() yields, factored, without transport. If the part has a base color
+    // texture, BRDFs with a base are split into base and rest; the log names those without, in which the
     // texture does not show.
     std::vector<MaterialSet> make(const std::string& material, const std::filesystem::path& folder,
                                   bool isTextured);
 
-    size_t factored() const { return mFactored.size(); } // how many sets were factored, each once
+    size_t factored() const { return mFactored.size(); } // number of distinct sets factored
 
   private:
     MaterialSet factor(const std::vector<NamedMaterial>& materials, bool isTextured);
@@ -32,7 +32,7 @@ class MaterialFactory {
     int mMapSize;
     DiskMapping mMapping;
     std::map<std::tuple<std::string, std::filesystem::path, bool>, std::vector<MaterialSet>> mKnown;
-    std::map<std::pair<std::vector<std::string>, bool>, MaterialSet> mFactored; // by what the BRDFs describe
+    std::map<std::pair<std::vector<std::string>, bool>, MaterialSet> mFactored; // by the BRDFs' descriptions
 };
 
 } // namespace relume

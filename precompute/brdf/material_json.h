@@ -1,4 +1,4 @@
-// Materials as JSON: their text, and the files that hold it.
+// Materials as JSON: as text, and in files.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@ namespace relume {
 
 bool looksLikeJson(const std::string& text);
 
-// Throws UsageError for what is no JSON, too long or nested too deep for a material.
+// Throws UsageError if the text is not JSON, or is too long or too deeply nested for a material.
 nlohmann::json parseMaterial(const std::string& text);
 
-// The text of a material given as the path of a .json file, and the folder that paths in it start at; none if
-// it is not given so. Throws Error for a file that cannot be read.
+// The text of a material file, and the folder at which relative paths in it start. readMaterialFile() returns
+// nothing if `material` is not the path of a .json file, and throws Error if the file cannot be read.
 struct MaterialFile {
     std::string text;
     std::filesystem::path folder;
@@ -22,7 +22,7 @@ struct MaterialFile {
 std::optional<MaterialFile> readMaterialFile(const std::string& material,
                                              const std::filesystem::path& folder);
 
-// All presets and models with their parameters: what `relume materials --json` prints.
+// Returns all presets and models with their parameters, as printed by `relume materials --json`.
 nlohmann::ordered_json describeMaterials();
 
 } // namespace relume

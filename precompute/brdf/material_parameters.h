@@ -1,4 +1,4 @@
-// The parameters of a BRDF model as a JSON object, read with their types and ranges checked.
+// Reads the parameters of a BRDF model from a JSON object and checks types and ranges.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -13,38 +13,38 @@ struct ParameterRange {
     float low, high; // both valid
 };
 
-// A parameter as a model has asked for it.
+// A parameter that a model has read.
 struct MaterialParameter {
     std::string name;
     std::string values;   // "number from 0 to 1"
-    std::string fallback; // as JSON; empty where the parameter must be given
+    std::string fallback; // as JSON; empty if the parameter is required
 };
 
-// Every reader throws UsageError that names the parameter, its valid range and what was found.
+// All readers throw UsageError naming the parameter, its valid range and what was found.
 class MaterialParameters {
   public:
-    // `owner` names the object in messages ("plastic"). Throws unless `object` is a JSON object.
+    // `owner` names the object in messages ("plastic"). Throws if `object` is not a JSON object.
     MaterialParameters(std::string owner, nlohmann::json object);
 
     bool has(const std::string& key) const { return mObject.contains(key); }
 
-    // A number, or `fallback` where the key is absent.
+    // Returns a number, or `fallback` if the key is absent.
     float number(const std::string& key, float fallback, ParameterRange range);
-    // A number for all three channels, or an array of three, linear sRGB.
+    // Returns a color, linear sRGB, given as an array of three or as one number for all channels.
     vec3 color(const std::string& key, vec3 fallback, ParameterRange range);
-    // The same without a default.
+    // Returns the same for a key that must be present.
     vec3 requiredColor(const std::string& key, ParameterRange range);
-    // A text that must be there, or `fallback` where the key is absent.
+    // Returns a text that must be present; text() returns `fallback` if it is absent.
     std::string requiredText(const std::string& key);
     std::string text(const std::string& key, const std::string& fallback);
-    // A required array of at most `limit` objects.
+    // Returns an array of at most `limit` objects, which must be present.
     std::vector<MaterialParameters> list(const std::string& key, size_t limit);
 
-    // Throws when the object has a key that nobody has asked for, naming the nearest that somebody has.
+    // Throws if the object has a key that was not read, naming the nearest one that was.
     void rejectUnknownKeys() const;
 
-    // Every parameter asked for so far: the one place that knows a model's parameters is the code that reads
-    // them.
+    // Returns every parameter read so far. This documents a model: its parameters are known only to the code
+    // that reads them.
     const std::vector<MaterialParameter>& asked() const { return mAsked; }
 
   private:
@@ -55,9 +55,9 @@ class MaterialParameters {
     std::vector<MaterialParameter> mAsked;
 };
 
-// The JSON number of fewest digits that reads back as the same float (0.1, not 0.10000000149011612).
+// Returns the number with the fewest digits that reads back as the same float (0.1, not 0.10000000149011612).
 nlohmann::json numberToJson(float value);
-// An array of three.
+// Returns an array of three numbers.
 nlohmann::json colorToJson(vec3 color);
 
 } // namespace relume

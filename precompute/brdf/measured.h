@@ -1,4 +1,4 @@
-// Measured BRDFs: isotropic, reciprocal, from a file.
+// Measured BRDFs, isotropic and reciprocal, read from a file.
 #pragma once
 
 #include "precompute/brdf/brdf.h"
@@ -8,9 +8,10 @@
 
 namespace relume {
 
-// {"measured": PATH, "scale": s, "hash": h}: a MERL or Cornell file (merl.h, cornell.h), told apart by its
-// first bytes; a relative path starts at `folder`. Every value is multiplied by s (default 1). With a hash,
-// as describe() gives it, a file of other content is refused. Throws Error naming the path and remedy.
+// Makes a BRDF from {"measured": PATH, "scale": s, "hash": h}: a MERL or Cornell file (merl.h, cornell.h),
+// told apart by content; a relative path starts at `folder`. Values are multiplied by s (default 1). If a
+// hash is given, as by describe(), a file with other content is refused. Throws Error naming the path and a
+// remedy.
 std::unique_ptr<Brdf> makeMeasured(MaterialParameters& parameters, const std::filesystem::path& folder);
 
 } // namespace relume

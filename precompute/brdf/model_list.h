@@ -1,4 +1,4 @@
-// The models by name, with their parameters.
+// The list of BRDF models with their parameters.
 #pragma once
 
 #include "precompute/brdf/material_parameters.h"
@@ -20,8 +20,8 @@ std::vector<MaterialModel> materialModels();
 
 std::vector<std::string_view> modelNames();
 
-// The model made of a JSON object of its parameters. Throws UsageError naming the nearest valid name, or the
-// valid range of a parameter.
+// Makes a model from a JSON object of its parameters. Throws UsageError naming the nearest valid name or a
+// parameter's valid range.
 std::unique_ptr<Brdf> makeModel(const std::string& name, const nlohmann::json& parameters);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Materials with a name: a model and its parameters.
+// Material presets: named models with parameters.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@ namespace relume {
 struct PresetDefinition {
     const char* name;
     const char* description;
-    const char* json; // as makeBrdf reads it
+    const char* json; // as makeBrdf() reads it
 };
 
 std::span<const PresetDefinition> presetDefinitions();

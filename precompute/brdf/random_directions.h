@@ -1,4 +1,4 @@
-// Random directions, the same on every machine.
+// Random directions that are the same on every machine.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -13,13 +13,14 @@ class RandomDirections {
   public:
     explicit RandomDirections(uint32_t seed) : mRandom(seed) {}
 
-    // In [0, 1), from bits, so that every standard library gives the same.
+    // Returns a number in [0, 1), made from bits so that every standard library gives the same.
     float uniform() { return float(mRandom() >> 8) * 0x1p-24f; }
 
     vec3 uniformHemisphere() { return atHeight(1.0f - uniform()); }           // z in (0, 1]
     vec3 cosineHemisphere() { return atHeight(std::sqrt(1.0f - uniform())); } // density cosθ / π
 
-    // A rotation, uniform over all (Arvo 1992): a turn about z, then z to anywhere by a reflection.
+    // Returns a uniformly distributed rotation (Arvo 1992): a rotation about z, then a reflection that takes
+    // z anywhere.
     mat3 rotation() {
         const float turn = 2 * kPi * uniform(), around = 2 * kPi * uniform(), height = uniform();
         const mat3 spin(std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1);

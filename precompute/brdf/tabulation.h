@@ -1,4 +1,4 @@
-// A BRDF as a matrix over the directions of a disk map.
+// Tabulates a BRDF as a matrix over pairs of hemisphere directions.
 #pragma once
 
 #include "engine/math/disk_map.h"
@@ -10,36 +10,36 @@
 
 namespace relume {
 
-// channel[c](i, o) = f_c(ωi, ωo), or its mean around there, for the n texel centers that lie inside the map's
-// domain.
+// channel[c](i, o) = f_c(ωi, ωo), at texel centers or averaged over texels, for the n texels whose centers
+// lie inside the map's domain.
 struct BrdfTable {
     int size = 0; // S
     DiskMapping mapping = DiskMapping::Orthographic;
-    std::vector<ivec2> texels;               // n: (x, y) of each direction
-    std::vector<vec3> directions;            // n
+    std::vector<ivec2> texels;               // n: (x, y) of each direction's texel
+    std::vector<vec3> directions;            // n: texel centers
     std::vector<float> solidAngles;          // n: of each direction's texel, sr
     std::array<Eigen::MatrixXf, 3> channels; // n × n each
     float asymmetry = 0;                     // max over channels of ‖M - Mᵀ‖ / ‖M‖ (Frobenius)
 };
 
-// Side of a map, S. The largest makes three matrices of 41 MB (orthographic) or 67 MB (polar).
+// Limits of S. The largest needs three matrices of 41 MB (orthographic) or 67 MB (polar).
 constexpr int kMinMapSize = 4, kMaxMapSize = 64;
 
-// What of a BRDF: a base color texture multiplies the base and leaves the rest.
+// The part of a BRDF to tabulate: a base color texture multiplies the base and leaves the rest.
 enum class BrdfPart { All, Rest, Base };
 
-// What stands in for f over a pair of texels: its value at their centers, or the mean of f cosθi cosθo over
-// four pairs of places in them, divided by that of cosθi cosθo. The mean costs four times as much and, unlike
-// the value, does not let ridges of f near grazing, narrower than a texel, spread over all of it.
+// What represents f over a pair of texels: the value at their centers, or the mean of f cosθi cosθo over four
+// pairs of points in them, divided by the mean of cosθi cosθo. Means take four times as long; ridges of f
+// near grazing that are narrower than a texel then do not fill it.
 enum class TexelValue { Center, Mean };
 
-// Throws UsageError for a size outside these.
+// Throws UsageError if `size` is outside kMinMapSize to kMaxMapSize.
 BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value = TexelValue::Center,
                    BrdfPart part = BrdfPart::All);
 
-// For every texel of the map, row by row, the index of the nearest direction's texel: itself inside the
-// disk, the nearest inside texel (the first of equals) outside it. Maps are extended so, since bilinear
-// lookups near the rim read texels outside.
+// Returns, for every texel of the map in row order, the index of the nearest direction: its own inside the
+// disk, the nearest one (the first of equals) outside. Extends maps beyond the disk, since bilinear lookups
+// near the rim read texels there.
 std::vector<int> nearestDirections(const BrdfTable& table);
 
 } // namespace relume

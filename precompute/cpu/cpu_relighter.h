@@ -1,5 +1,5 @@
-// Relighting on the CPU as fast as plain C++ goes, in any layout: for advice, and as the yardstick of
-// `relume bench relight`.
+// Relighting on the CPU in plain, fast C++, for any layout. Used by advice, and by `relume bench relight` as
+// the yardstick.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -14,11 +14,11 @@ class CpuRelighter {
   public:
     virtual ~CpuRelighter() = default;
 
-    // The tuples of relight() (precompute/twins/relight_twin.h), a vec3 per row, on all cores.
+    // Computes the tuples of relight() (precompute/twins/relight_twin.h), one vec3 per row, on all cores.
     virtual void relight(const LightVector& light, std::span<vec3> tuples) const = 0;
 };
 
-// `transport` must outlive it.
+// Keeps a reference to `transport`, which must outlive it.
 std::unique_ptr<CpuRelighter> makeCpuRelighter(const Transport& transport);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Transport and its Haar transform on the CPU: all terms of a part at once.
+// Computes transport and its Haar transform on the CPU, for all terms of a part at once.
 #pragma once
 
 #include "engine/math/tangent_frame.h"
@@ -11,22 +11,22 @@
 
 namespace relume {
 
-// Terms that share vector registers: 4, or 1 where a part has a single one. A texel of a group is its red
-// values, then green, then blue; a single term is padded to 4 floats.
+// Terms are processed in groups that share vector registers: 4 terms, or 1 if the part has only one. A texel
+// of a group stores its red values, then green, then blue; a single term is padded to 4 floats.
 constexpr int groupLanes(int terms) { return terms == 1 ? 1 : 4; }
 constexpr int groupStride(int terms) { return terms == 1 ? 4 : 12; }
 
-// The coefficients of one vertex, those that can be other than zero: in blocks of kBlock, which are the
-// details of two levels over 4 × 4 texels, and the face's average in a face's last. One thread's workspace.
+// The coefficients of one vertex that can be nonzero; workspace of one thread. A block of kBlock holds the
+// details of two levels over 4 × 4 texels; the last block of a face also holds the face's average.
 struct CpuCoefficients {
     static constexpr int kBlock = 16;
 
     int groups = 0, lanes = 0, stride = 0;
-    size_t capacity = 0;          // blocks there can be
-    std::vector<uint32_t> blocks; // of each block, its row of CpuTransport::indices()
-    // Group after group, `capacity` blocks each: block · (16 texels × stride), block · lanes.
+    size_t capacity = 0;          // greatest number of blocks
+    std::vector<uint32_t> blocks; // per block: its index for CpuTransport::indices()
+    // Per group: `capacity` blocks of 16 texels × stride; see block().
     std::vector<float> values;
-    std::vector<float> maxima;  // the largest key (r² + g² + b²) of a block
+    std::vector<float> maxima;  // per block and lane: the largest key (r² + g² + b²)
     std::vector<double> energy; // per group and lane: sum of the keys
 
     float* block(int group, size_t index) {
@@ -39,28 +39,29 @@ struct CpuCoefficients {
         return &maxima[(size_t(group) * capacity + index) * size_t(lanes)];
     }
 
-    // Averages of the blocks of each round, dense: zero where a block has none.
+    // Averages of the blocks of each round, dense: zero where there is no block.
     std::vector<std::vector<float>> averages;
 };
 
+// Evaluates the transport of vertices for the light maps of several BRDFs together.
 class CpuTransport {
   public:
-    // Light maps of all `brdfs`, one after the other, of one size and mapping. Sizes and samples as in
-    // BakeOptions.
+    // Takes the light maps of all `brdfs` in order; they have one size and mapping. Sizes and samples are as
+    // in BakeOptions.
     CpuTransport(std::span<const FactoredBrdf* const> brdfs, int faceSize, int visibilitySize, int samples);
 
     int terms() const { return mTerms; }
     CpuCoefficients makeWorkspace() const;
 
-    // Light map · cosine · solid angle · visible fraction, summed over each lighting texel, for the texels of
-    // the blocks that see anything: transportVector in precompute/twins/transport_twin.h. `bits` as
-    // CpuVisibility gives them.
+    // Computes light map · cosine · solid angle · visible fraction, summed over each lighting texel, for the
+    // blocks of which anything is visible: transportVector() in precompute/twins/transport_twin.h. `bits` are
+    // from CpuVisibility.
     void evaluate(const TangentFrame& frame, std::span<const uint64_t> bits, CpuCoefficients& result) const;
 
-    // Then haarForwardFaces, in place, with what selection wants to know of every block.
+    // Applies haarForwardFaces() in place, and fills in the maxima and energy that selection needs.
     void transform(CpuCoefficients& result) const;
 
-    // The coefficient that each of a block's 16 places holds: face · F² + y · F + x.
+    // The coefficient index, face · F² + y · F + x, of each of a block's 16 places.
     using BlockIndices = std::array<uint16_t, CpuCoefficients::kBlock>;
     const BlockIndices& indices(uint32_t block) const { return mIndices[block]; }
 
@@ -72,12 +73,12 @@ class CpuTransport {
     void transformBlocks(CpuCoefficients& result) const;
 
     int mTerms = 0, mMapSize = 0, mSamples;
-    int mCellTexels; // visibility texels of one evaluation
+    int mCellTexels; // visibility texels per evaluation
     DiskMapping mMapping{};
-    std::vector<float> mMaps;                   // group after group, texel after texel, stride floats
-    std::vector<float> mX, mY, mZ, mSolidAngle; // of each evaluation, along the curve; over its texels
+    std::vector<float> mMaps;                   // per group and texel: stride floats
+    std::vector<float> mX, mY, mZ, mSolidAngle; // per evaluation, along the Morton curve
     std::vector<BlockIndices> mIndices;         // round after round
-    // Two wavelet levels, or the last of an odd number, turn `blocks` blocks into as many averages.
+    // Two wavelet levels, or the last one of an odd number, which turn `blocks` blocks into as many averages.
     struct Round {
         uint32_t blocks, firstBlock;
         bool isSingleLevel;

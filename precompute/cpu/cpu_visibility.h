@@ -1,21 +1,22 @@
-// Visibility cubes by Embree, in streams of coherent rays.
+// Computes visibility cubes with Embree, in streams of coherent rays.
 #pragma once
 
 #include "precompute/visibility/ray_tracer.h"
 
 namespace relume {
 
-// Bits of a cube in the CPU baker's order: face after face, each along mortonPlace; bit i of a word is texel
-// i of its 64.
+// Visibility bits are in Morton order: face after face, each along mortonPlace(); bit i of a word is the i-th
+// of its 64 texels.
 class CpuVisibility {
   public:
-    // Faces of size² texels: a power of two, 16 or more.
+    // Faces have size² texels; `size` is a power of two, at least 16.
     CpuVisibility(const Mesh& occluder, int size);
 
     size_t texels() const { return mX.size(); }
 
-    // Sets the bit of every texel whose direction is above the horizon of `normal` and free: visibilityCube
-    // in precompute/twins/transport_twin.h. `bits` has texels() / 64 words. Returns the number of rays.
+    // Sets the bit of every texel whose direction is above the horizon of `normal` and unoccluded:
+    // visibilityCube() in precompute/twins/transport_twin.h. `bits` has texels() / 64 words. Returns the
+    // number of rays traced.
     uint64_t trace(vec3 origin, vec3 normal, std::span<uint64_t> bits) const;
 
   private:

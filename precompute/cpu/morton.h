@@ -1,12 +1,12 @@
-// The order in which the CPU baker walks a cube face: along a Morton curve, so that every aligned square
-// whose side is a power of two is a run of neighbors.
+// The Morton order of a cube face's texels, in which every aligned square whose side is a power of two is
+// contiguous.
 #pragma once
 
 #include "engine/math/vector.h"
 
 namespace relume {
 
-// The place on a face of the index-th texel of the curve: even bits are x, odd bits y.
+// Returns the coordinates of the index-th texel: even bits are x, odd bits y.
 inline ivec2 mortonPlace(uint32_t index) {
     const auto evenBits = [](uint32_t bits) {
         bits &= 0x55555555u;

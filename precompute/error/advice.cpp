@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kRungs = kTriedCoefficients.size();
 
-// From four sides, a little from above.
+// Returns points seen from four sides, slightly from above.
 std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
     constexpr int kViews = 4, kWidth = 320, kHeight = 240;
     const RayTracer tracer(partMeshes(asset));
@@ -37,7 +37,7 @@ std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
     return views;
 }
 
-// Where a curve of falling values reaches `wanted`, as a place between its points; none: not before the end.
+// Returns where a descending curve reaches `wanted`, as an index with a fraction; none if it does not.
 std::optional<double> placeOf(std::span<const double> values, double wanted) {
     for (size_t i = 0; i < values.size(); i++) {
         if (values[i] > wanted) continue;
@@ -48,7 +48,7 @@ std::optional<double> placeOf(std::span<const double> values, double wanted) {
     return std::nullopt;
 }
 
-// Of a curve at such a place, on a logarithmic scale.
+// Interpolates a curve at such a place, logarithmically.
 template <typename Values>
 double valueAt(const Values& values, double place) {
     const size_t next = std::min(size_t(std::ceil(place)), std::size(values) - 1);
@@ -63,7 +63,7 @@ double rowBytes(const Asset& asset, const ErrorGrid& grid, size_t terms, double 
                      kRowBytes = sizeof(float) + sizeof(uint64_t);
     double bytes = 0;
     for (size_t part = 0; part < asset.parts.size(); part++) {
-        const auto& entries = grid.entries[part]; // of the bound set: others are taken to have as many
+        const auto& entries = grid.entries[part]; // of the bound set; other sets are taken to have as many
         for (const MaterialSet& set : asset.parts[part].sets)
             for (size_t term = 0; term < std::min(terms, size_t(set.brdf.terms)); term++)
                 bytes +=
@@ -73,7 +73,7 @@ double rowBytes(const Asset& asset, const ErrorGrid& grid, size_t terms, double 
     return bytes;
 }
 
-// The K and N of fewest bytes.
+// Returns the K and N of fewest bytes.
 std::optional<AdvisedBake> adviseRows(const AdviceRequest& request, const Asset& asset,
                                       const ErrorGrid& grid) {
     std::optional<AdvisedBake> best;
@@ -90,7 +90,7 @@ std::optional<AdvisedBake> adviseRows(const AdviceRequest& request, const Asset&
     return best;
 }
 
-// The smallest K that leaves storage a share of the error.
+// Returns the smallest K that leaves part of the error to the layout.
 std::optional<int> termsForBases(const ErrorGrid& grid, size_t rung, double wanted) {
     constexpr double kMostWithoutStorage = 0.85;
     size_t least = 0;
@@ -110,7 +110,7 @@ Report shareOf(const Report& report, double first, double last) {
     };
 }
 
-// In bases, of a plan for the most terms and what a grid says of it.
+// Advises a bake in bases, from a plan for the most terms and its grid.
 std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceRequest& request,
                                        const Scene& scene, const ErrorGrid& grid, const LightVector& light,
                                        std::span<const SeenPoints> points, BakeObserver& observer,
@@ -127,7 +127,7 @@ std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceReq
     for (const SeenPoints& seen : points) eyes.push_back(seen.eye);
     const LayoutCosts costs =
         layoutCosts(device, plan, defaultAppearance(plan.asset), light, eyes, grid, observer, report);
-    // What is lost by storing is about independent of the rest, so that squares add.
+    // Errors of the layout are nearly independent of the others, so squares add.
     const double before = grid.errors[size_t(*terms) - 1][rung];
     const double left = std::sqrt(request.error * request.error - before * before);
     const std::optional<double> place = placeOf(costs.errors, left);
@@ -160,14 +160,14 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     advice.bases =
         adviseBases(device, request, scene, grid, gridLight.drawn, points, observer, shareOf(report, 0.8, 1));
     if (advice.bases) *advice.bases->seconds += secondsBefore;
-    if (advice.rows && advice.bases) // which take as long for a term
+    if (advice.rows && advice.bases) // they take equally long per term
         advice.rows->seconds = *advice.bases->seconds * advice.rows->options.factorization.terms /
                                advice.bases->options.factorization.terms;
     if (report) report(1);
     return advice;
 }
 
-// The scene as a bake refines it. With a few terms, which differ from vertex to vertex as all of them do.
+// Returns the scene as a refining bake has it. A few terms vary between vertices as all of them do.
 Scene refinedScene(const vk::Device& device, const AdviceRequest& request, double wanted,
                    BakeObserver& observer) {
     constexpr int kTerms = 4;
@@ -215,7 +215,7 @@ Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLigh
     Advice advice{adviseMesh(device, request, request.scene, light, 0, observer, shareOf(report, 0, half)),
                   {}};
     if (!request.refinable) return advice;
-    // Half of the error for what lies between vertices is a quarter of it, squared.
+    // Interpolation gets half of the error, which is a quarter of its square.
     const double wanted = std::clamp(request.error / 2, kLeastRefinementError, kMostRefinementError);
     const auto start = std::chrono::steady_clock::now();
     const Scene refined = refinedScene(device, request, wanted, observer);

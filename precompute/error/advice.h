@@ -1,4 +1,4 @@
-// The least that a bake must be for images of an error.
+// Finds the smallest bake whose images have at most a given error.
 #pragma once
 
 #include "engine/import/scene.h"
@@ -8,30 +8,31 @@
 
 namespace relume {
 
+// The input of advise().
 struct AdviceRequest {
     Scene scene;
-    // The same as a bake that refines takes it; none: refinement is not considered.
+    // The scene as a refining bake takes it; none: refinement is not considered.
     std::optional<Scene> refinable;
-    double error = 0;         // wanted: root mean square over pixels, relative to that of the exact image
-    BakeOptions options = {}; // all that is not advised on: K, N, the layout, what it may lose, refinement
-    size_t points = 600;      // that are looked at, over all views
+    double error = 0;         // wanted RMS error over pixels, relative to the RMS of the exact image
+    BakeOptions options = {}; // all but what is advised: K, N, layout, layout error, refinement
+    size_t points = 600;      // number of points sampled, over all views
 };
 
-// A bake that gives images of the error.
+// A bake that reaches the wanted error.
 struct AdvisedBake {
-    BakeOptions options; // K, N, layout and refinement are set
+    BakeOptions options; // with K, N, layout and refinement set
     double error = 0;    // predicted
     double bytes = 0;    // of transport in memory
-    // Of the bake on this device, refinement included, from a sample; none: not known.
+    // Estimated time of the bake on this device, including refinement; none: unknown.
     std::optional<double> seconds;
 };
 
-// What can be had of meshes as they are, or as they are refined.
+// Advice for the meshes as given, or as refined.
 struct MeshAdvice {
     uint64_t vertices = 0;
-    std::vector<double> leastErrors; // by K, from 1: with all coefficients and nothing quantized
-    // Rows of the fewest bytes; bases of the least K that leaves them some of the error. None where the error
-    // is not reached.
+    std::vector<double> leastErrors; // by K, from 1: with all coefficients, unquantized
+    // The rows of fewest bytes, and bases with the least K that leaves some of the error to the layout. None
+    // if the wanted error cannot be reached.
     std::optional<AdvisedBake> bases, rows;
 };
 
@@ -39,17 +40,15 @@ struct Advice {
     MeshAdvice plain;
     std::optional<MeshAdvice> refined;
 
-    // The bake in bases of fewest bytes, or in rows where there is none; null where nothing reaches the
-    // error.
+    // Returns the bake of fewest bytes, in bases or rows; null if none reaches the error.
     const AdvisedBake* best() const;
-    // The mesh that it is of; of the plain one where there is none.
+    // Returns the advice that best() is part of; `plain` if there is none.
     const MeshAdvice& bestMesh() const;
 };
 
-// Looks at the object from four sides, default appearance. Takes minutes. Meshes of more than
-// kMostRefinedVertices are left as they are. Terms of Factorization::NonNegative are only good together:
-// Environment's are tried in their place, with what they leave (residual.h). Throws as planBake() and
-// StageTracer do.
+// Samples the object from four sides in its default appearance, which takes minutes. Meshes of more than
+// kMostRefinedVertices are not refined. Factorization::NonNegative's terms are only good together:
+// Environment's are tried instead, with the residual (residual.h). Throws as planBake() and StageTracer do.
 Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLight& light,
               BakeObserver& observer, const std::function<void(double)>& progress = {});
 

@@ -1,4 +1,4 @@
-// What a bake finds at a point, before any of it is dropped.
+// Transport at arbitrary points as a bake evaluates it, before selection and quantization.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -12,20 +12,20 @@ namespace relume {
 
 class BakedTransport {
   public:
-    // Refers to `asset`, of whose transport it knows nothing. Throws Error when Embree fails.
+    // Keeps a reference to `asset`, whose transport it does not use. Throws Error if Embree fails.
     explicit BakedTransport(const Asset& asset);
 
-    const CubeCells& lighting() const { return mLighting; } // F² a face
+    const CubeCells& lighting() const { return mLighting; } // F² cells per face
 
-    // Bits of the occluder's visibility, from as high above the point as the bake's are, in the order of
-    // CpuVisibility. `normal` is unit.
+    // Returns the visibility bits of the asset's occluder, from as far above the point as in the bake, in the
+    // order of CpuVisibility. `normal` is a unit vector.
     std::vector<uint64_t> visibility(vec3 position, vec3 normal) const;
     size_t visibilityWords() const { return mVisibility.texels() / 64; }
-    // Of such bits, of a point with this frame.
+    // Returns the cells that can light a point with these visibility bits and this frame.
     std::vector<LitCell> lit(std::span<const uint64_t> visibility, const TangentFrame& frame) const;
 
-    // All 6 F² Haar coefficients of a vertex's transport, with a set's factors: calls use(term, coefficients)
-    // for one term after another.
+    // Computes all 6 F² Haar coefficients of a vertex's transport with the factors `brdf`, and calls
+    // use(term, coefficients) for each term.
     void forEachTerm(size_t part, uint32_t vertex, const FactoredBrdf& brdf,
                      const std::function<void(size_t, const std::vector<vec3>&)>& use) const;
 
@@ -35,7 +35,7 @@ class BakedTransport {
     CpuVisibility mVisibility;
 };
 
-// The 6 F² Haar coefficients that a vector stands for, zero where it has none.
+// Returns all 6 F² Haar coefficients of a light vector, zero where it has no entry.
 std::vector<vec3> coefficientsOf(const LightVector& light);
 
 } // namespace relume

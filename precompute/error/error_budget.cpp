@@ -40,8 +40,8 @@ ErrorBudget errorBudget(std::span<const StageRadiance> points) {
         sum += squares[source];
     }
     budget.rootSumSquares = std::sqrt(sum / level);
-    // Of the ratio of two means, total² = mean D² / mean T², by the delta method; its root varies half as
-    // much.
+    // Variance of the ratio of two means, total² = mean D² / mean T², by the delta method; the root varies
+    // half as much.
     for (const StageRadiance& stages : points) {
         const double residual = square(change(stages, 0, kErrorSources)) -
                                 total / level * square(glm::dvec3(stages[kErrorSources]));

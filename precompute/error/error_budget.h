@@ -1,26 +1,26 @@
-// How errors of single stages add up to the error of an image.
+// Breaks down the error of an image into the contributions of its sources.
 #pragma once
 
 #include "precompute/error/stage_radiance.h"
 
 namespace relume {
 
-// What one source does. With d its change of every point's radiance and D the sum of all changes, which is
-// the drawn radiance minus the truth:
+// The contribution of one source. d is the change of a point's radiance by making the source exact, D the sum
+// of all changes, which is the drawn radiance minus the truth:
 struct SourceError {
-    double rms = 0;   // √ mean d², relative to the root mean square of the truth
-    double share = 0; // ⟨d, D⟩ / ⟨D, D⟩, of the squared total; below 0 where it makes up for others
+    double rms = 0;   // √ mean d², relative to the RMS of the truth
+    double share = 0; // ⟨d, D⟩ / ⟨D, D⟩, of the squared total; negative if it compensates others
 };
 
 struct ErrorBudget {
-    double level = 0;          // root mean square of the truth's radiance, over points and channels
-    double total = 0;          // √ mean D², relative to that
-    double uncertainty = 0;    // standard error of `total`, were points a random sample of a finer image's
-    double rootSumSquares = 0; // of the sources' rms: `total`, were they independent of each other
+    double level = 0;          // RMS of the truth's radiance, over points and channels
+    double total = 0;          // √ mean D², relative to `level`
+    double uncertainty = 0;    // standard error of `total`, if points are a random sample
+    double rootSumSquares = 0; // of the sources' rms: `total` if sources were independent
     std::array<SourceError, kErrorSources> sources;
 };
 
-// Of points under one light, which count alike. Shares sum to 1, unless the total is 0.
+// Returns the budget of points under one light, equally weighted. Shares sum to 1, unless the total is 0.
 ErrorBudget errorBudget(std::span<const StageRadiance> points);
 
 } // namespace relume

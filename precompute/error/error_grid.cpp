@@ -32,7 +32,7 @@ std::vector<SeenPoint> listPoints(std::span<const SeenPoints> points) {
     return list;
 }
 
-// Of one row, at every tried N: what the light gives, and entries that are left after quantizing.
+// One row at every tried N: its tuple under the light, and the entries left after quantization.
 struct Ladder {
     std::array<vec3, kRungs> tuples{};
     std::array<float, kRungs> entries{};
@@ -68,7 +68,7 @@ Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light)
     return ladder;
 }
 
-// What sampled vertices have.
+// The ladders of sampled vertices.
 class VertexLadders {
   public:
     VertexLadders(const Asset& asset, const Appearance& appearance, const LightVector& light)
@@ -86,7 +86,7 @@ class VertexLadders {
         });
     }
 
-    // Per term.
+    // Returns a ladder per term.
     const std::vector<Ladder>& at(uint32_t part, uint32_t vertex) const {
         return mLadders.at({part, vertex});
     }
@@ -127,14 +127,14 @@ const FactoredBrdf& boundFactors(const Asset& asset, const Appearance& appearanc
     return asset.parts[part].sets[appearance[part].set].brdf;
 }
 
-// Per term.
+// Returns a value per term.
 std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size_t part,
                           const SurfacePoint& point) {
     return pointViews(boundFactors(asset, appearance, part), boundLayers(asset.parts[part], appearance[part]),
                       point.layerWeights(), point.outgoing);
 }
 
-// Interpolated, per term.
+// Returns the interpolated tuple.
 std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, const RayHit& hit, size_t rung,
                           size_t terms) {
     const uvec3 corners = asset.parts[hit.mesh].mesh.triangles[hit.triangle];
@@ -213,7 +213,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         const uvec3 corners = asset.parts[seen.hit->mesh].mesh.triangles[seen.hit->triangle];
         for (int corner = 0; corner < 3; corner++) vertices.add(seen.hit->mesh, corners[corner]);
     }
-    // Entries of parts that are hardly seen take bytes, too.
+    // Parts that are hardly visible take bytes, too.
     constexpr uint32_t kLeastOfPart = 16;
     for (uint32_t part = 0; part < asset.parts.size(); part++) {
         const auto all = uint32_t(asset.parts[part].mesh.vertexCount());

@@ -8,24 +8,23 @@
 namespace relume {
 
 enum class ErrorSource {
-    Drawing,         // what the device's image is off its recomputation: light without shadows looked up in
-                     // lit spheres instead of summed (residual.h), and rounding
-    LightSelection,  // coefficients of the light that are dropped, and the 16 bits of those that are kept
-    Storage,         // 11/11/10 bits of transport; of bases, all that they lose against rows
-    Truncation,      // keeping N wavelet coefficients of a row
-    Interpolation,   // tuples of vertices instead of every point's own
-    Terms,           // K products instead of all that the tabulated BRDF has
+    Drawing,         // of the device: unshadowed light looked up in lit spheres, not summed; rounding
+    LightSelection,  // dropped light entries, and 16-bit quantization of the kept ones
+    Storage,         // 11/11/10 bits of transport; for bases, all loss against rows
+    Truncation,      // keeping only N wavelet coefficients per row
+    Interpolation,   // interpolating the tuples of vertices
+    Terms,           // K products instead of the whole tabulated BRDF
     MapResolution,   // S × S texels of the table instead of the BRDF itself
-    Evaluation,      // BRDF and cosine taken once (or 4 or 16 times) a lighting texel
-    LightResolution, // F × F texels a face of the light instead of its own resolution
-    Occluder,        // shadows of the baked occluder, from the height that it asks for
-    Visibility,      // V × V rays a face
-    Bounces,         // light of other surfaces as it is baked: of K terms, at a low resolution, interpolated
-    MoreBounces,     // reflections between surfaces beyond those that are baked
+    Evaluation,      // evaluating BRDF and cosine once (or 4 or 16 times) per lighting texel
+    LightResolution, // F × F texels per face of the light instead of its own resolution
+    Occluder,        // shadows of the baked occluder, with the visibility offset it needs
+    Visibility,      // V × V rays per face
+    Bounces,         // baked bounced light: K terms, low resolution, interpolated
+    MoreBounces,     // reflections between surfaces beyond the baked ones
 };
 constexpr size_t kErrorSources = 13;
 
-// In a few words, for tables; and as an identifier, for files.
+// Return a source's title, for tables, and its name, an identifier for files.
 std::string_view errorSourceTitle(ErrorSource source);
 std::string_view errorSourceName(ErrorSource source);
 

@@ -13,7 +13,7 @@ namespace relume {
 
 namespace {
 
-// The device's images, one a light.
+// Draws an image per light on the device.
 std::vector<Image> draw(const vk::Device& device, const Asset& asset, const Appearance& appearance,
                         std::span<const StudiedLight> lights, bool addsResidual, const ErrorView& look) {
     LightPass lightPass(device, asset.faceSize);
@@ -34,7 +34,7 @@ std::vector<Image> draw(const vk::Device& device, const Asset& asset, const Appe
     return images;
 }
 
-// Adds passes until the noise is small against the error of `study.drawn`, and says what came of it.
+// Adds passes until the noise is small relative to the error of `study.drawn`, and records the results.
 void measure(ProgressiveReference& reference, const ViewPoints& points, int mostPasses,
              const std::function<void()>& afterPass, ErrorStudy& study) {
     constexpr int kFirstCheck = 16;
@@ -64,13 +64,13 @@ StageLight stageLight(const Light& light, const LightCube& fine, int faceSize,
     return {std::move(vector), std::move(coarse), fine};
 }
 
-// Stages before kTermsStage are not looked at.
+// Returns the light for stages from kTermsStage on; earlier ones are not used.
 StageLight lowOrderStage(const StageLight& light, int order) {
     return {light.drawn, lowOrderLight(light.coarse, order), lowOrderLight(light.fine, order)};
 }
 constexpr size_t kTermsStage = size_t(ErrorSource::Interpolation) + 1; // K terms, all before them exact
 
-// Against the truth in `exact`.
+// Returns the error of a stage against the truth in `exact`.
 double errorOf(std::span<const StageRadiance> stages, size_t stage, std::span<const StageRadiance> exact,
                double level) {
     double sum = 0;
@@ -89,10 +89,10 @@ LowOrderStudy studyLowOrder(const ViewPoints& points, std::span<const StageRadia
             errorOf(low, kTermsStage, study.stages, study.budget.level)};
 }
 
-// Tells of bounced light that is found anew as a share of all work.
+// Reports the recomputation of bounced light as a share of all work.
 class BounceObserver : public BakeObserver {
   public:
-    // Refers to `tell`, which may be empty.
+    // Keeps a reference to `tell`, which may be empty.
     BounceObserver(const std::function<void(double)>& tell, double share, int bounces)
         : mTell(tell), mShare(share), mPasses(bounces + 1) {}
 
@@ -104,7 +104,7 @@ class BounceObserver : public BakeObserver {
   private:
     const std::function<void(double)>& mTell;
     double mShare;
-    int mPasses, mPass = 1; // direct transport, which names parts, then every bounce
+    int mPasses, mPass = 1; // direct transport, which names parts, then each bounce
 };
 
 } // namespace
@@ -131,7 +131,7 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
         for (size_t i = 0; i < lights.size(); i++)
             stageLights.push_back(lowOrderStage(stageLights[i], options.lowOrder));
     const double bouncesShare = asset.bounces > 0 ? 0.4 : 0; // of the work, roughly
-    constexpr double kStagesShare = 0.85;                    // with that
+    constexpr double kStagesShare = 0.85;                    // including that
     StageOptions stageOptions{options.residual, bounces};
     if (asset.bounces > 0) {
         BounceObserver observer(progress, bouncesShare, asset.bounces);

@@ -1,4 +1,4 @@
-// An image's error, measured, and taken apart into its sources.
+// Measures the error of an image and breaks it down by source.
 #pragma once
 
 #include "engine/light/light.h"
@@ -10,34 +10,35 @@
 
 namespace relume {
 
+// The camera and image size of a study.
 struct ErrorView {
     Camera camera;
-    int width = 120, height = 90; // every pixel that sees the asset is a point
+    int width = 120, height = 90; // every pixel that shows the asset is a point
 };
 
 struct StudiedLight {
-    Light light;    // what is drawn under
-    LightCube fine; // of kTruthFaceSize: the same, as finely as it is known
+    Light light;    // the light that images are drawn with
+    LightCube fine; // of kTruthFaceSize: the same light at the finest resolution known
     LightSelection selection;
 };
 
-// What low-order spherical harmonics would give.
+// The result if light and transport were projected onto low-order spherical harmonics.
 struct LowOrderStudy {
-    Image image;           // all else exact: the truth under lowOrderLight(); linear, clamped at zero
-    double error = 0;      // of that
-    double termsError = 0; // with the K terms of the bake, under lowOrderLight() of 6 F² texels
+    Image image;           // the truth under lowOrderLight(), all else exact; linear, clamped at zero
+    double error = 0;      // RMS error of that image
+    double termsError = 0; // with the K terms of the bake under lowOrderLight() of 6 F² texels
 };
 
-// Of one light. Root mean squares relative to that of the truth.
+// The study of one light. Errors are RMS relative to the RMS of the truth.
 struct ErrorStudy {
-    std::vector<StageRadiance> stages; // per point; the first are the pixels of `drawn`
+    std::vector<StageRadiance> stages; // per point, in the order of ViewPoints; [0] is the pixel in `drawn`
     ErrorBudget budget;
-    Image drawn;     // by the device
-    Image reference; // sampled (ProgressiveReference), linear
-    int passes = 0;
-    double measured = 0;   // drawn against the reference, free of the reference's noise
+    Image drawn;           // drawn by the device
+    Image reference;       // linear, from ProgressiveReference
+    int passes = 0;        // of the reference
+    double measured = 0;   // drawn against the reference, without the reference's noise
     double noise = 0;      // standard error of the reference
-    double truthAside = 0; // the last stage against the reference, free of its noise
+    double truthAside = 0; // last stage against the reference, without its noise
     std::optional<LowOrderStudy> lowOrder;
 };
 
@@ -48,15 +49,15 @@ struct ErrorStudies {
 
 struct ErrorStudyOptions {
     ErrorView view;
-    int mostPasses = 512; // of the reference, added until its noise is a tenth of the measured error; 0: none
-    int lowOrder = 0;     // of LowOrderStudy; 0: none
-    bool residual = true; // what K terms leave of BRDFs is added
-    // Reflections between surfaces that the truth has, at least the asset's own; none: as many as the asset.
+    int mostPasses = 512; // of the reference, ended once its noise is a tenth of the error; 0: none
+    int lowOrder = 0;     // order of LowOrderStudy; 0: none
+    bool residual = true; // draw with the residual
+    // Reflections between surfaces in the truth, at least the asset's own; none: the asset's.
     std::optional<int> bounces = {};
 };
 
-// One view under several lights, which share all rays but those of paths. Throws Error. `progress` as
-// StageTracer::trace().
+// Studies one view under several lights, which share all rays except those of paths. `progress` is as for
+// StageTracer::trace(). Throws Error.
 ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
                          std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
                          const std::function<void(double)>& progress = {});

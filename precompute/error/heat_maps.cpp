@@ -13,7 +13,7 @@ double changeOf(const StageRadiance& stages, size_t from, size_t to) {
     return glm::length(glm::dvec3(stages[from]) - glm::dvec3(stages[to]));
 }
 
-// The difference from the truth that one point in a hundred exceeds.
+// Returns the 99th percentile of the differences from the truth.
 double fullHeat(const ErrorStudy& study) {
     std::vector<double> changes;
     for (const StageRadiance& stages : study.stages) changes.push_back(changeOf(stages, 0, kErrorSources));

@@ -1,4 +1,4 @@
-// Errors as pictures.
+// Draws errors as heat maps.
 #pragma once
 
 #include "precompute/error/error_study.h"
@@ -6,16 +6,16 @@
 namespace relume {
 
 struct HeatMap {
-    std::string name; // "total", or that of a source
+    std::string name; // "total", or the name of a source
     Image map;        // display values, for PNG
 };
 
-// How far each point's radiance is from the truth, and what every source changes of it: the length of the
-// difference over its channels, in heatColor(), with every pixel `scale` pixels a side. Full heat is, in all
-// maps alike, the difference from the truth that one point in a hundred exceeds.
+// Returns maps of every point's difference from the truth, and of its change by every source: the length of
+// the difference over channels, in heatColor(), with `scale` × `scale` pixels per point. Full heat is, in all
+// maps, the 99th percentile of the differences from the truth.
 std::vector<HeatMap> heatMaps(const ErrorStudy& study, const ViewPoints& points, int scale);
 
-// Every pixel `scale` pixels a side.
+// Returns the image with every pixel repeated `scale` × `scale` times.
 Image enlarged(const Image& image, int scale);
 
 } // namespace relume

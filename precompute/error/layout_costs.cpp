@@ -13,9 +13,9 @@ namespace relume {
 
 namespace {
 
-constexpr uint32_t kBlocksOfPart = 6; // of a basis cluster each: enough to tell errors within a tenth or so
+constexpr uint32_t kBlocksOfPart = 6; // of a basis cluster each; errors are then known within about a tenth
 
-// Blocks of a part, spread evenly over it, as one stretch of rows per set; and which vertices these are.
+// Collects blocks spread evenly over a part as continuous rows per set, and the indices of their vertices.
 class RowSink : public BakeSink {
   public:
     RowSink(const BakePlan& plan, size_t part) : mPlan(plan) {
@@ -45,8 +45,8 @@ std::vector<uint32_t> chooseBlocks(const BakePlan& plan, uint32_t part) {
     return chosen;
 }
 
-// Mean square of the difference in radiance of two tuples of the same vertices, seen from the eyes in front
-// of them as pixels do: in proportion to the cosine.
+// Returns the mean squared difference in radiance between two tuples of the same vertices, seen from the eyes
+// in front of them with the weight of pixels, the cosine.
 double squaredDifference(const AssetPart& part, const PartAppearance& bound,
                          std::span<const uint32_t> vertices, std::span<const vec3> a, std::span<const vec3> b,
                          std::span<const vec3> eyes) {
@@ -91,7 +91,7 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
         costs.bakeSeconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     std::array<double, kTriedLayoutErrors.size()> squares{};
-    // A part's bake takes about as long as making bases of it, for all errors.
+    // A part's bake takes about as long as its encoding in bases for all errors.
     const size_t pieces = plan.asset.parts.size() * 2 * kTriedLayoutErrors.size();
     size_t done = 0;
     const auto tell = [&](size_t more) { progress(double(done += more) / double(pieces)); };
@@ -108,7 +108,7 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
             scale * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         tell(kTriedLayoutErrors.size());
 
-        // An asset of these vertices alone, made into bases of one error after another.
+        // An asset of these vertices alone, encoded in bases for one error after another.
         Asset sample;
         sample.faceSize = plan.asset.faceSize;
         sample.coefficients = plan.asset.coefficients;

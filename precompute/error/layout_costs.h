@@ -1,4 +1,4 @@
-// What bases take and lose, and what baking takes, of a few blocks of a bake.
+// Measures size, error and baking time of bases from a sample of blocks.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -9,20 +9,21 @@
 
 namespace relume {
 
-// LayoutOptions::error that are tried, falling.
+// The values of LayoutOptions::error that are tried, descending.
 constexpr std::array<double, 7> kTriedLayoutErrors = {0.4, 0.25, 0.15, 0.1, 0.05, 0.03, 0.015};
 
 struct LayoutCosts {
-    // By tried error: the radiance that bases give against that of rows of plan.options.coefficients, root
-    // mean square relative to the exact radiance; and bytes of the whole asset's transport in memory.
+    // By tried error: RMS difference in radiance between bases and rows of plan.options.coefficients,
+    // relative to the exact radiance; and bytes of the whole asset's transport in memory.
     std::array<double, kTriedLayoutErrors.size()> errors{}, bytes{};
-    double bakeSeconds = 0; // of all vertices, as long as those of the sample took
+    double bakeSeconds = 0; // for all vertices, extrapolated from the sample
 };
 
-// Bakes a few blocks of every part on the device and encodes them, after finding all bounced light where
-// there is to be any, which `plan` keeps. `plan` is for bases. Vertices count as much as `grid` says of their
-// part's share of images, seen from `eyes` in front of them. `progress`, not empty, is told the share that is
-// done, after a part's bake and after each of its layouts. Throws BakeStopped, Error.
+// Bakes a few blocks of every part on the device and encodes them in bases, the layout that `plan` must have.
+// If the plan has bounces, computes them first and leaves them in `plan`. Parts are weighted by their share
+// of the image, from `grid`; vertices are seen from those `eyes` that are in front of them. `progress`, not
+// empty, is called with the share done, after a part's bake and after each of its layouts. Throws BakeStopped
+// and Error.
 LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearance& appearance,
                         const LightVector& light, std::span<const vec3> eyes, const ErrorGrid& grid,
                         BakeObserver& observer, const std::function<void(double)>& progress);

@@ -1,4 +1,4 @@
-// What a point can be lit from: the cells of a cube that are free and above its horizon.
+// The cells of a cube from which a point can be lit: unoccluded and above its horizon.
 #pragma once
 
 #include "engine/math/tangent_frame.h"
@@ -8,21 +8,21 @@
 namespace relume {
 
 struct LitCell {
-    uint32_t texel; // of the lighting cube, row by row
+    uint32_t texel; // of the lighting cube, in row order
     float weight;   // visible share · cosine · solid angle
-    vec3 local;     // unit direction of its center, z > 0
+    vec3 local;     // unit direction of its center in the local frame, z > 0
 };
 
-// `cells` are the evaluations of transport, 1, 4 or 16 a texel of `lighting`; `bits` as CpuVisibility gives
-// them, 1, 4, 16 or 64 a cell.
+// Returns the lit cells. `cells` are the evaluations of transport, 1, 4 or 16 per texel of `lighting`; `bits`
+// are from CpuVisibility, 1, 4, 16 or 64 per cell.
 std::vector<LitCell> litCells(const CubeCells& cells, const CubeCells& lighting,
                               std::span<const uint64_t> bits, const TangentFrame& frame);
 
-// Where `lit` lie in light maps of this kind.
+// Returns the places of `lit` in light maps of this size and mapping.
 std::vector<MapPlace> placesOf(std::span<const LitCell> lit, int mapSize, DiskMapping mapping);
 
-// One term's transport, 6 F² texels row by row: transportVector in
-// precompute/twins/transport_twin.h, in another order of sums.
+// Returns one term's transport, 6 F² texels in row order: transportVector() of
+// precompute/twins/transport_twin.h, summed in another order.
 std::vector<vec3> transportOf(std::span<const LitCell> lit, std::span<const MapPlace> places,
                               const vec3* lightMap, size_t texels);
 

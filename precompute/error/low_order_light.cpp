@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-// The real spherical harmonics of degree l and order m = -l..l, at l² + l + m.
+// Returns the real spherical harmonics of degree l and order m = -l..l at index l² + l + m.
 std::vector<float> harmonics(vec3 direction, int order) {
     const double theta = std::acos(std::clamp(double(direction.z), -1.0, 1.0));
     const double phi = std::atan2(double(direction.y), double(direction.x));

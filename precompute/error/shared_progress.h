@@ -1,4 +1,4 @@
-// Progress of work that many threads share.
+// Progress of work shared by many threads.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,14 @@
 
 namespace relume {
 
-// Tells of the share that is done, from `first` to `last`, now and then, from one thread at a time.
+// Calls a function with the share done, from `first` to `last`, now and then and from one thread at a time.
 class SharedProgress {
   public:
-    // Refers to `tell`, which may be empty.
+    // Keeps a reference to `tell`, which may be empty.
     SharedProgress(const std::function<void(double)>& tell, double first, double last, size_t count)
         : mTell(tell), mFirst(first), mLast(last), mCount(count) {}
 
-    // One more of `count` is done.
+    // Counts one more of `count` pieces as done.
     void add() {
         if (!mTell) return;
         const std::lock_guard lock(mMutex);

@@ -42,20 +42,20 @@ uint64_t vertexKey(size_t part, uint32_t vertex) { return uint64_t(part) << 32 |
 
 } // namespace
 
-// A light in the orders and bases that stages want it in.
+// A light in the orders and bases that stages need.
 struct StageTracer::Light {
-    std::vector<vec3> drawn;    // 6 F² Haar coefficients, those of the LightVector
-    std::vector<vec3> haar;     // 6 F² Haar coefficients, all of them
-    std::vector<vec3> coarse;   // 6 F² texels, row by row
-    std::vector<vec3> coarseOf; // per cell of mTruth, the coarse texel around it
+    std::vector<vec3> drawn;    // 6 F² Haar coefficients, of the LightVector
+    std::vector<vec3> haar;     // all 6 F² Haar coefficients
+    std::vector<vec3> coarse;   // 6 F² texels in row order
+    std::vector<vec3> coarseOf; // per cell of mTruth: the coarse texel around it
     std::vector<vec3> fine;     // per cell of mTruth
-    LightDistribution paths;    // the same, for paths
+    LightDistribution paths;    // of `fine`, for paths
 };
 
-// A vertex's tuples at the stages that have any.
+// A vertex's tuples at the stages that depend on them.
 struct StageTracer::Tuples {
-    static constexpr size_t kStages = 4;  // as drawn, all light, exact storage, all coefficients
-    static constexpr size_t kBounced = 4; // what bounced light is of the last
+    static constexpr size_t kStages = 4;  // as drawn, whole light, exact storage, all coefficients
+    static constexpr size_t kBounced = 4; // the bounced part of the last stage
     static constexpr size_t kValues = 5;
     std::vector<vec3> values; // [(light · kValues + stage) · K + term]
 
@@ -181,8 +181,8 @@ void StageTracer::traceVertices(const RayHit& hit, const Binding& binding,
     }
 }
 
-// The point's own direct transport: of the K terms, then of the whole table, then of the BRDF itself. Bounced
-// light is the vertices' still.
+// Computes the point's own direct transport: with the K terms, the whole table, and the BRDF itself. Bounced
+// light is still interpolated.
 std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const SurfacePoint& point,
                                                  const SurfacePoint& own, const Binding& binding,
                                                  std::span<const UnshadowedLight> unshadowed,
@@ -245,7 +245,7 @@ void StageTracer::traceTruth(const SurfacePoint& point, std::span<const uint64_t
     mFull.trace(origin, point.normal, whole);
     mFullFine.trace(origin, point.normal, fine);
 
-    // Four stages: evaluated finely, then fine light too, then the full mesh, then more rays.
+    // Four stages: fine evaluation, then also fine light, the full mesh, and more rays.
     constexpr size_t kFirst = size_t(ErrorSource::Evaluation) + 1, kStages = 4;
     std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
     const size_t cellsPerBit = mTruth.count() / (baked.size() * 64);

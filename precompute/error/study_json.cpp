@@ -14,7 +14,7 @@ static nlohmann::ordered_json describeSources(const ErrorBudget& budget) {
     return sources;
 }
 
-// A part's errors are relative to what is true of its own points.
+// A part's errors are relative to the truth at its own points.
 static nlohmann::ordered_json describeParts(const ErrorStudy& study, const ViewPoints& points,
                                             const Asset& asset) {
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();

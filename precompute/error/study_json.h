@@ -1,4 +1,4 @@
-// Studies and advice as data: what `relume errors --json` and `relume advise --json` print.
+// Studies and advice as JSON: the output of `relume errors --json` and `relume advise --json`.
 #pragma once
 
 #include "precompute/error/advice.h"
@@ -8,14 +8,14 @@
 
 namespace relume {
 
-// All of the study's numbers: relative root mean squares, and shares of the squared total, of all points and
-// of those of each part that is seen. The harmonics' where the study has any.
+// Describes all numbers of a study: errors of all points, and of those of each visible part, as RMS and as
+// shares of the squared total. Includes the low-order study if there is one.
 nlohmann::ordered_json describe(const ErrorStudy& study, const ViewPoints& points, const Asset& asset);
 
-// The options of `relume bake` for an advised bake.
+// Returns the options of `relume bake` for an advised bake.
 std::string commandLineOf(const BakeOptions& options);
 
-// What `relume advise --json` prints; `asked`: the error.
+// Describes advice; `asked` is the wanted error.
 nlohmann::ordered_json describe(const Advice& advice, double asked);
 
 } // namespace relume

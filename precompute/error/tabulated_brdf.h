@@ -1,4 +1,4 @@
-// A part's BRDFs as tables of S × S directions on either side: what K terms would be if K were large enough.
+// A part's BRDFs as tables of S × S directions on either side: the limit of K terms for large K.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -12,14 +12,14 @@ namespace relume {
 
 class TabulatedBrdf {
   public:
-    // Of these layers the tables that `set` was factored from, by this method. Throws as makeBrdf() and
+    // Tabulates these layers' BRDFs as `set` was factored from, by this method. Throws as makeBrdf() and
     // tabulate() do.
     TabulatedBrdf(const MaterialSet& set, std::span<const BoundLayer> layers, Factorization method,
                   MaterialBrdfs& brdfs);
 
-    // f(·, outgoing) as a light map of S × S texels, extended beyond the disk as light maps are, summed over
-    // `layers`, among those it was made with, times their weights. `outgoing` in the local frame, above the
-    // horizon.
+    // Returns f(·, outgoing) as a light map of S × S texels, extended beyond the disk as light maps are: the
+    // sum of `layers`, which must be among those given to the constructor, times their weights. `outgoing` is
+    // in the local frame, above the horizon.
     std::vector<vec3> lightMap(std::span<const BoundLayer> layers, std::span<const vec3> weights,
                                vec3 outgoing) const;
 
@@ -28,7 +28,7 @@ class TabulatedBrdf {
     int mSize;
     DiskMapping mMapping;
     size_t mDirections = 0;
-    std::vector<int> mNearest;       // of each texel, the direction whose values it has
+    std::vector<int> mNearest;       // per texel: the direction whose values it has
     std::map<int, Channels> mLayers; // by BoundLayer::layer
 };
 

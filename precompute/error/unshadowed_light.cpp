@@ -6,7 +6,7 @@ namespace relume {
 
 namespace {
 
-// The unshadowed radiance of a point, per light.
+// Returns the unshadowed radiance of a point, per light.
 std::vector<glm::dvec3> sumExact(std::span<const LitCell> lit, const SurfacePoint& point,
                                  std::span<const std::span<const vec3>> lights) {
     std::vector<glm::dvec3> exact(lights.size(), glm::dvec3(0));

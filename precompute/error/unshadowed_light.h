@@ -1,5 +1,5 @@
-// The unshadowed sums of single points under lights in a lighting cube, and the radiance that pixels estimate
-// with them (residual_estimate.h).
+// Unshadowed radiance at single points under lighting cubes, and the radiance that pixels estimate with it
+// (residual_estimate.h).
 #pragma once
 
 #include "engine/scene/residual.h"
@@ -8,23 +8,22 @@
 
 namespace relume {
 
-// The unshadowed sums of a point, seen from one direction.
+// Unshadowed sums at a point, seen from one direction.
 struct UnshadowedLight {
-    vec3 exact{0};           // radiance by the exact BRDF
+    vec3 exact{0};           // radiance with the exact BRDF
     std::vector<vec3> tuple; // per term of the factors
 };
 
-// Returns the sums for each light, which is 6 F² texels row by row. `baked`: the point in the
-// frame that the factors are of; `limit`: what limits it where a normal map gives another
-// (BoundAsset::limitPointAt).
+// Returns the sums for each light of 6 F² texels in row order. `baked` is the point in the frame of its
+// factors; `limit` is what limits it where a normal map gives another frame (BoundAsset::limitPointAt).
 std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, const SurfacePoint& point,
                                            const SurfacePoint& baked, const SurfacePoint& limit,
                                            const FactoredBrdf& factors,
                                            std::span<const std::span<const vec3>> lights);
 
-// Returns the radiance of a pixel, as view_shade.frag computes it: the estimate of its residual, or without
-// one the sum of the terms, clamped at zero. `views` has a value for each term that is summed: the view maps
-// of the bound layers times their weights.
+// Returns the radiance of a pixel, as view_shade.frag computes it: with the estimate of `residual`, or, if
+// that is null, the sum of the terms clamped at zero. `views` has a value per term that is summed: the view
+// maps of the bound layers times their weights.
 vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, std::span<const vec3> tuple,
                       const UnshadowedLight& unshadowed);
 

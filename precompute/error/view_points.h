@@ -1,4 +1,4 @@
-// The points of an asset that an image shows.
+// The points of an asset that are visible in an image.
 #pragma once
 
 #include "engine/image/image.h"
@@ -7,13 +7,13 @@
 
 namespace relume {
 
-// All that the pixel centers of an image see, row by row.
+// The points at pixel centers, in row order.
 struct ViewPoints {
     int width = 0, height = 0;
     std::vector<size_t> pixels; // y · width + x
     std::vector<RayHit> hits;   // RayHit::mesh is the part
 
-    // Of one value a point; zero and alpha 0 elsewhere.
+    // Returns an image of one value per point; zero with alpha 0 elsewhere.
     template <typename Value>
     Image image(const Value& valueOf) const {
         Image image(width, height);
@@ -22,7 +22,7 @@ struct ViewPoints {
     }
 };
 
-// `tracer` has a mesh per part.
+// Finds the points; `tracer` has one mesh per part.
 ViewPoints viewPoints(const RayTracer& tracer, const Camera& camera, int width, int height);
 
 } // namespace relume

@@ -26,7 +26,8 @@ uint64_t bytesOf(const std::vector<MaterialSet*>& sets) {
     return bytes;
 }
 
-// Of rows, as the options ask: relative to their units, root mean square over all vertices.
+// Encodes rows as the options ask; returns the RMS error over all vertices, relative to the sets'
+// normalization.
 double compress(const Asset& asset, const std::vector<MaterialSet*>& sets, const LayoutOptions& options,
                 ConversionPasses& passes) {
     RowSource source{sets, lightSpectrum(asset.faceSize), {}, asset.bounces > 0};
@@ -70,7 +71,7 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& given, const Convers
     if (isCompressed(options.layout)) {
         conversion.error = compress(asset, sets, options, passes);
         if (!std::isfinite(*conversion.error)) throw Error(kTooLarge);
-        // What was lost before is lost: about independent of what is lost now, so that squares add.
+        // Earlier errors remain and are nearly independent of the new ones, so squares add.
         const double before = asset.layout ? asset.layout->error : 0;
         asset.layout = recordOf(options, std::hypot(before, *conversion.error));
     }

@@ -18,7 +18,7 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
     sumAlikeEverywhere();
     LayoutScale scale;
     LayoutTarget target{{}, 0};
-    double allRows = 0, toldRows = 0; // of sets that the samples tell of
+    double allRows = 0, toldRows = 0; // toldRows: of sets with samples
     for (const SetSample& sample : samples) {
         scale.units.push_back(sample.unit);
         const double rows = double(sample.vertices) * sample.set->brdf.terms;

@@ -1,4 +1,4 @@
-// What all clusters of a bake share, so that each can be encoded by itself.
+// What all clusters of a bake share, so that each can be encoded independently.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -9,34 +9,34 @@
 
 namespace relume {
 
-// The version of what decides the bytes of bases besides a bake's inputs and options: which sample is taken,
-// how the scale follows from it, and how clusters are encoded with that. It is raised with every change of
-// these, so that blocks of different programs never meet in one bake.
+// Version of everything besides a bake's inputs and options that determines the bytes of bases: choice of the
+// sample, derivation of the scale, encoding of clusters. Raised with every change to these, so that blocks of
+// different programs never meet in one bake.
 constexpr uint32_t kLayoutEncoderVersion = 2;
 
 struct LayoutScale {
-    std::vector<float> units; // per set, over all parts: transportUnit()
-    double price = 0;         // of a byte (basis_analysis.h): what makes a cluster keep more or less
+    std::vector<float> units; // per set, over all parts: normalization by transportUnit()
+    double price = 0;         // Lagrange multiplier: error per byte (basis_analysis.h)
 
     bool operator==(const LayoutScale&) const = default;
 };
 
 struct SetSample; // precompute/transport/layout_work.h
 
-// Finds the scale at which bases come closest to what `options` ask for, as the samples tell it; sets without
-// any are taken to be as the others are. A budget is for the asset's `vertices`. The scale is the same on
-// every machine.
+// Returns the scale at which bases come closest to what `options` ask for, according to the samples; sets
+// without a sample are taken to be like the others. A budget is for the asset's `vertices`. The scale is the
+// same on every machine.
 LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
                       const LayoutOptions& options);
 
-// Eigen cuts products by the sizes of the caches it finds, and sums would differ from one machine to another.
-// For all that follow, in the whole process; not while others multiply.
+// Makes Eigen's sums independent of the machine, whose cache sizes decide how it blocks products. Affects all
+// later products of the process; must not be called during one.
 void sumAlikeEverywhere();
 
-// As an asset keeps it.
-// Returns the error of transport that an asset in bases has where none is asked for.
+// Returns the default error of an asset in bases, for options that name none.
 double standardError(const Asset& asset);
 
+// Returns the record of a layout that an asset keeps.
 LayoutRecord recordOf(const LayoutOptions& options, double error);
 
 constexpr const char* kTooLarge =

@@ -1,13 +1,14 @@
-// How every layout is encoded. A layout has these functions, which std::visit finds by its type:
+// The encoders of all layouts. A layout has these functions, which std::visit finds by its type:
 //
-// - prepareLayout: sets what a set's BRDF, and whether light bounces, say of its transport, before any is
+// - prepareLayout: sets what follows from a set's BRDF, and from whether light bounces, before anything is
 //   baked;
-// - encodeBlock: rows of a block, as its chunk;
-// - findPrice: what a block is to be encoded with, as a sample of all rows tells it (layout_scale.h);
-// - convertRows: makes transport of all sets' rows, in kConversionPasses passes; its error, squared and in
-//   units of the sets.
+// - encodeBlock: encodes the rows of a block as its chunk;
+// - findPrice: returns the Lagrange multiplier for encoding blocks, found from a sample of all rows
+//   (layout_scale.h);
+// - convertRows: converts the rows of all sets, in kConversionPasses passes; returns the squared error
+//   relative to the sets' normalization.
 //
-// Rows, which are not compressed, have neither price nor error. `layout` is transport without any in it.
+// Rows, which are not compressed, have neither multiplier nor error. `layout` is transport without content.
 #pragma once
 
 #include "precompute/layout/bases/basis_encoder.h"

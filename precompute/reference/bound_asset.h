@@ -1,4 +1,4 @@
-// An asset with materials bound to its parts: the surface that a ray meets, and how it reflects.
+// An asset with materials bound to its parts: evaluates the surface at a ray's hit and its reflection.
 #pragma once
 
 #include "engine/math/tangent_frame.h"
@@ -7,42 +7,41 @@
 
 namespace relume {
 
-// Meshes of the parts: RayHit::mesh of a tracer of these is a part.
+// Returns the meshes of the parts, for a tracer whose RayHit::mesh is the part.
 std::vector<const Mesh*> partMeshes(const Asset& asset);
-// All of them as one, which the bake's occluder may be simpler than.
+// Returns all of them as one mesh. The bake's occluder may be a simplified version of it.
 Mesh mergedMesh(const Asset& asset);
 
-// A point of a surface, seen from an eye. Refers to its BoundAsset.
+// A point on a surface, seen from an eye. Keeps a reference to its BoundAsset.
 struct SurfacePoint {
     struct Layer {
         vec3 weight;
         SeenBrdf brdf;
     };
     vec3 position;
-    vec3 normal; // interpolated: rays start along it
-    TangentFrame
-        frame;     // of it and of the tangent; with the exact BRDF, of the normal that a normal map gives
-    vec3 outgoing; // the view direction in the frame, above the horizon
+    vec3 normal;        // interpolated; rays are offset along it
+    TangentFrame frame; // of this normal (with the exact BRDF, of the mapped one) and the tangent
+    vec3 outgoing;      // view direction in the frame, above the horizon
     std::vector<Layer> layers;
-    vec3 emitted; // radiance of its own
+    vec3 emitted; // emitted radiance
 
-    // Σ weight · f(ωi, outgoing), in sr⁻¹; ωi in the frame, above the horizon.
+    // Returns Σ weight · f(ωi, outgoing) in sr⁻¹; ωi is in the frame, above the horizon.
     vec3 reflected(vec3 incoming) const;
     std::vector<vec3> layerWeights() const;
 };
 
 class BoundAsset {
   public:
-    // Refers to `asset`, whose normal maps are those of the exact BRDF alone: factors are of the frames that
-    // they were baked in. Exact BRDFs come from `brdfs`, which throws if they cannot be had.
+    // Keeps a reference to `asset`. Normal maps apply only to the exact BRDF, since factors belong to the
+    // frames in which they were baked. Exact BRDFs come from `brdfs`, which throws if it cannot make them.
     BoundAsset(const Asset& asset, const Appearance& appearance, ReferenceBrdf kind, MaterialBrdfs& brdfs);
 
-    // Attributes are interpolated as in the view pass.
+    // Returns the point at a hit, with attributes interpolated as in the view pass.
     SurfacePoint pointAt(const RayHit& hit, vec3 eye) const { return pointAt(hit, eye, mIsExact); }
-    // The same in the frame that transport was baked in, without a normal map.
+    // Returns the same in the frame of the baked transport, without a normal map.
     SurfacePoint bakedPointAt(const RayHit& hit, vec3 eye) const { return pointAt(hit, eye, false); }
-    // The latter with every layer times concentrationOf() its kernel: what unshadowed radiance at the normal
-    // of a normal map is limited by. Of sets with a residual.
+    // Returns bakedPointAt() with every layer scaled by concentrationOf() its kernel: the limit of unshadowed
+    // radiance at a mapped normal. For sets with a residual.
     SurfacePoint limitPointAt(const RayHit& hit, vec3 eye) const;
 
   private:

@@ -8,37 +8,39 @@ namespace relume {
 
 enum class ReferenceBrdf {
     Exact,
-    Factored, // K terms
-    Residual  // K terms, and what they leave without shadows: residual_estimate.h. Of images alone
+    Factored, // the K terms
+    Residual  // the K terms with the residual (residual_estimate.h); for images only
 };
 
 class SeenBrdf;
 
-// The BRDF itself; what a base color texture multiplies of it; or the rest.
+// The BRDF of a layer: the whole, the part that a base color texture multiplies, or the rest.
 class BoundBrdf {
   public:
-    // Of the exact BRDF, from `brdfs`.
+    // Uses the exact BRDF, made by `brdfs`.
     BoundBrdf(const MaterialSet& set, const BoundLayer& layer, MaterialBrdfs& brdfs);
-    // Of the factors, to which it refers.
+    // Uses the factors; keeps a reference to `set`.
     BoundBrdf(const MaterialSet& set, const BoundLayer& layer);
 
-    // At a view direction in the local frame, above the horizon. Refers to this.
+    // Returns the BRDF for a view direction in the local frame, above the horizon. Keeps a reference to this
+    // object.
     SeenBrdf seenFrom(vec3 outgoing) const;
 
   private:
     friend SeenBrdf;
     enum class Share { Whole, Base, WithoutBase };
 
-    std::shared_ptr<const Brdf> mExact; // none: factored
+    std::shared_ptr<const Brdf> mExact; // null: factored
     Share mShare = Share::Whole;
     const FactoredBrdf* mFactors = nullptr;
-    int mLayer = 0; // of view maps
+    int mLayer = 0; // of the view maps
 };
 
-// f(ωi, ωo) of one ωo: a pixel asks for many ωi.
+// f(ωi, ωo) for a fixed ωo, since a pixel needs many ωi.
 class SeenBrdf {
   public:
-    // Per color channel, without the cosine, in sr⁻¹; of factors it can be negative. ωi.z > 0.
+    // Returns f per color channel, without the cosine, in sr⁻¹, for ωi.z > 0. With factors it can be
+    // negative.
     vec3 evaluate(vec3 incoming) const;
 
   private:
@@ -47,7 +49,7 @@ class SeenBrdf {
 
     const BoundBrdf* mBound;
     vec3 mOutgoing;
-    std::vector<vec3> mViews; // of factors: the view maps' values, one per term
+    std::vector<vec3> mViews; // of factors: values of the view maps, one per term
 };
 
 } // namespace relume

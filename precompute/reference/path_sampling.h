@@ -1,4 +1,4 @@
-// The radiance that a point reflects of light that other surfaces send it, by tracing paths.
+// Estimates, by tracing paths, the light of other surfaces that a point reflects.
 #pragma once
 
 #include "precompute/reference/bound_asset.h"
@@ -9,20 +9,20 @@
 
 namespace relume {
 
-// What paths meet. Refers to all of it.
+// The scene that paths traverse. Keeps references to all of it.
 struct PathScene {
     const BoundAsset& asset;
     const RayTracer& surfaces; // of the asset's partMeshes()
-    const RayTracer& occluder; // what casts shadows
+    const RayTracer& occluder; // casts shadows
     std::span<const Mesh* const> meshes;
     const LightDistribution& light;
-    float shadowOffset; // that rays start along a point's normal
+    float shadowOffset; // of ray origins along a point's normal
 };
 
-// Adds an unbiased estimate, from one path, of what reaches the eye after b + 1 reflections on the way to the
-// point to byBounces[b]; what the point reflects of the light itself is not part of it. Directions are drawn
-// from the cosine and lobes about the mirror direction, weighed by the balance heuristic (Veach 1997); at
-// every surface met the light is sampled (sampleReflection). Surfaces are black from behind.
+// Adds to byBounces[b] an unbiased estimate, from one path, of the radiance that reaches the eye after b + 1
+// reflections before the one at `point`; direct light at the point is not included. Directions are drawn from
+// the cosine and lobes about the mirror direction, weighted by the balance heuristic (Veach 1997); at every
+// surface hit, light is sampled by sampleReflection(). Back faces are black.
 void sampleBounces(const PathScene& scene, const SurfacePoint& point, std::span<vec3> byBounces,
                    HashedNumbers& random);
 

@@ -1,4 +1,4 @@
-// The hits of a pixel's samples.
+// Finds the ray hits of a pixel's samples.
 #pragma once
 
 #include "engine/render/pixel_samples.h"
@@ -7,8 +7,8 @@
 
 namespace relume {
 
-// The hit of every sample of a pixel of an image of this size, hits.size() samples; none: it sees nothing.
-// Hits of the same triangle are one point: the mean of where its samples meet it.
+// Finds the hit of each of a pixel's hits.size() samples, or none. Hits of the same triangle are replaced by
+// their mean.
 void findPixelHits(const RayTracer& surfaces, const Camera& camera, ivec2 pixel, ivec2 size,
                    std::span<std::optional<RayHit>> hits);
 

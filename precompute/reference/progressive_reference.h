@@ -1,4 +1,4 @@
-// A reference image that is there at once and gets better: renderReference() by sampling.
+// A progressive version of renderReference(): an image by sampling that improves with every pass.
 #pragma once
 
 #include "engine/image/image.h"
@@ -12,88 +12,88 @@
 
 namespace relume {
 
-// What a progressive reference knows of an image's error, of all covered pixels and channels.
+// Statistical estimate of an image's error, over all covered pixels and channels.
 struct ReferenceError {
-    // Of the image against the truth: √ mean((A - image)(B - image)), A and B the means of the even and the
-    // odd passes. Their noise is independent, so that the mean of products is that of squared errors,
-    // whatever the noise; it may come out below zero where the error is small against the noise, and 0 stands
-    // for that.
+    // RMS error of the image against the truth: √ mean((A - image)(B - image)), where A and B are the means
+    // of the even and the odd passes. Their noise is independent, so the mean is free of it; it can be
+    // negative if the error is small against the noise, which gives 0.
     double rmse = 0;
-    // Of the truth itself, √ mean(A B): what an error is relative to. 0 as above.
+    // RMS of the truth itself, √ mean(A B), likewise.
     double level = 0;
-    // Standard error of mean() against the truth, from how A and B differ: √ mean((A - B)²) / 2 after as many
-    // even as odd passes.
+    // Standard error of mean() against the truth, from the difference of A and B: √ mean((A - B)²) / 2 after
+    // as many even as odd passes.
     double noise = 0;
-    // Of rmse² before it is held at 0, and that estimate's standard error, of the reference's noise alone:
-    // pixels' noise is independent, and (|A - image|² - |B - image|²) / 2 of a pixel has the variance of its
-    // product, were noise normally distributed.
+    // rmse² before it is clamped at 0, and its standard error due to the reference's noise: pixels are
+    // independent, and (|A - image|² - |B - image|²) / 2 of a pixel has the variance of its product if noise
+    // is normally distributed.
     double square = 0, squareNoise = 0;
 };
 
-// Converges to renderReference() under a light cube, full mesh as occluder, as raysPerTexelSide grows: light
-// constant over each texel, the same surfaces, frames and shadow offset. One caller at a time.
+// Converges to renderReference() under a light cube with the full mesh as occluder, for large
+// raysPerTexelSide: light is constant over each texel; surfaces, frames and shadow offset are the same. Not
+// thread-safe.
 class ProgressiveReference {
   public:
-    // Builds the scene for rays. Refers to `asset`. Light bounces between surfaces up to `bounces` times, or
-    // as often as the asset's does; with the exact BRDF alone. Throws Error when Embree fails.
+    // Keeps a reference to `asset` and builds its acceleration structure. Light bounces up to `bounces`
+    // times, by default as often as in the asset, and only with the exact BRDF. Throws Error if Embree fails.
     explicit ProgressiveReference(const Asset& asset, ReferenceBrdf brdf = ReferenceBrdf::Exact,
                                   std::optional<int> bounces = {});
 
-    // Forgets what was summed. What is needed anew is made anew: surfaces stay as long as camera and size do,
-    // BRDFs always. `samples`: of a pixel, as the view pass has them, 1, 2, 4 or 8. Throws as makeBrdf()
-    // does; no pass may follow then until a restart succeeds.
+    // Starts a new image with `samples` per pixel, 1, 2, 4 or 8 as in the view pass. Hits are kept if camera
+    // and size are unchanged, BRDFs always. Throws as makeBrdf() does; after that, passes need another
+    // restart.
     void restart(const Camera& camera, const LightCube& light, const Appearance& appearance, int width,
                  int height, int samples);
 
-    // One more ray of every pixel, through one of its samples, on all cores; what it gives depends on its
-    // number alone. The first pass finds the surfaces, too. False if stopped: between rows, and then the pass
-    // counts for nothing.
+    // Adds one ray per pixel, through one of its samples, on all cores; the result depends only on the number
+    // of the pass. The first pass also finds the hits. Returns false if stopped, which discards the pass.
     bool addPass(std::stop_token stop = {});
 
-    // Since the restart.
+    // Returns the number of passes since the restart.
     int passes() const { return mPasses; }
 
-    // Linear radiance, premultiplied by alpha: the share of a pixel's samples that see a surface. All zero
-    // before the first pass. Factors can be negative, the mean is not.
+    // Returns linear radiance, premultiplied by alpha, the share of a pixel's samples that hit a surface.
+    // Zero before the first pass. Negative means, which factors can have, are clamped at 0.
     Image mean() const;
 
-    // The means of the even and of the odd passes, likewise: their noise is independent. After two passes.
+    // Returns the means of the even and the odd passes, whose noise is independent. Needs two passes.
     std::array<Image, 2> halves() const;
 
-    // Of an image of this size; its alpha does not count. None before the second pass, or if nothing is seen.
+    // Returns the error of an image of this size, ignoring its alpha; none before the second pass or if
+    // nothing is visible.
     std::optional<ReferenceError> errorOf(const Image& image) const;
 
   private:
     void findSurfaces(int y);
     void sampleRow(int y);
-    // The sample of a pixel that the current pass takes.
+    // Returns the sample of a pixel that the current pass uses.
     size_t sampleOf(size_t pixel) const;
     std::span<const std::optional<RayHit>> surfacesOf(size_t pixel) const {
         return std::span(mSurfaces).subspan(pixel * mSamples, mSamples);
     }
     float coverageOf(size_t pixel) const;
-    // Radiance of every covered pixel, held at 0.
+    // Makes an image of the radiance of covered pixels, clamped at 0.
     template <typename Value>
     Image imageOf(const Value& valueOf) const;
 
     const Asset& mAsset;
     ReferenceBrdf mKind;
     int mBounces;
-    std::vector<const Mesh*> mMeshes; // of the parts
-    RayTracer mTracer;                // one mesh per part: what is seen, and what casts shadows
+    std::vector<const Mesh*> mMeshes; // per part
+    RayTracer mTracer;                // one mesh per part; finds hits and shadows
     float mShadowOffset;
     MaterialBrdfs mBrdfs;
 
     Camera mCamera;
     int mWidth = 0, mHeight = 0;
-    size_t mSamples = 1; // a pixel
+    size_t mSamples = 1; // per pixel
     std::optional<BoundAsset> mBound;
     std::optional<LightDistribution> mLight;
     int mPasses = 0;
-    std::vector<uint8_t> mRowsSeen;                 // per row: whether its surfaces are found
-    std::vector<std::optional<RayHit>> mSurfaces;   // per sample of each pixel
-    std::vector<vec3> mSample;                      // per pixel: of the pass under way
-    std::array<std::vector<glm::dvec3>, 2> mHalves; // per pixel: sums of the even and of the odd passes
+    std::vector<uint8_t> mRowsSeen;                 // per row: whether its hits are known
+    std::vector<std::optional<RayHit>> mSurfaces;   // per pixel and sample: hit
+    std::vector<vec3> mSample;                      // per pixel: of the current pass
+    std::array<std::vector<glm::dvec3>, 2> mHalves; // per pixel: sums of the even and the odd passes
 };
 
 } // namespace relume

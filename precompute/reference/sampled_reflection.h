@@ -1,4 +1,4 @@
-// The radiance that a point reflects, from a few shadow rays.
+// Estimates the radiance that a point reflects from a few shadow rays.
 #pragma once
 
 #include "engine/math/hashed_numbers.h"
@@ -7,11 +7,11 @@
 
 namespace relume {
 
-// An unbiased estimate of ∫ radiance · BRDF · cosine · visibility dω above the horizon of the point's frame,
-// by resampled importance sampling (Talbot, Cline and Egbert, "Importance Resampling for Global
-// Illumination", EGSR 2005). Candidates come from the light, the cosine and lobes about the mirror direction;
-// each is weighed by what it adds where nothing blocks it, over the sum of all densities (Veach's balance
-// heuristic); some are kept in proportion to that, and traced. Rays start `shadowOffset` along the point's
+// Returns an unbiased estimate of ∫ radiance · BRDF · cosine · visibility dω above the horizon of the point's
+// frame, by resampled importance sampling (Talbot, Cline and Egbert, "Importance Resampling for Global
+// Illumination", EGSR 2005). Candidates come from the light, the cosine and lobes about the mirror direction,
+// weighted by their unshadowed contribution over the sum of all densities (Veach's balance heuristic); a few,
+// chosen in proportion to their weights, are traced. Rays are offset by `shadowOffset` along the point's
 // normal.
 vec3 sampleReflection(const SurfacePoint& point, const LightDistribution& light, const RayTracer& occluder,
                       float shadowOffset, HashedNumbers& random);

@@ -1,4 +1,4 @@
-// Splitting edges in the middle without leaving cracks.
+// Splits edges at their midpoints without leaving cracks.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -8,7 +8,7 @@
 
 namespace relume {
 
-// Two vertices of a mesh, the smaller index first.
+// Two vertices of a mesh, smaller index first.
 struct Edge {
     uint32_t first, second;
 
@@ -16,13 +16,13 @@ struct Edge {
     auto operator<=>(const Edge&) const = default;
 };
 
-// Adds a vertex in the middle of edges[i], as vertex vertexCount() + i: position, uv and color are the mean
-// of the ends', normal and tangent are their normalized sums. Triangles with one, two or three of `edges`
-// become two, three or four, so that all stay joined and the surface is what it was. `edges` are distinct
-// edges of the mesh, which has normals.
+// Splits each of `edges`, distinct edges of a mesh with normals, by a new vertex vertexCount() + i at its
+// midpoint: position, uv and color are means of the ends', normal and tangent their normalized sums.
+// Triangles with one, two or three of the edges become two, three or four, so that neighbors stay joined and
+// the surface is unchanged.
 void splitEdges(Mesh& mesh, std::span<const Edge> edges);
 
-// The vertex that splitEdges() adds: what a bake would see there.
+// The vertex that splitEdges() would add.
 struct EdgeMiddle {
     vec3 position, normal;
     vec3 tangent{0}; // 0 if the mesh has none

@@ -1,4 +1,4 @@
-// A part that is refined: what is known of its transport at vertices and between them.
+// A part under refinement, with probes of its transport at vertices and edge midpoints.
 #pragma once
 
 #include "precompute/refine/edge_split.h"
@@ -8,33 +8,33 @@
 
 namespace relume {
 
-// What interpolation makes of an edge's middle. Squares are of answers (transport_probe.h).
+// The interpolation error at an edge's midpoint. Squares are of random projections (transport_probe.h).
 struct ProbedEdge {
     Edge edge;
-    double area = 0;         // a third of that of its triangles: the middles of edges stand for all of these
-    double squaredError = 0; // mean of the ends' answers against the middle's own
+    double area = 0; // a third of the area of its triangles, which the midpoints of their edges represent
+    double squaredError = 0; // of the mean of the ends' projections against the midpoint's
     double squaredAnswer = 0;
-    uint32_t middle; // its answers' number
+    uint32_t middle; // index of its projection
 };
 
 class RefinedPart {
   public:
-    // Keeps references to all but the offset. The part's sets are factored.
+    // Keeps references to `part`, whose sets are factored, `visibility` and `lights`.
     RefinedPart(AssetPart& part, const CpuVisibility& visibility, const ProbeLights& lights,
                 float visibilityOffset);
 
     const Mesh& mesh() const { return mPart.mesh; }
-    const std::vector<ProbedEdge>& edges() const { return mEdges; } // sorted, after probe()
+    const std::vector<ProbedEdge>& edges() const { return mEdges; } // sorted; valid after probe()
 
-    // Probes vertices and middles of edges, each once in its life, on all threads. `report(done, count)` is
-    // called every few hundred of them and may throw.
+    // Probes all vertices and edge midpoints that were not probed before, on all threads. Calls report(done,
+    // count) every few hundred of them, which may throw.
     void probe(const std::function<void(size_t, size_t)>& report);
 
-    // Splits some of edges(), by number; probe() then finds the new ones.
+    // Splits some of edges(), given by index; probe() then finds the new edges.
     void split(std::span<const uint32_t> numbers);
 
   private:
-    // Appends answers of the points.
+    // Appends the projections of points.
     void probe(std::span<const EdgeMiddle> points, const std::function<void(size_t, size_t)>& report);
     void findEdges();
 
@@ -42,7 +42,7 @@ class RefinedPart {
     TransportProbe mProbe;
     float mOffset;
     std::vector<ProbeAnswers> mAnswers;
-    std::vector<uint32_t> mOfVertices; // the number of a vertex's answers
+    std::vector<uint32_t> mOfVertices; // per vertex: index of its projection
     std::vector<ProbedEdge> mEdges;
 };
 

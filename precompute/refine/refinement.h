@@ -1,4 +1,4 @@
-// Vertices where interpolation between them would be seen.
+// Adds vertices where interpolation between vertices would be visible.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -8,21 +8,21 @@
 namespace relume {
 
 struct RefinementGoal {
-    double wanted;                                // the error
-    uint64_t mostVertices = kMostRefinedVertices; // of the refined parts
-    std::vector<bool> isRefined = {};             // per part; empty: all are
+    double wanted;                                // error
+    uint64_t mostVertices = kMostRefinedVertices; // of the refined parts, at most
+    std::vector<bool> isRefined = {};             // per part; empty: all
 };
 
-// Splits edges of the parts' meshes, whose sets are factored and have no transport, until the error is
-// estimated to be as wanted, or less: RefinementRecord. Vertices go where they help most, whichever part it
-// is. Edges that lie on each other, in one part or in several, are split together, and stay whole where one
-// is of a part that is not refined: no cracks. New vertices come after the old ones, which stay. The same for
-// any number of threads.
+// Splits edges of the parts' meshes until the estimated error (RefinementRecord) is at most the wanted one.
+// Sets must be factored and have no transport. Vertices go where they reduce the error most, in whichever
+// part. Edges with common endpoints, in one part or several, are split together, and are kept if one belongs
+// to a part that is not refined, so that no cracks appear. Old vertices stay in place, new ones follow. The
+// result does not depend on the number of threads.
 //
-// Edges shorter than a few `visibilityOffset`s stay whole, and there are never more than the most vertices;
-// where the edges that may be split make next to nothing of the error it ends as well: what is left may be
-// above the error that is wanted. Throws Error for parts that have more vertices than kMostRefinedVertices to
-// begin with, and BakeStopped where `observer` asks for it.
+// Edges shorter than a few `visibilityOffset`s are kept, and vertices are limited to the goal's maximum;
+// refinement also ends when the edges that may be split contribute almost nothing. The error can then remain
+// above the wanted one. Throws Error if the parts start with more than kMostRefinedVertices, and BakeStopped
+// if `observer` wants it.
 RefinementRecord refine(std::vector<AssetPart>& parts, const Mesh& occluder, float visibilityOffset,
                         const RefinementGoal& goal, BakeObserver& observer);
 

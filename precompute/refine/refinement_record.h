@@ -1,31 +1,31 @@
-// What was asked of a refinement, and what came of it.
+// What a refinement was asked for, and its result.
 #pragma once
 
 #include <cstdint>
 
 namespace relume {
 
-// What --refine may ask for.
+// Range of --refine.
 constexpr double kLeastRefinementError = 0.001, kMostRefinementError = 1;
 
-// The most vertices of all refined parts: each takes about a kilobyte of memory meanwhile.
+// Limit on vertices of all refined parts; each takes about a kilobyte of memory during refinement.
 constexpr uint64_t kMostRefinedVertices = 1u << 20;
 
-// Limits of --refine auto: it refines parts of fewer than kCoarseVertices, as long as they have no more than
-// kMostAutoGiven together, to kAutoRefinementError or by kMostAutoVertices (docs/refinement.md).
+// Limits of --refine auto: it refines parts of fewer than kCoarseVertices, up to kMostAutoGiven vertices
+// together, until the error is kAutoRefinementError or kMostAutoVertices are added (docs/refinement.md).
 constexpr uint64_t kCoarseVertices = 10000;
 constexpr double kAutoRefinementError = 0.01;
 constexpr uint64_t kMostAutoVertices = 20000, kMostAutoGiven = 200000;
 
-// Errors are those of interpolating transport between vertices, estimated: over the surface of all refined
-// parts, the root mean square of what interpolation does to reflected light as light of all scales weighs it
-// (precompute/transport/light_spectrum.h), relative to the root mean square of that light.
+// Errors are estimates for transport interpolated between vertices: the RMS over the surface of all refined
+// parts of the error in reflected light, weighted by the mean spectrum of light
+// (precompute/transport/light_spectrum.h), relative to the RMS of that light.
 struct RefinementRecord {
-    double wanted = 0;     // kLeastRefinementError to kMostRefinementError
-    double startError = 0; // of the meshes as they came
-    double error = 0;      // as it was left: above `wanted` where the limits of refine() were met
+    double wanted = 0;                        // kLeastRefinementError to kMostRefinementError
+    double startError = 0;                    // of the input meshes
+    double error = 0;                         // result; above `wanted` if the limits of refine() were reached
     uint64_t startVertices = 0, vertices = 0; // of all parts, refined or not
-    bool isAuto = false;                      // coarse parts alone are refined
+    bool isAuto = false;                      // only coarse parts are refined
 
     bool operator==(const RefinementRecord&) const = default;
 };

@@ -1,4 +1,4 @@
-// What a bake would find at a point, in a few numbers: how it answers to random light.
+// Summarizes the transport at a point in a few numbers, by a random projection.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -9,18 +9,16 @@
 
 namespace relume {
 
-// Random lights: of each, Haar coefficients are +1 or -1 times lightSpectrum(), in all directions. A vertex's
-// answers to them are a random projection of its transport as light weighs it: for two vertices, the mean
-// square of the difference of their answers is, within a fifth, the sum of the squared differences of all
-// their weighted coefficients.
+// Random lights, whose Haar coefficients are +1 or -1 times lightSpectrum(). The responses of a vertex to
+// them are a random projection of its weighted transport: the mean squared difference of two vertices'
+// responses is, within a fifth, the sum of the squared differences of all their weighted coefficients.
 constexpr int kProbeLights = 64;
 using ProbeAnswers = std::array<float, kProbeLights>;
 
-// The lights at the probes' own size, texel after texel along the CPU baker's curve, kProbeLights floats
-// each.
+// The lights, at the resolution of the probes: kProbeLights floats per texel, texels in Morton order.
 class ProbeLights {
   public:
-    static constexpr int kFaceSize = 32; // F of the probes: fine enough to tell vertices apart
+    static constexpr int kFaceSize = 32; // F of the probes: sufficient to tell vertices apart
 
     ProbeLights();
 
@@ -30,16 +28,16 @@ class ProbeLights {
     std::vector<float> mValues;
 };
 
-// Probes points of one part. Terms weigh as much as their view maps show of them, so that answers are of
+// Probes points of one part. Terms are weighted by the RMS of their view maps, so that projections are of
 // reflected light.
 class TransportProbe {
   public:
-    // Keeps references to `visibility`, of faces of kVisibilitySize, and `lights`.
+    // Keeps references to `visibility`, whose faces have kVisibilitySize, and `lights`.
     TransportProbe(const AssetPart& part, const CpuVisibility& visibility, const ProbeLights& lights);
 
     static constexpr int kVisibilitySize = 64;
 
-    // One thread's.
+    // Workspace of one thread.
     struct Workspace {
         std::vector<uint64_t> bits;
         CpuCoefficients texels;
@@ -47,7 +45,8 @@ class TransportProbe {
     };
     Workspace makeWorkspace() const;
 
-    // At a point already lifted off the surface. Thread-safe; the same on any thread.
+    // Returns the random projection of the transport at a point already lifted off the surface. Thread-safe
+    // and deterministic.
     ProbeAnswers answers(vec3 origin, const TangentFrame& frame, Workspace& workspace) const;
 
   private:

@@ -1,11 +1,11 @@
-// How a set's tuples tell irradiance: light maps nearly span what is constant.
+// Estimates irradiance from a set's tuples, using that light maps nearly span constants.
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
 
 namespace relume {
 
-// ResidualSet::irradianceWeights of these light maps.
+// Returns ResidualSet::irradianceWeights for these light maps.
 std::vector<vec3> irradianceWeights(const FactoredBrdf& factors);
 
 } // namespace relume

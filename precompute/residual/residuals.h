@@ -1,12 +1,12 @@
-// Residuals from materials' descriptions.
+// Makes residuals from the descriptions of materials.
 #pragma once
 
 #include "engine/transport/asset.h"
 
 namespace relume {
 
-// Makes MaterialSet::residual of the sets that have none, in a second or so; where a BRDF's data is gone it
-// stays null, with a warning in the log. Sets whose terms are exact need none, and get one if `isOfAll`.
+// Makes MaterialSet::residual of the sets that have none, which takes about a second. It stays null, with a
+// warning, where a BRDF's data is missing. Sets whose terms are exact get a residual only if `isOfAll`.
 void makeResiduals(Asset& asset, bool isOfAll = false);
 
 } // namespace relume

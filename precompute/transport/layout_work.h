@@ -1,4 +1,4 @@
-// What layouts are given to work on when a bake or a conversion encodes transport.
+// The inputs of layouts' encoders, during a bake or a conversion.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -13,13 +13,13 @@
 
 namespace relume {
 
-// Vertices of a set that stand for all of them.
+// A sample of a set's vertices.
 struct SetSample {
     const MaterialSet* set;
-    std::vector<const SparseTransport*> blocks; // each of clusters, of which only the last may not be full
+    std::vector<const SparseTransport*> blocks; // rows of whole clusters, except that the last may be partial
     uint32_t vertices;                          // of the whole set
-    float unit;                                 // transportUnit() of the set
-    bool isBounced = false;                     // whether the rows have light of other surfaces, too
+    float unit;                                 // normalization: transportUnit() of the set
+    bool isBounced = false;                     // whether the rows include light of other surfaces
 
     uint64_t sampledVertices() const {
         uint64_t sampled = 0;
@@ -28,28 +28,28 @@ struct SetSample {
     }
 };
 
-// What is asked for in all: bytes in memory, or an error, squared and in units of the sets.
+// The total that is wanted: bytes in memory, or a squared error relative to the sets' normalization.
 struct LayoutTarget {
     std::optional<double> bytes;
     double error;
 };
 
-// How a block is encoded by itself.
+// The parameters for encoding one block.
 struct BlockCoding {
-    uint32_t first, run; // its first vertex in the set, and the run of its chunk
+    uint32_t first, run; // first vertex in the set, and run of the chunk
     int faceSize;
     float unit; // transportUnit() of the set
     double price;
     std::string where; // names the block in errors
 };
 
-// A block's chunk before compression, and its squared error in units of the set.
+// A block's chunk before compression, and its squared error relative to the set's normalization.
 struct EncodedBlock {
     std::vector<std::byte> bytes;
     double error = 0;
 };
 
-// Sets in rows that are converted, and what weighs their errors.
+// Sets in rows to be converted, and the weights of their errors.
 struct RowSource {
     std::vector<MaterialSet*> sets;
     std::vector<float> spectrum; // lightSpectrum()
@@ -57,11 +57,11 @@ struct RowSource {
     bool isBounced = false;
 };
 
-// Vertices of a set.
+// A range of vertices of a set.
 struct SetPlace {
     uint32_t set, first, count;
 };
-// Those of all sets, so many each.
+// Returns ranges of at most `vertices` that cover all sets.
 inline std::vector<SetPlace> placesOf(std::span<MaterialSet* const> sets, uint32_t vertices) {
     std::vector<SetPlace> places;
     for (uint32_t set = 0; set < sets.size(); set++) {
@@ -72,12 +72,12 @@ inline std::vector<SetPlace> placesOf(std::span<MaterialSet* const> sets, uint32
     return places;
 }
 
-// Told how many vertices of all sets are done, of how many.
+// Called with the number of vertices done and the total, over all sets.
 using ConversionReport = std::function<void(uint64_t done, uint64_t total)>;
 
-constexpr uint64_t kConversionPasses = 2; // that convertRows() makes over the rows
+constexpr uint64_t kConversionPasses = 2; // passes that convertRows() makes over the rows
 
-// Tells how far passes over all places are.
+// Runs passes over ranges of vertices and reports progress.
 class ConversionPasses {
   public:
     ConversionPasses(std::span<MaterialSet* const> sets, uint64_t passes, const ConversionReport& report)
@@ -85,11 +85,11 @@ class ConversionPasses {
         for (const MaterialSet* set : sets) mVertices += verticesOf(set->transport);
     }
 
-    // Runs work(i) for all places, in parallel.
+    // Runs work(i) for all places in parallel.
     template <typename Work>
     void run(std::span<const SetPlace> places, const Work& work) {
         constexpr uint64_t kBatchVertices = 8192; // between two reports
-        uint64_t vertices = 0;                    // in a batch
+        uint64_t vertices = 0;                    // of a batch
         for (size_t start = 0; start < places.size();) {
             size_t end = start;
             for (vertices = 0; end < places.size() && vertices < kBatchVertices; end++)

@@ -1,13 +1,13 @@
-// How much light there is at each scale: what an error of a transport coefficient matters.
+// The mean spectrum of light, by which errors of transport coefficients are weighted.
 #pragma once
 
 #include <vector>
 
 namespace relume {
 
-// Weight per coefficient of a cube, face·F² + y·F + x, of the amplitude of an error: 1 for a face's average,
-// falling with the wavelet's level as the amplitudes of environments do, indoors and outdoors, to the power
-// 0.7: lamps and suns are small, and so the small scales of some light are stronger than the mean's.
+// Returns a weight of the amplitude of errors per coefficient face · F² + y · F + x of a cube: 1 for a face's
+// average, falling with the wavelet's level as the mean amplitude of indoor and outdoor environments does,
+// raised to 0.7, since small lamps and suns have more fine detail than the mean.
 std::vector<float> lightSpectrum(int faceSize);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Packs coefficients into rows on the CPU, where they do not come from the device's passes.
+// Packs coefficients into rows on the CPU.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -8,18 +8,18 @@
 
 namespace relume {
 
-// One row: its coefficients, quantized against the largest |component|, without those that became zero.
+// A row: coefficients quantized relative to the largest |component|, without those that became zero.
 struct PackedRow {
     float scale = 0;
-    std::vector<uint16_t> indices; // rising
-    std::vector<uint32_t> values;  // as packCoefficient() makes them
+    std::vector<uint16_t> indices; // ascending
+    std::vector<uint32_t> values;  // from packCoefficient()
 };
 
-// Returns the rising indices of the `count` of at most 65,536 coefficients that have the largest r² + g² + b²
-// (of equal ones the first), without those that are zero.
+// Returns, ascending, the indices of the `count` nonzero coefficients of largest r² + g² + b²; ties go to the
+// lower index. Takes at most 65,536 coefficients.
 std::vector<uint16_t> indicesOfLargest(const std::vector<vec3>& coefficients, int count);
 
-// Packs the coefficients of indicesOfLargest(): the same row as shaders/select.comp and quantize.comp make.
+// Packs the coefficients of indicesOfLargest() into the row that shaders/select.comp and quantize.comp make.
 PackedRow packLargest(const std::vector<vec3>& coefficients, int count);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Sums of sparse rows, packed as rows again.
+// Sums sparse rows and packs the result as a row.
 #pragma once
 
 #include "engine/transport/rows/sparse_transport.h"
@@ -6,7 +6,7 @@
 
 namespace relume {
 
-// One row at a time. It is empty again once it was packed.
+// Accumulates one row at a time; pack() empties it.
 class RowSum {
   public:
     explicit RowSum(size_t coefficients);
@@ -15,7 +15,7 @@ class RowSum {
         mSums[coefficient] += value;
         mTouched[coefficient / 64] |= uint64_t(1) << coefficient % 64;
     }
-    // Adds `weight` times a row; coefficient i of it counts as place(i).
+    // Adds `weight` times a row, whose coefficient i is added to coefficient place(i).
     template <typename Place>
     void add(const SparseTransport& rows, size_t row, float weight, const Place& place) {
         const vec3 step = weight * rows.scales[row] * kCoefficientUnit;
@@ -26,8 +26,9 @@ class RowSum {
         add(rows, row, weight, [](uint16_t index) { return index; });
     }
 
-    // Returns the sum's `kept` largest coefficients, as packLargest() takes them; `energies`, if any: sums of
-    // squares of the coefficients, of those that are dropped, and of what quantization changes of the others.
+    // Returns the sum's `kept` largest coefficients, packed by packLargest(). `energies`, if given, receives
+    // sums of squares: of all coefficients, of the dropped ones, and of the quantization errors of the
+    // others.
     struct Energies {
         double total = 0, dropped = 0, quantized = 0;
     };
@@ -35,19 +36,19 @@ class RowSum {
 
   private:
     std::vector<vec3> mSums;        // per coefficient
-    std::vector<uint64_t> mTouched; // a bit per coefficient
+    std::vector<uint64_t> mTouched; // one bit per coefficient
 };
 
-// Returns rows of no vertices yet.
+// Returns rows without vertices.
 SparseTransport emptyRows(uint32_t terms);
 
 // Returns Σ |coefficient|² of a row.
 double energyOf(const SparseTransport& rows, size_t row);
 
-// Appends a row to `rows`, whose `vertices` are the caller's to count.
+// Appends a row to `rows`, without counting it in `rows.vertices`.
 void appendRow(SparseTransport& rows, const PackedRow& row);
 
-// Appends the vertices of others, of as many terms.
+// Appends the vertices of `more`, which has the same number of terms.
 void appendRows(SparseTransport& rows, const SparseTransport& more);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// What errors of a set's transport are relative to.
+// The normalization of a set's transport, to which its errors are relative.
 #pragma once
 
 #include "engine/transport/rows/sparse_transport.h"
@@ -7,21 +7,21 @@
 
 namespace relume {
 
-// Root mean square over a set's vertices of how far they are from their mean in all terms, times the
-// spectrum; a tenth of what they hold at least; 1 for none. As the unit it makes errors relative to what
-// tells vertices apart: a dark part is not starved beside a bright one, nor a shadow on a ground that is
-// otherwise even.
+// Returns the RMS distance of a set's vertices from their mean, over all terms and weighted by the spectrum,
+// or a tenth of the RMS of their transport if that is more; 1 if there is none. Errors are thus relative to
+// what distinguishes vertices: a dark part is not starved beside a bright one, nor a shadow on an otherwise
+// even ground.
 float transportUnit(const SparseTransport& rows, std::span<const float> spectrum);
 
-// The same of vertices that come a few at a time.
+// Computes the same for vertices that come a few at a time.
 class UnitSum {
   public:
-    // `spectrum`, a weight per coefficient, outlives it.
+    // Keeps a reference to `spectrum`, a weight per coefficient.
     UnitSum(uint32_t terms, std::span<const float> spectrum);
 
-    void add(const SparseTransport& rows); // of as many terms
+    void add(const SparseTransport& rows); // with the same number of terms
 
-    // Of all vertices so far.
+    // Returns the normalization of all vertices so far.
     float unit() const;
 
   private:

@@ -1,4 +1,4 @@
-// The CPU twin of a bounce of light, one vertex and term at a time: naive on purpose.
+// The CPU twin of a bounce of light, one vertex and term at a time; deliberately naive.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -7,10 +7,10 @@
 
 namespace relume {
 
-// Returns the coefficients, kBounceCoefficients, of what BounceGather gives a vertex's term in a set, before
-// any are dropped: a sum over the centers of 6 · size² texels of directions, of the rows of all three corners
-// of what each meets. `from`: as for BounceGather::gather(). `gains`: sourceGains(). `tracer`: of the asset's
-// partMeshes().
+// Returns all kBounceCoefficients of the row that BounceGather gathers for a term of a set at a vertex,
+// before any are dropped. Sums over the centers of 6 · size² texels of directions, and over the rows of all
+// three corners of each triangle hit. `from` is as for BounceGather::gather(), `gains` from sourceGains(),
+// `tracer` of the asset's partMeshes().
 std::vector<vec3> bouncedVector(const Asset& asset, const Appearance& bound,
                                 std::span<const std::vector<vec3>> gains, const RayTracer& tracer,
                                 std::span<const SparseTransport> from, size_t part, uint32_t vertex,

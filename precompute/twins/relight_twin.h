@@ -1,4 +1,4 @@
-// The CPU twin of relighting, for every layout of transport: naive on purpose.
+// The CPU twin of relighting, for every layout; deliberately naive.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -6,10 +6,10 @@
 
 namespace relume {
 
-// Integer sums Σ c·l of every row, 32-bit.
+// Returns the 32-bit integer sums Σ c·l of every row.
 std::vector<ivec3> relightSums(const SparseTransport& transport, const LightVector& light);
 
-// The tuple of every row, bit for bit that of the relighter (engine/render/relighter.h).
+// Returns the tuple of every row, bit for bit as the relighter (engine/render/relighter.h).
 std::vector<vec3> relight(const Transport& transport, const LightVector& light);
 
 } // namespace relume

@@ -1,5 +1,5 @@
-// The CPU twins of the stages of a direct bake, one vertex at a time: naive on purpose, never optimized. The
-// Haar transform between them is haarForwardFaces() (engine/math/haar.h), whose own test inverts it.
+// The CPU twins of the stages of a direct bake, one vertex at a time; deliberately naive, never optimized.
+// The Haar transform between them is haarForwardFaces() (engine/math/haar.h), whose own test inverts it.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -14,21 +14,22 @@
 
 namespace relume {
 
-// 6 · size² values, 1 where the direction through the texel's center is free and above the horizon of
-// `normal` (cubeTexelDirection · normal > 0), else 0. Rays start at `origin` (already lifted).
+// Returns 6 · size² values: 1 if the direction through the texel's center is unoccluded and above the horizon
+// of `normal` (cubeTexelDirection · normal > 0), else 0. Rays start at `origin`, which is already lifted.
 std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size);
 
-// 6 · faceSize² transport values of one term: light map · visibility · cosine · solid angle, summed over a
-// lighting texel. `samples` (1, 4, 16, …: a square) evaluations per lighting texel, each times the visible
-// fraction of the visibility texels around it; samples ≤ (visibilitySize / faceSize)².
+// Returns 6 · faceSize² transport values of one term: light map · visibility · cosine · solid angle, summed
+// over each lighting texel. Evaluates `samples` (1, 4, 16, …: a square) times per lighting texel, each time
+// with the visible fraction of the visibility texels around; samples ≤ (visibilitySize / faceSize)².
 std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int visibilitySize, int faceSize,
                                   int samples, const FactoredBrdf& brdf, int term, const TangentFrame& frame);
 
-// Indices, rising, of the `count` coefficients of largest r² + g² + b² (ties: lower index first; zeros
-// are never kept).
+// Returns, ascending, the indices of the `count` nonzero coefficients of largest r² + g² + b²; ties go to the
+// lower index.
 std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count);
 
-// Returns the row of `selected`: quantized against its largest |component|, zeros dropped.
+// Returns the row of the `selected` coefficients: quantized relative to the largest |component|, without
+// zeros.
 PackedRow packRow(const std::vector<vec3>& coefficients, const std::vector<uint16_t>& selected);
 
 } // namespace relume

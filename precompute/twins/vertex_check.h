@@ -1,4 +1,4 @@
-// Every stage of one vertex, recomputed on the CPU from an asset: what a bake is verified against.
+// Recomputes every stage of a vertex on the CPU, to verify a bake.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -9,7 +9,7 @@ namespace relume {
 struct TermReference {
     std::vector<vec3> transport;    // 6 · F² values before the Haar transform
     std::vector<vec3> coefficients; // after it
-    std::vector<uint16_t> selected; // of the asset's N largest
+    std::vector<uint16_t> selected; // the N largest, N being the asset's
     PackedRow row;
 };
 
@@ -18,12 +18,12 @@ struct VertexReference {
     std::vector<TermReference> terms; // K
 };
 
-// Recomputes vertex `vertex` of part `part` and its set `set` with the asset's own options, factors and
-// frames; `occluder` traces the asset's occluder.
+// Recomputes vertex `vertex` of part `part` and set `set` with the asset's own options, factors and frames.
+// `occluder` traces the asset's occluder.
 VertexReference recomputeVertex(const Asset& asset, size_t part, size_t set, size_t vertex,
                                 const RayTracer& occluder);
 
-// The row that the asset holds for a vertex and term.
+// Returns the stored row of a vertex and term.
 PackedRow storedRow(const SparseTransport& transport, size_t vertex, size_t term);
 
 } // namespace relume

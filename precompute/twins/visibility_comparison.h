@@ -1,4 +1,4 @@
-// Rasterized against traced visibility, on vertices of an asset.
+// Compares rasterized with traced visibility at vertices of an asset.
 #pragma once
 
 #include "engine/image/image.h"
@@ -11,19 +11,19 @@ namespace relume {
 
 struct VisibilityComparison {
     uint64_t hemisphere = 0; // texels above the horizons of all vertices
-    uint64_t different = 0;  // of these
-    // Of these, where the traced visibility of all eight neighbors in the face is the texel's own: no
-    // silhouette passes near.
+    uint64_t different = 0;  // of these, texels that differ
+    // Of the differing texels, those whose eight neighbors in the face all have the same traced visibility:
+    // no silhouette is near.
     uint64_t inside = 0;
-    // The vertex with the most different texels, as a picture of its cube unfolded: +Y above and -Y below the
-    // row -X, +Z, +X, -Z. White: seen, black: blocked, gray: below the horizon, red in a ring: different.
+    // The vertex with the most differing texels: its cube unfolded, with +Y above and -Y below the row -X,
+    // +Z, +X, -Z. White: unoccluded; black: occluded; gray: below the horizon; red in a ring: different.
     Image picture;
 
     double share() const { return hemisphere > 0 ? double(different) / double(hemisphere) : 0; }
 };
 
-// Compares the visibility of `samples` vertices, spread evenly over the asset's. Returns nothing where the
-// device can only draw.
+// Compares the visibility of `samples` vertices, spread evenly over the asset's. Returns nothing if the
+// device cannot trace.
 std::optional<VisibilityComparison> compareVisibility(const vk::Device& device, const Asset& asset,
                                                       int samples);
 

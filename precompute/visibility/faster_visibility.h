@@ -1,4 +1,4 @@
-// Which implementation of visibility is the faster on a device, measured.
+// Measures which visibility method is faster on a device.
 #pragma once
 
 #include "engine/transport/asset.h"
@@ -6,8 +6,8 @@
 
 namespace relume {
 
-// Finds the visibility of some vertices of the asset, spread over its parts, in each way, and says on stderr
-// what it chose. Needs the asset's occluder, meshes and sizes. The answer may differ from one run to another.
+// Times each method on 16 vertices of the asset and logs the choice. Needs the asset's occluder, meshes and
+// sizes. The result may vary between runs.
 VisibilityMethod fasterVisibility(const vk::Device& device, const Asset& asset);
 
 } // namespace relume

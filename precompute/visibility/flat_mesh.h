@@ -1,4 +1,4 @@
-// Flat, convex meshes, such as grounds, as a few triangles.
+// Reduces flat, convex meshes, such as grounds, to a few triangles.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -7,8 +7,8 @@
 
 namespace relume {
 
-// The same surface with the fewest triangles, if all of `mesh` lies in one plane and fills a convex polygon
-// once (both within 1e-5, relative to its extent and area); nothing otherwise. Positions and triangles only.
+// Returns the same surface with the fewest triangles, positions only, if `mesh` lies in one plane and covers
+// a convex polygon once (both within 1e-5, relative to its extent and area); otherwise nothing.
 std::optional<Mesh> reduceFlat(const Mesh& mesh);
 
 } // namespace relume

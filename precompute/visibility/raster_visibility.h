@@ -1,22 +1,22 @@
-// Visibility cubes by rasterizing the occluder from every point, many points a submission.
+// Computes visibility cubes by rasterizing the occluder from every point, many points per submission.
 #pragma once
 
 #include "precompute/visibility/visibility.h"
 
 namespace relume {
 
-// Clusters of triangles are culled per point and cube face on the device, and drawn with indirect draws into
-// six layers a point: all at once where vertex shaders can choose the layer, else one by one.
+// Clusters of triangles are culled per point and cube face on the device and drawn by indirect draws into six
+// layers per point: all together if vertex shaders can choose the layer, otherwise one by one.
 class RasterVisibility : public Visibility {
   public:
-    // On leaves out clusters that cannot show in a face, and front faces of closed surfaces. The bits are the
-    // same, except that a device which culls before it rounds corners may lose a texel in a million at
+    // On skips clusters that cannot be visible in a face, and front faces of closed surfaces. The bits are
+    // the same, except that a device that culls before it rounds corners may lose one texel in a million at
     // silhouettes.
     enum class Culling { On, Off };
-    // How layers are drawn; the bits are the same. Together is for devices with DeviceInfo::outputsLayers.
+    // How layers are drawn; the bits are the same. Together requires DeviceInfo::outputsLayers.
     enum class Layers { Together, OneByOne };
 
-    // As makeVisibility; drawn together, six layers a point must fit an image.
+    // As makeVisibility(). With Layers::Together, six layers per point must fit an image.
     RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
                      float nearDistance, Culling culling, Layers layers);
     RasterVisibility(const vk::Device& device, const Mesh& occluder, uint32_t size, uint32_t capacity,
@@ -27,8 +27,8 @@ class RasterVisibility : public Visibility {
     void record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
                 const vk::Buffer& bits) const override;
 
-    // Triangles that the last finished submission, of `count` points, drew over all their faces. Reads back:
-    // for measurements.
+    // Returns the number of triangles that the last finished submission, of `count` points, drew over all
+    // faces. Reads back from the device; for measurements.
     uint64_t drawnTriangles(const vk::Device& device, uint32_t count) const;
 
   private:
@@ -37,16 +37,16 @@ class RasterVisibility : public Visibility {
                       const shared::VisibilityPush& push, uint64_t firstDraw) const;
     void recordTogether(vk::Commands& commands, const vk::Buffer& points, uint32_t layers) const;
     void recordOneByOne(vk::Commands& commands, const vk::Buffer& points, uint32_t layers) const;
-    // Indirect draws of so many points.
+    // Returns the number of indirect draws for this many points.
     uint64_t drawCount(uint32_t points) const { return mClusterCount * (mIsLayered ? 1 : 6ull * points); }
 
     uint32_t mSize, mCapacity;
     bool mIsLayered;
     float mHorizonMargin, mDepthScale; // as in VisibilityPush
     uint32_t mClusterCount = 0;
-    uint32_t mClosedCount = 0; // the first clusters are of closed surfaces
+    uint32_t mClosedCount = 0; // the first clusters are those of closed surfaces
     vk::Buffer mPositions, mIndices, mClusters, mDraws, mLayers, mBlocked;
-    vk::Image mTarget; // of all layers, or of one
+    vk::Image mTarget; // all layers, or one
     vk::ComputeProgram mReset, mCull, mPack;
     vk::GraphicsProgram mDraw, mDrawBackFaces;
 };

@@ -11,24 +11,24 @@ namespace relume {
 
 namespace {
 
-constexpr uint32_t kStep = 4; // components are read by fours
+constexpr uint32_t kStep = 4; // components are read four at a time
 
-// More vectors than any budget that relighting is fast at asks for. Of few kinds a vector is cheap, as
-// weights are few.
+// Returns the most vectors computed, more than any budget with fast relighting needs. With few kinds a vector
+// is cheap, since it has few weights.
 Eigen::Index mostVectors(size_t kinds) {
     constexpr size_t kMost = kMostBasisComponents - kFirstComponents + 1;
     return Eigen::Index(kinds <= 2 ? kMost : std::min(64 + 8 * kinds, kMost));
 }
 
-// -1: of a component that only makes the first more exact.
+// Returns the vector of a component, or -1 if the component only refines the first.
 Eigen::Index vectorOf(uint32_t component) {
     if (component == 0) return 0;
     return component < kFirstComponents ? -1 : Eigen::Index(component - kFirstComponents + 1);
 }
 
-constexpr Eigen::Index kSpare = 16; // more vectors than wanted let those converge
+constexpr Eigen::Index kSpare = 16; // additional vectors with which the wanted ones converge
 constexpr int kIterations = 4;
-constexpr float kLeastValue = 1e-7f; // of the largest
+constexpr float kLeastValue = 1e-7f; // relative to the largest
 
 Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& vectors) {
     return Eigen::HouseholderQR<Eigen::MatrixXf>(vectors).householderQ() *
@@ -36,13 +36,13 @@ Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& vectors) {
 }
 
 struct LeadingEigenvectors {
-    Eigen::VectorXf values;  // falling
-    Eigen::MatrixXf vectors; // one a column, orthonormal
+    Eigen::VectorXf values;  // descending
+    Eigen::MatrixXf vectors; // columns, orthonormal
 };
 
-// Of a positive semidefinite matrix, its lower triangle: the `count` (at most all) largest that are more than
-// rounding. By subspace iteration where that is less work, good to what transport needs: the sum of the
-// values is within about 1 % of the best in what it leaves.
+// Returns up to `count` of the largest eigenpairs of a positive semidefinite matrix, given its lower
+// triangle, without those below rounding. Uses subspace iteration if that is cheaper; the energy captured is
+// then within about 1 % of the optimum, relative to what is left.
 LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Index count) {
     const Eigen::Index size = lower.rows();
     Eigen::MatrixXf subspace;
@@ -74,7 +74,8 @@ struct Prices {
     double low, high;
 };
 
-// Those between which `isHigh` turns true, by halving of a range beyond which nothing changes.
+// Returns the prices between which `isHigh` becomes true, by bisection of a range beyond which nothing
+// changes.
 template <typename IsHigh>
 Prices pricesAround(const IsHigh& isHigh) {
     double low = -80, high = 20;
@@ -125,7 +126,7 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price) {
     const Eigen::Index kinds = analysis.energy.size(), columns = Eigen::Index(analysis.columns.size());
     const uint32_t components = analysis.components();
     price /= analysis.importance;
-    const double weightBytes = double(analysis.vertices) + sizeof(float); // of a component of a kind
+    const double weightBytes = double(analysis.vertices) + sizeof(float); // of one component of one kind
     const double countBytes = sizeof(uint16_t) * double(kinds);
     const auto columnBytes = [](uint32_t count) { return double(count + sizeof(uint16_t)); };
 
@@ -133,16 +134,16 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price) {
     best.counts.assign(size_t(kinds), 0);
     best.error = analysis.energy.sum();
     best.bytes = countBytes;
-    double least = best.error; // + price · bytes, but for countBytes
+    double least = best.error; // error + price · bytes, without countBytes
 
     std::vector<uint16_t> counts(size_t(kinds), 0);
     Eigen::VectorXd tail = analysis.energy,
                     cost = tail; // per kind: error by all so far, error + price of counts
-    Eigen::VectorXd gain = Eigen::VectorXd::Zero(columns); // what a column takes off the error
+    Eigen::VectorXd gain = Eigen::VectorXd::Zero(columns); // reduction of the error by a column
     std::vector<double> bestGain;
     for (uint32_t count = 0; count < components;) {
         const uint32_t last = count, next = std::min(count + kStep, components);
-        bool hasJumped = false; // a kind takes up components that did not pay before
+        bool hasJumped = false; // a kind starts to use components that did not pay off before
         double error = 0, weights = 0;
         for (uint32_t i = last; i < next; i++)
             if (const Eigen::Index vector = vectorOf(i); vector >= 0)

@@ -1,55 +1,58 @@
-// What a cluster's transport can be cut down to, and what a byte of it is worth.
+// Principal components of a cluster's transport, and rate–distortion optimal truncation of them.
 #pragma once
 
 #include "precompute/layout/bases/cluster_matrix.h"
 
 namespace relume {
 
-// The first vector is kept more exactly than a byte is, or smooth surfaces show the clusters' borders: as
-// three components, with a second byte for its values and one for its weights.
+// Components of the first vector, which needs more precision than a byte, or clusters' borders show on smooth
+// surfaces: the second component refines its values, the third its weights.
 constexpr uint32_t kFirstComponents = 3;
 
-// Principal components of a ClusterMatrix. The vectors are those of components 0 and kFirstComponents and up.
+// Principal components of a ClusterMatrix. Component 0 and components kFirstComponents and up each have a
+// vector.
 struct BasisAnalysis {
     uint32_t vertices = 0;
     std::vector<uint16_t> columns;
     Eigen::MatrixXf vectors;      // columns × vectors, orthonormal
-    Eigen::MatrixXd vectorEnergy; // kinds × vectors: of the matrix along each
+    Eigen::MatrixXd vectorEnergy; // kinds × vectors: energy of the matrix along each
     Eigen::VectorXd energy;       // per kind, of the whole matrix
-    double importance = 1;        // the matrix's
-    double weight = 1;            // how many clusters it stands for
+    double importance = 1;        // of the matrix
+    double weight = 1;            // number of clusters that it stands for
 
     uint32_t components() const;
 };
 
+// Computes the principal components of a cluster.
 BasisAnalysis analyze(const ClusterMatrix& matrix);
 
-// A cut. `columns` are numbers of the analysis's.
+// A truncated basis. `columns` are indices into the analysis's columns.
 struct BasisCut {
     uint32_t components = 0;
     std::vector<uint32_t> columns;
-    std::vector<uint16_t> counts; // per kind
+    std::vector<uint16_t> counts; // per kind: number of components
     double bytes = 0;             // in memory
-    double error = 0;             // squared, but for quantization
+    double error = 0;             // squared, without quantization
 };
 
-// The cut of least importance · error + price · bytes.
+// Returns the cut that minimizes importance · error + price · bytes.
 BasisCut cutFor(const BasisAnalysis& analysis, double price);
 
-// Clusters are cut at one slope of error against bytes, their price, which gives the whole the least error
-// for its bytes (Shoham and Gersho 1988). A cluster's weight is how many it stands for.
+// Totals over all clusters. All are cut with one Lagrange multiplier, the price, which gives the least total
+// error for the bytes (Shoham and Gersho 1988). Clusters count with their weight.
 struct CutTotals {
     double bytes = 0;
-    double error = 0; // squared, in units of the matrices, but for quantization
+    double error = 0; // squared, relative to the matrices' normalization; without quantization
 };
 
-// Of all clusters' cuts at a price: an error that a byte must save.
+// Returns the totals of all clusters' cuts at a price: the error that a byte must save.
 CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price);
 
-// The price at which all cuts together have `bytes`, or the most below.
+// Returns the price at which all cuts take `bytes`, or as many below as possible.
 double priceForBytes(std::span<const BasisAnalysis> clusters, double bytes);
 
-// The highest price at which the squared error is at most `error`; else what leaves the least.
+// Returns the highest price at which the squared error is at most `error`, or a price of least error if there
+// is none.
 double priceForError(std::span<const BasisAnalysis> clusters, double error);
 
 } // namespace relume

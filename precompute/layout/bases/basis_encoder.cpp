@@ -14,12 +14,13 @@ namespace {
 
 using Column = Eigen::Ref<Eigen::VectorXf>;
 
-// Rounds values to whole steps, at most kBasisMaximum of them; the step. Leaves what rounding lost.
+// Rounds values to multiples of a step, at most kBasisMaximum of them, and returns the step. Leaves the
+// rounding errors.
 float quantize(Column values, std::span<int8_t> steps, size_t stride) {
     const float step = values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff() / float(kBasisMaximum);
     const float inverse = step > 0 ? 1 / step : 0;
     for (Eigen::Index i = 0; i < values.size(); i++) {
-        // A step so small that its inverse is infinite stands for nothing.
+        // If the step is so small that its inverse is infinite, all values become 0.
         const float rounded = std::isfinite(inverse) ? std::round(values[i] * inverse) : 0;
         const float limited = std::clamp(rounded, -float(kBasisMaximum), float(kBasisMaximum));
         steps[size_t(i) * stride] = int8_t(limited);
@@ -28,7 +29,7 @@ float quantize(Column values, std::span<int8_t> steps, size_t stride) {
     return step;
 }
 
-// Basis vectors as they are read.
+// Basis vectors with quantized values.
 struct QuantizedBasis {
     std::vector<int8_t> values;
     std::vector<float> steps;
@@ -51,7 +52,7 @@ QuantizedBasis quantizeBasis(const Eigen::MatrixXf& vectors, const Eigen::Vector
         quantized(lost);
         if (vector == 0 && components > 1) quantized(lost); // the second byte
         basis.vectors.col(vector) = (values - lost).cwiseProduct(weights);
-        if (vector == 0 && components > 2) { // again, for the second byte of the weights
+        if (vector == 0 && components > 2) { // repeated for the second byte of the weights
             basis.steps.push_back(basis.steps.front());
             for (Eigen::Index column = 0; column < vectors.rows(); column++)
                 basis.values[size_t(column) * components + 2] = basis.values[size_t(column) * components];
@@ -182,7 +183,7 @@ double convertRows(const BasisTransport&, const RowSource& source, const LayoutT
                              made[place.set].kinds, source.spectrum, source.units[place.set]);
     };
 
-    // Two passes over the rows (kConversionPasses): what each cluster asks for, then what it gets.
+    // Two passes over the rows (kConversionPasses): analysis of all clusters, then encoding.
     std::vector<BasisAnalysis> analyses(places.size());
     passes.run(places, [&](size_t i) { analyses[i] = analyze(matrixOf(places[i])); });
     const double price = priceFor(analyses, target);

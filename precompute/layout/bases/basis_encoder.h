@@ -1,4 +1,4 @@
-// A cluster's transport as quantized basis vectors and weights, and a whole asset's.
+// Encodes transport as quantized basis vectors and weights, by cluster or for a whole asset.
 #pragma once
 
 #include "precompute/layout/bases/basis_analysis.h"
@@ -8,14 +8,14 @@ namespace relume {
 
 struct EncodedCluster {
     BasisCluster cluster;
-    double error = 0; // squared, of the matrix: the cut's and quantization's
+    double error = 0; // squared, of the matrix: by truncation and quantization
 };
 
-// `kinds` and `spectrum` are those that the matrix was made with.
+// Encodes a cut. `kinds` and `spectrum` are those from which the matrix was made.
 EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& analysis, const BasisCut& cut,
                            std::span<const BasisKind> kinds, std::span<const float> spectrum);
 
-// What layouts.h wants of a layout.
+// The functions that layouts.h requires of a layout.
 void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf, bool isBounced);
 EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding);

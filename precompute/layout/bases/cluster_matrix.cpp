@@ -7,9 +7,9 @@ namespace relume {
 
 namespace {
 
-constexpr double kLeastEnergy = 1e-7; // of a direction, of a term's
+constexpr double kLeastEnergy = 1e-7; // of a direction, relative to the term's
 
-// Σ g gᵀ over a light map's texels g, times the cosine that transport has, per solid angle.
+// Returns Σ g gᵀ over a light map's texels g, weighted by squared cosine and solid angle.
 Eigen::Matrix3d covariance(const FactoredBrdf& brdf, const vec3* map) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int y = 0; y < brdf.size; y++)
@@ -30,7 +30,7 @@ bool isGray(const FactoredBrdf& brdf, const vec3* map) {
     return std::all_of(map, map + brdf.mapTexels(), [](vec3 g) { return g.x == g.y && g.y == g.z; });
 }
 
-// Calls entry(row of the matrix, kind, coefficient, value) for all that a cluster holds.
+// Calls entry(row of the matrix, kind, coefficient, value) for all entries of a cluster.
 template <typename Entry>
 void forEachEntry(const SparseTransport& rows, uint32_t first, uint32_t count,
                   std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit,

@@ -1,5 +1,5 @@
-// The transport of a cluster of vertices as one matrix, for compression: amounts of a few directions in
-// color space, the kinds, along which a material's transport lies.
+// The transport of a cluster of vertices as a matrix, for compression. Its rows are amounts of "kinds":
+// directions in color space along which the transport of a term lies.
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
@@ -11,34 +11,35 @@
 
 namespace relume {
 
-// Returns, per term, the principal directions of its light map, an orthonormal set by falling energy, but for
-// those with less than 1e-7 of the term's; for a map whose channels are equal, (1, 1, 1) alone. Bounced light
-// has colors of its own: `isBounced` gives all three directions.
+// Returns, per term, the principal color directions of its light map: orthogonal, by descending energy,
+// without those that have less than 1e-7 of the term's; (1, 1, 1) alone for a gray map. With `isBounced`,
+// returns all three directions, since bounced light has colors of its own.
 std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf, bool isBounced = false);
 
 // The amount of a kind in coefficient `t` is dot(kindDual(kind), t).
 inline vec3 kindDual(const BasisKind& kind) { return kind.color / glm::dot(kind.color, kind.color); }
 
-// Errors of it are errors of relighting: amounts of kinds times the length of their color, and times the
-// light's spectrum (light_spectrum.h), in units of `unit`. Row j · vertices + v is kind j of vertex v.
+// Values are amounts of kinds, times the length of their color, times the light's spectrum
+// (light_spectrum.h), divided by `unit`, so that errors of the matrix are errors of relighting. Row kind ·
+// vertices + v is that of vertex v.
 struct ClusterMatrix {
     uint32_t vertices = 0;
-    float unit = 1;
-    double importance = 1;         // of its squared error, when bytes are shared out
-    std::vector<uint16_t> columns; // coefficients, rising: those of most energy
+    float unit = 1;                // transportUnit() of the set
+    double importance = 1;         // weight of its squared error against bytes
+    std::vector<uint16_t> columns; // coefficient indices, ascending: those of most energy
     Eigen::MatrixXf values;
-    Eigen::VectorXd energy; // per kind, over all coefficients: sums of squares
+    Eigen::VectorXd energy; // per kind, over all coefficients: sum of squares
 
     size_t kinds() const { return size_t(energy.size()); }
 };
 
-// The shorter side of a matrix that is analyzed, at most: time grows with its square. Few kinds leave room
-// for all the columns that a file can have, which the sharp shadows on a ground need; of many kinds more
-// columns win little.
+// Greatest shorter side of an analyzed matrix, since time grows with its square. With few kinds, all columns
+// that a file can have fit, which the sharp shadows on a ground need; with many kinds, more columns gain
+// little.
 constexpr size_t kAnalysedSide = 512;
 
-// A set of one term is diffuse, most often a ground: shadows are all that is seen on it, and no highlight
-// hides what storage loses of them. Their squared errors count this many times.
+// Weight of squared errors in sets of one term. These are diffuse, most often a ground, on which shadows are
+// all that is seen and no highlight masks errors.
 constexpr double kDiffuseImportance = 40;
 
 // Returns the matrix of vertices [first, first + count) of a set's rows.

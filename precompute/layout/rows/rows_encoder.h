@@ -1,14 +1,14 @@
-// Rows as they are baked, and of other layouts.
+// Encodes rows: stores them as baked, and makes them from other layouts.
 #pragma once
 
 #include "precompute/transport/layout_work.h"
 
 namespace relume {
 
-// Makes rows of at most asset.coefficients entries of transport in any layout.
+// Converts the sets' transport from any layout to rows of at most asset.coefficients entries.
 void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, ConversionPasses& passes);
 
-// What layouts.h wants of a layout.
+// The functions that layouts.h requires of a layout.
 inline void prepareLayout(SparseTransport&, const FactoredBrdf&, bool) {}
 EncodedBlock encodeBlock(const SparseTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding);
