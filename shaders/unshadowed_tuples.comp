@@ -27,7 +27,7 @@ void main() {
     const mat2 turned = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
     const mat3 frame = mat3(turned) * (side == 0 ? tangentFrame(normal) : lowerTangentFrame(normal));
     const uint images = push.isGray != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
-    vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples lie in memory
+    vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples are stored
     for (int light = 0; light < int(kTupleLights); light++) {
         const vec3 local = frame * texelOf(lights, 2 * light).xyz;
         if (local.z <= kGrazingCosine) continue;
