@@ -1,5 +1,5 @@
 #version 460
-// Adds the day sky to the lighting cube, without the sun's disc.
+// Adds the day sky, without the sun's disc, to the lighting cube.
 // C++ twin: addSky() in engine/light/day_sky.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

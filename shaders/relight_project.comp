@@ -12,7 +12,7 @@
 #include "shaders/shared/render.h"
 
 layout(local_size_x_id = 0) in; // a multiple of 8
-layout(binding = 0, std430) readonly buffer Indices { uint indices[]; };    // two columns a word
+layout(binding = 0, std430) readonly buffer Indices { uint indices[]; }; // two columns per word
 layout(binding = 1, scalar) readonly buffer Table { PackedLight table[]; }; // the light's entries, then their changes
 layout(binding = 2, scalar) readonly buffer Light { LightStats light; };
 

@@ -1,5 +1,5 @@
 #version 460
-// Sums the unshadowed tuples of all normals: polar maps about +Y, four terms an invocation.
+// Sums the unshadowed tuples of all normals: polar maps about +Y, four terms per invocation.
 // C++ twin: unshadowedTuples() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -18,7 +18,7 @@ uvec3 cornersOf(uint surface) {
 void main() {
     uint seen[kSamples];
     readSamples(seen);
-    // The stencil tells most pixels of other parts before the shader runs.
+    // The stencil rejects most pixels of other parts before the shader runs.
     if (seen[0] != 0 && !isOfPart(seen[0])) discard;
     const uvec3 first = cornersOf(seen[0]);
     bool isEdge = false;

@@ -36,7 +36,7 @@ vec3 densityColor(float area) {
     return mix(vec3(0.85), density < 0 ? vec3(0.02, 0.1, 0.8) : vec3(0.8, 0.03, 0.02), abs(density));
 }
 
-// Returns the color of a triangle where the ray through a place in the image meets it.
+// Returns the color of a triangle where the ray through a point of the image meets it.
 vec3 colorAt(uint triangle, vec2 place) {
     const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
     const uvec3 numbers = texelOf(triangles, int(triangle)).xyz;

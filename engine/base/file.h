@@ -11,7 +11,7 @@
 
 namespace relume {
 
-// Returns the whole file. Throws Error when it cannot be read, or is larger than `limit` bytes.
+// Returns the whole file. Throws Error if it cannot be read, or is larger than `limit` bytes.
 std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit = size_t(64) << 30);
 
 // A regular file, open to be read piece by piece.

@@ -20,11 +20,11 @@ struct Environment {
     int width = 0, height = 0;
     std::vector<vec3> radiance; // W·m⁻²·sr⁻¹, rows from the top
 
-    vec3 direction(float column,
-                   float row) const;    // of a point in pixel units; (0.5, 0.5) is the first center
-    vec2 place(vec3 direction) const;   // the inverse, in pixel units
+    // Returns the direction of a point in pixel units; (0.5, 0.5) is the center of the first pixel.
+    vec3 direction(float column, float row) const;
+    vec2 place(vec3 direction) const;   // inverts direction()
     MapTaps taps(vec3 direction) const; // wrapping in longitude, clamped in latitude
-    vec3 lookup(vec3 direction) const;  // bilinear, wrapping in longitude
+    vec3 lookup(vec3 direction) const;  // bilinear, by taps()
 };
 
 // The most columns of a map that is kept for display: 22 per degree.

@@ -26,8 +26,8 @@ int samplesPerTexelSide(int environmentWidth, int cubeSize);
 // A rotation of a map in columns. In a map turned by `rotation` radians about +Y (a positive angle turns +Z
 // towards +X) column x is the mix by `fraction` of columns x + whole and x + whole + 1, wrapping.
 struct ColumnShift {
-    uint32_t whole; // below the width
-    float fraction;
+    uint32_t whole; // whole columns, below the width
+    float fraction; // fraction of a column, in [0, 1)
 };
 ColumnShift columnShift(float rotation, int width);
 

@@ -1,4 +1,4 @@
-// The light in the Haar basis, quantized and sparse.
+// The light in the Haar basis, as sparse, quantized entries.
 #pragma once
 
 #include "engine/light/light_cube.h"

@@ -5,6 +5,7 @@
 
 namespace relume {
 
+// Measures of the difference of an image from a reference.
 struct ImageDifference {
     double relativeRmse;  // sqrt(Σ(a-b)² / Σb²) over linear RGB; b is the reference
     double psnr;          // dB, peak = largest value of b; infinite for equal images

@@ -83,7 +83,7 @@ class LitSpheres {
     std::map<const ResidualSet*, Set> mSets;
     std::vector<Kernel> mKernels;
     vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
-    vk::Sampler mSampler, mPolarSampler; // the latter wraps in x
+    vk::Sampler mSampler, mPolarSampler; // mPolarSampler repeats in x
     vk::Buffer mTexels, mLights, mTupleTexels, mGrid, mSlots, mWeights;
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mCubeImage, mImage, mTuples;

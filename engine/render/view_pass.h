@@ -95,7 +95,7 @@ class ViewPass {
         uint32_t paint = 0;                      // shared::kPaintedByMap and so on, if it is painted
         vk::Image baseColor, materialMap, normalMap, emissionMap;
         shared::ViewDetail detail;
-        bool isDetailed; // by detail
+        bool isDetailed; // whether `detail` has anything to draw
         std::vector<Set> sets;
         vk::Buffer layers; // shared::ViewDetail, then as many shared::ViewLayer as can be bound
         PartAppearance bound;
@@ -165,7 +165,8 @@ class ViewPass {
     std::map<int, SamplePrograms> mPrograms;                     // by samples
     std::map<vk::Constants, vk::GraphicsProgram> mShadePrograms; // by the constants of view_shade.frag
     vk::Sampler mPixelSampler;
-    vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
+    vk::Sampler mDiskSampler, mPolarSampler,
+        mSurfaceSampler; // mPolarSampler repeats in x, mSurfaceSampler in x and y
     std::vector<Part> mParts;
     int mTerms = 0;
     bool mIsUnshadowed;

@@ -8,6 +8,7 @@
 
 namespace relume {
 
+// A normal map and an emission.
 struct SurfaceDetail {
     // A tangent-space normal map, sampled at mesh.uvs: a normal is 2 texel - 1, linear. As in glTF, x points
     // right in the image, y up, z away from the surface.

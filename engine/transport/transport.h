@@ -18,7 +18,7 @@ namespace relume {
 // by std::visit: a layout that lacks one does not compile.
 using Transport = std::variant<SparseTransport, BasisTransport>;
 
-// In the order of Transport's alternatives.
+// The layouts, in the order of Transport's alternatives.
 enum class TransportLayout { Rows, Bases };
 
 // Properties of a layout as such.

@@ -5,7 +5,7 @@
 #include "shaders/shared/light.h"
 
 struct CapTexel {
-    vec2 low;    // u and v of its lower corner
+    vec2 low; // u and v of its upper left corner
     float width; // in u and v
 };
 
@@ -20,7 +20,7 @@ vec2 middleOf(CapTexel texel) { return texel.low + 0.5 * texel.width; }
 // Returns the share of a texel that a cap covers. `center` is in the frame of the texel's face; the rest is as in
 // LightCap.
 float capCoverage(CapTexel texel, vec3 center, float inner, float outer, uint side) {
-    // Nothing of a texel is further from its center than this: projection to the sphere brings points together.
+    // No point of a texel is further from its center than this: projection to the sphere brings points together.
     const float reach = 0.5 * sqrt(2.0) * texel.width;
     const float away = distance(normalize(vec3(middleOf(texel), 1)), center);
     if (away - reach >= outer) return 0;

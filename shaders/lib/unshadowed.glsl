@@ -9,7 +9,7 @@
 
 layout(binding = 8) uniform sampler2DArray litSpheres;
 TEXELS(9, uint, usamplerBuffer, SphereSlots, sphereSlots); // layer of litSpheres, by kernel and node
-TEXELS(10, vec4, samplerBuffer, ViewGrid, viewGrid);       // axis and side, two texels a node
+TEXELS(10, vec4, samplerBuffer, ViewGrid, viewGrid); // axis and side, two texels per node
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 

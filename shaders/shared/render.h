@@ -120,7 +120,7 @@ const uint kVertexTexels = 4; // texels per ViewVertex
 struct ViewLayer {
     uint firstMap;   // first image of the layer in the part's view maps
     int channel;     // channel of the paint that multiplies it; -1: none
-    uint isTextured; // 1: the base color texture multiplies it
+    uint isTextured; // 1: the base color multiplies it
     float weight;
     uint firstSlot;   // first of its lit spheres' slots, which are by node
     uint harmonics;   // harmonics of the view's azimuth in its lit spheres
@@ -218,7 +218,7 @@ const uint kToneNone = 0, kToneAces = 1, kToneAgx = 2;
 
 struct DisplayPush {
     vec3 background; // display values
-    float scale;     // of radiance, before the curve
+    float scale;     // factor on radiance before the curve
 };
 RELUME_SHARED_SIZE(DisplayPush, 16)
 
