@@ -1,6 +1,5 @@
 #version 460
-// Computes where each row's entries start in the compacted array: an exclusive prefix sum of their counts. One
-// work-group.
+// Computes where each row's entries start when compacted: an exclusive prefix sum of their counts. One work-group.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/bake.h"

@@ -13,8 +13,7 @@ layout(binding = 0) uniform sampler2DArray cube; // kSphereCube² texels and a b
 TEXELS(1, vec4, samplerBuffer, Nodes, nodes); // axis and side, two texels per node
 layout(binding = 2, std430) writeonly buffer Polar { vec4 polar[]; };
 
-// Samples along a side of a cell: closer than texels, so that bilinear lookups sum to about the same wherever a light
-// is.
+// Samples along a side of a cell: closer than texels, so that lookups sum to about the same wherever a light is.
 const uint kSide = 2;
 
 void main() {

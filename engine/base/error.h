@@ -1,6 +1,5 @@
 // Errors for bad input or a failing environment. Their text says which file, what was expected, what was
-// found and what to do. They are thrown where they are found and caught in main only, where the type decides
-// the exit code.
+// found and what to do. They are caught in main only, where the type decides the exit code.
 #pragma once
 
 #include "engine/base/printable.h"

@@ -64,8 +64,7 @@ class AtomicFile {
     int mDescriptor = -1;
 };
 
-// Throws Error if an AtomicFile could not be made for `path`: call it before long work. Leaves nothing
-// behind.
+// Throws Error if no AtomicFile can be made for `path`: call it before long work. Leaves nothing behind.
 void expectWritable(const std::filesystem::path& path);
 
 // Writes to `path`, whole or not at all. Throws Error on failure.

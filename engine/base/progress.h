@@ -11,8 +11,7 @@ namespace relume {
 // Shows progress, but nothing in the first two seconds. Not thread-safe: one thread reports.
 class Progress {
   public:
-    // `total` is the number of items of work; `unit` names them in the plural ("vertices"). `quiet` shows
-    // nothing.
+    // `total` counts the items of work; `unit` is their plural ("vertices"). `quiet` shows nothing.
     Progress(std::string_view title, uint64_t total, std::string unit, bool quiet = false);
     // Ends the line of an unfinished bar; clears a title shown without a bar.
     ~Progress();

@@ -6,8 +6,8 @@
 
 namespace relume {
 
-// Collects the names of files that readFile() and FileReader open during its lifetime, on any thread. At most
-// one exists at a time.
+// Collects the names of files that readFile() and FileReader open during its lifetime, on any thread. Only
+// one may exist at a time.
 class ReadFiles {
   public:
     ReadFiles();

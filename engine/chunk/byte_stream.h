@@ -23,7 +23,7 @@ class ByteWriter {
 
     void put(std::span<const std::byte> bytes) { mBytes.insert(mBytes.end(), bytes.begin(), bytes.end()); }
 
-    // Appends all lowest bytes, then all second bytes and so on: bytes of equal significance compress best
+    // Appends all lowest bytes, all second bytes and so on: those of equal significance compress best
     // together.
     template <std::unsigned_integral T>
     void putPlanes(std::span<const T> values) {

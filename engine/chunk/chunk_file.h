@@ -97,9 +97,8 @@ bool hasAssetMagic(std::span<const std::byte> bytes);
 // Reads a .relume file chunk by chunk, after checking it.
 class ChunkFile {
   public:
-    // Checks everything except the chunks' decompressed contents: magic, version, checksums, sizes, limits,
-    // that no run appears twice. Holds the table and one chunk at a time. `name` names the file in errors.
-    // Throws Error.
+    // Checks all but the chunks' decompressed contents: magic, version, checksums, sizes, limits, that no run
+    // is there twice. Holds the table and one chunk at a time. `name` names the file in errors. Throws Error.
     ChunkFile(ByteSource source, std::string name, uint32_t version = kAssetFormatVersion);
     ChunkFile(std::span<const std::byte> bytes, std::string name) // `bytes` must outlive it
         : ChunkFile(sourceOf(bytes), std::move(name)) {}

@@ -8,8 +8,8 @@
 namespace relume {
 
 // Returns the mean over the pixels of the LDR-ꟻLIP error, in [0, 1], seen at 67 pixels per degree (a 0.7 m
-// wide 4K display from 0.7 m). Both images hold sRGB display values in [0, 1] and have the same size; alpha
-// is ignored. Symmetric.
+// wide 4K display from 0.7 m). Symmetric. Both images hold sRGB display values in [0, 1] and have the same
+// size; ignores alpha.
 double flipError(const Image& a, const Image& b);
 
 } // namespace relume

@@ -19,8 +19,7 @@ struct AlphaMask {
 // cuts through them leave no texel's center on the wrong side by more than `tolerance` (units of length) or
 // half a texel, whichever is more; the surface between texels is not examined. No T-junctions arise, except
 // along seams of the texture coordinates. A mesh without holes stays as it is; one that is all hole has no
-// triangles. If 200,000 more triangles do not suffice, cuts stay coarser, and the log warns; `name` names the
-// mesh there.
+// triangles. If 200,000 more triangles do not suffice, cuts stay coarser, and the log warns of mesh `name`.
 Mesh cutByAlpha(Mesh mesh, const AlphaMask& mask, float tolerance, const std::string& name);
 
 } // namespace relume

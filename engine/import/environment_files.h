@@ -22,8 +22,7 @@ class EnvironmentFiles {
     void keepPictures() { mKeepsPictures = true; }
 
     // Returns the files whose names have a number where `pattern` has ####, by rising number, of any number
-    // of digits. They are listed when first asked for. Throws Error if there are none, or two of the same
-    // number.
+    // of digits. They are listed at the first call. Throws Error if there are none, or two of one number.
     const std::vector<std::filesystem::path>& sequence(const std::filesystem::path& pattern);
 
     // Returns all files that were asked for, including those of sequences whether or not they were read.

@@ -20,8 +20,7 @@ ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name)
 ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name);
 Image decodeRadiance(std::span<const std::byte> bytes, const std::string& name);
 
-// Throws Error unless the attributes of the header of a one-part OpenEXR file have the sizes that their types
-// require.
+// Throws Error unless the header attributes of a one-part OpenEXR file have sizes that fit their types.
 void checkExrHeader(std::span<const std::byte> bytes, const std::string& name);
 
 std::vector<std::byte> encodeExr(const Image& image);

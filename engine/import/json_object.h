@@ -23,8 +23,7 @@ bool isJsonDeeper(std::string_view text, size_t most);
 // Parses JSON; `name` names the text in errors. Throws Error if it is invalid or nested too deeply.
 nlohmann::json parseJson(std::string_view text, const std::string& name, size_t mostDepth = 32);
 
-// A JSON object whose values are read by key. Functions throw Error for values of the wrong type or out of
-// range.
+// A JSON object whose values are read by key. Throws Error for values of a wrong type or out of range.
 class JsonObject {
   public:
     using Json = nlohmann::json;

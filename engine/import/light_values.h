@@ -15,8 +15,7 @@ struct LightMoment {
     EnvironmentFiles& files;
 };
 
-// Makes the light of a file's values, which have no tracks (light_track.h). Throws Error that names file and
-// key.
+// Makes the light of a file's values, without tracks (light_track.h). Throws Error that names file and key.
 Light makeLight(const nlohmann::json& values, const LightMoment& moment);
 
 } // namespace relume

@@ -26,8 +26,7 @@ Mesh decodeObj(std::span<const std::byte> bytes, const std::string& name, MeshAt
 Mesh decodePly(std::span<const std::byte> bytes, const std::string& name, MeshAttributes wanted);
 
 // Decodes glTF 2.0, text or binary: the triangles of the default scene (or the first), with node transforms
-// applied; skins and morph targets stay at rest. Reads external buffers and images from `folder` and below
-// only.
+// applied; skins and morph targets stay at rest. External buffers and images must be in or below `folder`.
 Mesh decodeGltf(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                 const std::string& name, MeshAttributes wanted);
 

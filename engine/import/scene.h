@@ -72,8 +72,7 @@ bool hasOwnMaterials(const std::string& mesh);
 std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optional<std::string>& material,
                             const PartPaint& paint = {});
 
-// Adds a ground, sized by the scene so far, which must not be empty. Throws UsageError if options are out of
-// range.
+// Adds a ground, sized by the scene so far, which is not empty. Throws UsageError for options out of range.
 void addGround(Scene& scene, const GroundOptions& options, const std::string& material = "white-diffuse");
 
 // Reads a scene file (JSON: docs/scene_format.md), in which mesh paths are relative to its folder. `ground`

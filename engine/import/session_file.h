@@ -16,8 +16,7 @@ constexpr std::array<std::string_view, 22> kSessionKeys = {
     "tone",    "background", "background-blur", "ground-fade"};
 
 // Returns the content of a session file: only keys of sessions, of the right types, none that excludes
-// another, with file names as absolute paths. Values may be out of range. Throws Error that names file and
-// key.
+// another, with file names as absolute paths. Values may be out of range. Errors name file and key.
 nlohmann::json readSessionFile(const std::filesystem::path& path);
 
 } // namespace relume

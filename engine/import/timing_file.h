@@ -17,8 +17,7 @@ std::string chromeTrace(const TimingTrace& trace);
 // Returns a CSV table: frame (empty outside frames), track, name, start_us, duration_us.
 std::string csvTable(const TimingTrace& trace);
 
-// Throws UsageError unless `path` ends in .json or .csv, and Error if it cannot be written: call it before
-// long work.
+// Throws UsageError unless `path` ends in .json or .csv, Error if it cannot be written. Use before long work.
 void expectTimingFile(const std::filesystem::path& path);
 
 // Writes chromeTrace() to a .json file or csvTable() to a .csv file, atomically. Throws Error.

@@ -20,8 +20,7 @@ constexpr int kDefaultLightCount = 512;
 // smooth receiver to a wavelet is proportional to its area). Weights below 2^-126 count as 0, and such
 // entries are never kept.
 struct LightSelection {
-    // If given, entries of at least (threshold - ½) / kLightMaximum of the largest weight are kept; 0 keeps
-    // all.
+    // If given, keeps entries of at least (threshold - ½) / kLightMaximum of the largest weight; 0 keeps all.
     std::optional<int> threshold = std::nullopt;
     // Otherwise the `count` entries of largest weight are kept, at least 1; of equals the lower index.
     int count = kDefaultLightCount;

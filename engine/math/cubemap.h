@@ -34,8 +34,7 @@ struct CubeTexel {
     int face, x, y;
 };
 
-// Returns the texel that a direction of any length but zero passes through, on a cube of `size` texels a
-// side.
+// Returns the texel that a direction of any length but zero passes through; faces have `size` texels a side.
 CubeTexel cubeTexel(vec3 direction, int size);
 
 // Returns the index of a texel in an array of six faces, row by row: face·size² + y·size + x.

@@ -32,8 +32,7 @@ std::optional<vec3> diskMapDirection(DiskMapping mapping, vec2 coordinates);
 float diskMapSolidAngle(DiskMapping mapping, vec2 coordinates);
 
 // Returns a direction with z of at least kGrazingCosine. A direction at or below the horizon, as interpolated
-// normals give at silhouettes, is lifted to just above it and normalized. Apply it before every view map
-// lookup.
+// normals give at silhouettes, is lifted to just above it and normalized. Every view lookup uses it.
 constexpr float kGrazingCosine = 1e-3f;
 vec3 liftAboveHorizon(vec3 local);
 

@@ -23,8 +23,7 @@ struct DeviceLight {
 // Computes the tuples of one set of materials from transport and light.
 class SetRelighter {
   public:
-    // Throws OutOfMemory, or Error if the device cannot bind that many tuples. `name` names the part in
-    // errors.
+    // Throws OutOfMemory, or Error if the device cannot bind as many tuples. Errors name part `name`.
     SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name);
     virtual ~SetRelighter() = default;
 

@@ -16,8 +16,7 @@ class BackgroundPass {
     void setLight(const Light& light, float deviation = 0);
 
     // Records pass "background": composites `view`, whose radiance is premultiplied by alpha, over the
-    // background turned by `turn` radians. `view` is in TRANSFER_SRC_OPTIMAL before and after; so is image()
-    // afterwards.
+    // background turned by `turn` radians. `view` is in TRANSFER_SRC_OPTIMAL before and after, image() after.
     void record(vk::Commands& commands, const vk::Image& view, const Camera& camera, float turn = 0);
 
     // Returns the result: RGBA32F, linear, alpha 1.

@@ -13,8 +13,7 @@ struct ImageDifference {
     double flip;          // mean ꟻLIP error in [0, 1] after toneMap (ACES, exposure 0)
 };
 
-// Compares RGB; alpha is ignored. Throws Error if sizes differ, a value is not finite or the reference is
-// black.
+// Compares RGB only. Throws Error if sizes differ, a value is not finite or the reference is black.
 ImageDifference compareImages(const Image& image, const Image& reference);
 
 } // namespace relume

@@ -18,8 +18,8 @@ class ComparePass {
   public:
     explicit ComparePass(const vk::Device& device);
 
-    // Records pass "compare" of two linear images of one size, in TRANSFER_SRC_OPTIMAL before and after; so
-    // is image() afterwards.
+    // Records pass "compare" of two linear images of one size, in TRANSFER_SRC_OPTIMAL before and after, as
+    // image() is after.
     void record(vk::Commands& commands, const vk::Image& first, const vk::Image& second,
                 const CompareOptions& options);
 

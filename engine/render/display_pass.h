@@ -21,8 +21,7 @@ class DisplayPass {
     DisplayPass(const vk::Device& device, VkFormat format);
 
     // Records pass "display": toneMap() of `view` onto `target`, of the same size. `view` is in
-    // TRANSFER_SRC_OPTIMAL before and after; `target` loses its contents and is in COLOR_ATTACHMENT_OPTIMAL
-    // afterwards.
+    // TRANSFER_SRC_OPTIMAL before and after; `target` is overwritten, and left in COLOR_ATTACHMENT_OPTIMAL.
     void record(vk::Commands& commands, const vk::Image& view, const vk::Image& target,
                 const DisplayOptions& options) const;
 

@@ -37,23 +37,19 @@ class LightPass {
     void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {});
 
     int faceSize() const { return mFaceSize; }
-    // Returns 6 F² × shared::PackedLight, zero where dropped, followed by as many differences from the light
-    // before.
+    // Returns 6 F² × shared::PackedLight, zero where dropped, then as many differences from the light before.
     const vk::Buffer& table() const { return mTable; }
     const vk::Buffer& stats() const { return mStats; }       // shared::LightStats
     const vk::Buffer& radiance() const { return mRadiance; } // 6 F² × vec3
 
-    // Return the numbers of the last record() and of the one before, counted from 1 over all light passes; 0
-    // for none.
+    // Return the numbers of the last record() and the one before, from 1 over all light passes; 0 for none.
     uint64_t recording() const { return mRecording; }
     uint64_t recordingBefore() const { return mRecordingBefore; }
 
-    // Returns statistics of selection and quantization in the last submission of record(). Waits for the
-    // device.
+    // Returns statistics of the last submission of record(). Waits for the device.
     LightStats readStats() const;
 
-    // Return the results of the last submission of record(), for tests and `relume verify`. Wait for the
-    // device.
+    // Return results of the last submission of record(), for tests and `relume verify`. Wait for the device.
     LightCube readCube() const;
     LightVector readVector() const;
 

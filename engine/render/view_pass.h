@@ -47,8 +47,7 @@ class ViewPass {
     // not wait: the change travels with the commands.
     void setAppearance(const Appearance& appearance);
 
-    // Draws only the first `terms` of each part's K terms from the next record() on; 0, or K and more, draws
-    // all.
+    // Draws the first `terms` of K terms only, from the next record() on; 0, or K and more, draws all.
     void setTerms(int terms) { mTerms = terms; }
     // Adds the residual from the next record() on, where the relighter has one; on by default.
     void setResidual(bool isAdded) { mAddsResidual = isAdded; }
@@ -66,8 +65,7 @@ class ViewPass {
     const vk::Image& image() const { return mColor; }
     // Returns the depth of the first sample of every pixel, by the camera's clipFromWorld() with the asset's
     // bounds; 1 where nothing is seen. Its stencil is for internal use. It is in
-    // DEPTH_STENCIL_ATTACHMENT_OPTIMAL after record(), can be copied from, and must be returned to that
-    // layout.
+    // DEPTH_STENCIL_ATTACHMENT_OPTIMAL after record(), can be copied from, and must be left in that layout.
     const vk::Image& depth() const { return mSamples > 1 ? mPixelDepth : mDepth; }
 
     // Returns the image of the last submission. Waits for the device.

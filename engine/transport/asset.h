@@ -104,8 +104,7 @@ uint32_t blockVertices(const Asset& asset);
 uint32_t visibilityRunVertices(const Asset& asset);
 
 // Returns the angular radius, in radians, of the smallest lamp that shows no patches when it is the only
-// light. Compression rounds shadows off, and the smaller the lamp, the more this shows (docs/errors.md,
-// measured).
+// light. Compression rounds shadows off, and the smaller the lamp, the more this shows (docs/errors.md).
 float smallestLampRadius(const Asset& asset);
 
 // Returns the contents of the asset's file. The same asset gives the same bytes.

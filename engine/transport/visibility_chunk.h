@@ -21,8 +21,8 @@ uint64_t smallestVisibilityChunk(uint64_t vertices, uint32_t size);
 // multiple of 64.
 std::vector<std::byte> encodeVisibility(std::span<const uint32_t> bits, uint32_t size);
 
-// Decodes the bits of `vertices` vertices. Throws Error unless `coded` holds exactly these; `where` names the
-// chunk in it.
+// Decodes the bits of `vertices` vertices. Throws Error, in which `where` names the chunk, unless `coded`
+// holds exactly these.
 std::vector<uint32_t> decodeVisibility(std::span<const std::byte> coded, uint64_t vertices, uint32_t size,
                                        const std::string& where);
 

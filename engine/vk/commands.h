@@ -83,8 +83,7 @@ class Commands {
         dispatchBytes(program, bindings, std::as_bytes(std::span(&push, 1)), items);
     }
 
-    // Attaches and clears the target, then runs `draws`. Images must be in attachment layouts and stay in
-    // them.
+    // Attaches and clears the target, then runs `draws`. Images must be in attachment layouts.
     void render(const RenderTarget& target, const std::function<void()>& draws);
     // Binds program, resources and push constants for the draws that follow. Inside render() only.
     template <typename Push>
@@ -93,8 +92,7 @@ class Commands {
     }
     // Sets the value that the program's stencil test writes or compares with. Inside render(), after bind().
     void setStencil(uint32_t value);
-    // Sets the buffer of positions, a vec3 per vertex, for programs that read them. Inside render(), after
-    // bind().
+    // Sets the positions, a vec3 per vertex, that programs may read. Inside render(), after bind().
     void setPositions(const Buffer& positions);
     void drawIndexed(const Buffer& indices, uint32_t indexCount, uint32_t instances, uint32_t firstIndex = 0);
     // Draws without buffers: the vertex shader knows only the vertex's number.
@@ -107,13 +105,12 @@ class Commands {
 
     // Makes all memory that `from` wrote visible to `to`.
     void barrier(Stage from, Stage to);
-    // Changes the layout of a whole image, with a barrier from `before` to `after`. Discards its contents if
-    // `from` is undefined.
+    // Changes an image's layout, with a barrier from `before` to `after`. Discards its contents if `from` is
+    // undefined.
     void transition(const Image& image, VkImageLayout from, VkImageLayout to, Stage before, Stage after);
 
     void fill(const Buffer& buffer, uint32_t value);
-    // Writes a small number of whole words to the start of a device buffer. The data travel with the
-    // commands.
+    // Writes a few whole words to the start of a device buffer; they travel with the commands.
     void update(const Buffer& buffer, std::span<const std::byte> bytes);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
               uint64_t toOffset = 0);

@@ -35,7 +35,7 @@ struct DeviceInfo {
     bool subgroupBallot;            // compute shaders support ballots
     bool subgroupSizeCanBeAskedFor; // a compute pipeline can require a subgroup size
 
-    // Returns whether subgroups suit the standard shaders: of 8 to 64 invocations, a multiple of 8, with
+    // Returns whether subgroups suit the standard shaders: 8 to 64 invocations, a multiple of 8, with
     // ballots.
     bool hasBallots() const { return subgroupBallot && subgroupSize % 8 == 0 && subgroupSize <= 64; }
     // Returns whether programs are made of portable shaders, which need neither such subgroups nor large
@@ -47,8 +47,7 @@ struct DeviceInfo {
 std::vector<DeviceInfo> listDevices();
 
 struct DeviceOptions {
-    // The device's index, UUID or part of its name. Empty: the first discrete GPU, else an integrated one,
-    // else any.
+    // The device's index, UUID or part of its name. Empty: the first discrete GPU, else integrated, else any.
     std::string select;
     // Comma-separated checks of Khronos' validation layer: core, sync, gpu, best. Empty: no validation.
     std::string validation;
@@ -62,8 +61,7 @@ struct DeviceOptions {
     bool leastFeatures = false;
 };
 
-// A device of a host program, which made it and must keep it alive as long as anything of Relume's refers to
-// it.
+// A device of a host program, which must keep it alive while anything of Relume's refers to it.
 struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE; // of Vulkan 1.3
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -82,8 +80,7 @@ struct Features {
     Features(const Features&) = delete; // it points into itself
     Features& operator=(const Features&) = delete;
 
-    // The head of the chain, for VkDeviceCreateInfo::pNext, with pEnabledFeatures null. The other two follow
-    // it.
+    // The head of the chain, for VkDeviceCreateInfo::pNext, with pEnabledFeatures null; the others follow.
     VkPhysicalDeviceFeatures2 chain;
     VkPhysicalDeviceVulkan12Features vulkan12;
     VkPhysicalDeviceVulkan13Features vulkan13;
@@ -126,8 +123,7 @@ class Device {
 
     // Returns the number of valid bits of a timestamp, 36 to 64, or 0 if the queue has no timestamps.
     uint32_t timestampBits() const { return mTimestampBits; }
-    // Returns the function that reads the device's clock and CLOCK_MONOTONIC together, or null if it is not
-    // supported.
+    // Returns the function that reads the device's clock and CLOCK_MONOTONIC together; null if unsupported.
     PFN_vkGetCalibratedTimestampsEXT readClocks() const { return mReadClocks; }
 
     // Returns the index of a memory type among `typeBits` that has `properties`, and `preferred` too if

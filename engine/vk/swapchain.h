@@ -19,8 +19,7 @@ class Swapchain {
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // Returns whether the window system has destroyed the surface. Nothing can be drawn until another one is
-    // set.
+    // Returns whether the window system has destroyed the surface. Nothing can be drawn until setSurface().
     bool hasLostSurface() const { return mHasLostSurface; }
     // Sets another surface of the same kind; call resize() next. The old surface may be destroyed afterwards.
     void setSurface(VkSurfaceKHR surface);
@@ -37,12 +36,10 @@ class Swapchain {
     VkFormat format() const { return mFormat.format; }
     uint32_t width() const { return mExtent.width; }
     uint32_t height() const { return mExtent.height; }
-    // Returns the images, usable as color attachments and transfer sources, in an undefined layout when
-    // acquired.
+    // Returns the images: color attachments and transfer sources, in an undefined layout when acquired.
     const std::vector<Image>& images() const { return mImages; }
 
-    // Returns the number of the image to draw next, once nothing reads it any more; none if resize() is
-    // needed.
+    // Returns the number of the image to draw next, once nothing reads it; none if resize() is needed.
     std::optional<uint32_t> acquire();
 
     // Shows an image, in layout PRESENT_SRC, whose drawing has ended. Returns false if resize() is needed.

@@ -2,8 +2,7 @@
 #ifndef RELUME_SHADERS_LIB_BARYCENTRIC_GLSL
 #define RELUME_SHADERS_LIB_BARYCENTRIC_GLSL
 
-// Returns the barycentric weights of the intersection (Möller and Trumbore 1997); some are negative outside the
-// triangle.
+// Returns the intersection's barycentric weights (Möller and Trumbore 1997); outside the triangle some are negative.
 vec3 barycentricWeights(vec3 eye, vec3 direction, vec3 corners[3]) {
     const vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], s = eye - corners[0];
     const vec3 p = cross(direction, e2), q = cross(s, e1);

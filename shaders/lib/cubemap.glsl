@@ -28,8 +28,7 @@ vec2 cubeCoordinates(uint face, vec3 direction) {
     return local.xy / local.z;
 }
 
-// Returns the solid angle, in steradians, of a square of side `width` (in units of u and v) at uv, by the midpoint
-// rule.
+// Returns the solid angle, in sr, of a square of side `width` (in units of u and v) at uv, by the midpoint rule.
 float cubeSolidAngle(vec2 uv, float width) {
     const float squared = 1 + dot(uv, uv);
     return width * width / (squared * sqrt(squared));

@@ -40,8 +40,7 @@ MapFootprint mapFootprint(uint mapping, int size, vec3 local) {
     return MapFootprint(ivec4(low, high), place - corner);
 }
 
-// Looks a map up bilinearly without the sampler: many devices round a sampler's weights to 8 bits, and CPU twins do
-// not.
+// Looks a map up bilinearly without the sampler: many devices round its weights to 8 bits, and CPU twins do not.
 vec3 lookupMap(sampler2DArray maps, int layer, MapFootprint at) {
     const vec3 a = texelFetch(maps, ivec3(at.texels.xy, layer), 0).rgb;
     const vec3 b = texelFetch(maps, ivec3(at.texels.zy, layer), 0).rgb;

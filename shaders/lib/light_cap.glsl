@@ -17,8 +17,7 @@ CapTexel capTexel(uint place, uint sideBits) {
 
 vec2 middleOf(CapTexel texel) { return texel.low + 0.5 * texel.width; }
 
-// Returns the share of a texel that a cap covers. `center` is in the frame of the texel's face; the rest is as in
-// LightCap.
+// Returns the share of a texel that a cap covers. `center` is in the frame of its face; the rest is as in LightCap.
 float capCoverage(CapTexel texel, vec3 center, float inner, float outer, uint side) {
     // No point of a texel is further from its center than this: projection to the sphere brings points together.
     const float reach = 0.5 * sqrt(2.0) * texel.width;

@@ -12,7 +12,7 @@ mat3 tangentFrame(vec3 n) {
     return transpose(mat3(s, cross(n, s), n));
 }
 
-// Returns the frame whose s is the part of `tangent` orthogonal to the normal, or that of the normal if this
+// Returns the frame whose s is the part of `tangent` orthogonal to the normal, or the normal's frame if this
 // vanishes.
 mat3 tangentFrame(vec3 n, vec3 tangent) {
     const vec3 along = tangent - dot(tangent, n) * n;

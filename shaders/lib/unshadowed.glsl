@@ -35,8 +35,7 @@ vec2 phaseAt(mat3 frame, vec3 view, vec3 mirror) {
     return phaseOf((tangentFrame(normal, vec3(1, 0, 0) * frame) * view).xy);
 }
 
-// Finds the spheres around a view direction. `frame` is the pixel's. Phases are computed only if spheres have
-// harmonics.
+// Finds the spheres around a view direction. `frame` is the pixel's. Phases are for spheres with harmonics.
 SpherePlaces spherePlaces(vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics) {
     const GridCell cell = gridCell(view);
     SpherePlaces at;

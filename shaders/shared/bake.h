@@ -48,8 +48,7 @@ struct TracePush {
 RELUME_SHARED_SIZE(TracePush, 4)
 
 // One of the eight children of a node of the bounding volume hierarchy. `entry` is what traversal pushes for
-// it: a node's number, or kBvhLeaf with the number of triangles - 1 in five bits and the first triangle in
-// 26.
+// it: a node's number, or kBvhLeaf with the number of triangles - 1 in 5 bits and the first triangle in 26.
 struct BvhChild {
     vec3 low;
     uint entry;

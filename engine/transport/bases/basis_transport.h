@@ -17,8 +17,8 @@ constexpr uint32_t kMostBasisComponents = 256; // per cluster: basis vectors
 constexpr int kBasisMaximum = 127;             // largest magnitude of basis values and weights
 
 // One direction in the color space of a term's transport. Most of a material's transport lies along one
-// direction; for a gray material all of it lies along (1, 1, 1). A term has at most three; a term without any
-// is zero.
+// direction; for a gray material all of it lies along (1, 1, 1). A term has at most three; without any it is
+// zero.
 struct BasisKind {
     uint32_t term = 0;
     vec3 color{1};
@@ -71,8 +71,7 @@ void checkLayout(const BasisTransport& layout, const std::string& where);
 void checkCluster(const BasisCluster& cluster, size_t vertices, size_t kinds, uint32_t coefficients,
                   const std::string& where);
 
-// Checks all clusters and the kinds. Throws Error. The length of rows is not limited: the third parameter is
-// ignored.
+// Checks all clusters and the kinds. Throws Error. Ignores the third parameter: rows may have any length.
 void checkTransport(const BasisTransport& transport, uint32_t coefficients, uint64_t longestRow,
                     const std::string& where);
 

@@ -46,8 +46,7 @@ inline ivec3 unpackCoefficient(uint32_t packed) {
 void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
                     const std::string& where);
 
-// Quantizes a coefficient: `scale` maps to the maxima; rounds to nearest, halves away from zero. A scale of 0
-// gives 0.
+// Quantizes to nearest, halves away from zero; `scale` maps to the maxima. A scale of 0 gives 0.
 ivec3 quantizeCoefficient(vec3 value, float scale);
 
 } // namespace relume
