@@ -1,4 +1,4 @@
-// All that a program needs which reads meshes, images, lights and scenes from files: relume::import.
+// The public header of relume::import, which reads meshes, images, lights and scenes from files.
 #pragma once
 
 #include "engine/import/asset_info.h"

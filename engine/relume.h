@@ -1,4 +1,4 @@
-// All that a program needs which loads a bake, lights it and draws it: relume::runtime.
+// The public header of relume::runtime, which loads a bake, lights it and draws it.
 //
 //     relume::vk::Device device;                                  // or one on the host program's own
 //     const relume::Asset asset = relume::readAsset("bunny.relume");
@@ -6,7 +6,7 @@
 //     relume::Relighter relighter(device, asset);
 //     relume::ViewPass view(device, asset, {.width = 960, .height = 540});
 //
-// Each frame records light, relighter and view into vk::Commands, in this order; docs/engine.md has the rest.
+// Each frame records light, relighter and view into vk::Commands, in this order; see docs/engine.md.
 #pragma once
 
 #include "engine/base/error.h"

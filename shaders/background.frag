@@ -1,5 +1,5 @@
 #version 460
-// A view over the light that is seen behind it. C++ twin: drawBackground() in engine/light/background.h.
+// Composites a view over the background. C++ twin: drawBackground() in engine/light/background.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/sky.glsl"

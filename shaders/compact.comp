@@ -1,5 +1,5 @@
 #version 460
-// Lays the rows' entries that are not zero end to end, in order. One group a row.
+// Compacts the rows' entries that are not zero into one array, in order. One work-group per row.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/bake.h"

@@ -1,5 +1,5 @@
 #version 460
-// Two linear images in one: side by side, or how far apart they are. C++ twin of the latter: heatColor() in
+// Shows two linear images side by side, or a map of their difference. C++ twin of the map: heatColor() in
 // engine/render/heat_color.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,5 @@
 #version 460
-// A linear image as a display takes it, over an even background. C++ twin: toneMap() in engine/render/tone_map.h.
+// Tone-maps a linear image, over a uniform background. C++ twin: toneMap() in engine/render/tone_map.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/tone_map.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// A triangle that covers the whole image.
+// Draws a triangle that covers the whole image.
 void main() {
     gl_Position = vec4(gl_VertexIndex == 1 ? 3 : -1, gl_VertexIndex == 2 ? 3 : -1, 0, 1);
 }

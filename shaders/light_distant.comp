@@ -1,5 +1,5 @@
 #version 460
-// Adds distant lights to the lighting cube, whose texels are each named once.
+// Adds distant lights to the lighting cube. Each texel occurs in one tap at most, so that invocations do not collide.
 // C++ twin: addDistantLights() in engine/light/distant_light.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

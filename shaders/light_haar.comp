@@ -1,5 +1,5 @@
 #version 460
-// Orthonormal 2D Haar transform of the lighting cube: a work-group per face and channel.
+// Applies the orthonormal 2D Haar transform to the lighting cube: a work-group per face and channel.
 // C++ twin: haarForward() in engine/math/haar.h.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/light.h"
@@ -9,7 +9,7 @@ layout(constant_id = 0) const uint kSize = 64;
 layout(binding = 0, std430) readonly buffer Radiance { float radiance[]; };
 layout(binding = 1, std430) writeonly buffer Coefficients { float coefficients[]; };
 
-// Averages of the level before and of this level, in turn.
+// The averages of the previous and of this level, alternating.
 const uint kHalf = kSize / 2;
 shared float averages[2][kHalf * kHalf];
 
@@ -42,7 +42,7 @@ void main() {
                 c = averages[1 - level][from + 2 * side];
                 d = averages[1 - level][from + 2 * side + 1];
             }
-            // In the twin's order of operations: the same bits.
+            // In the twin's order of operations, for the same bits.
             precise const float average = 0.5 * (a + b + c + d), right = 0.5 * (a - b + c - d);
             precise const float down = 0.5 * (a + b - c - d), both = 0.5 * (a - b - c + d);
             averages[level][block] = average;

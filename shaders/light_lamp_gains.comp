@@ -1,5 +1,5 @@
 #version 460
-// What each lamp's coverage is multiplied by, so that its solid angle is exact: a work-group per lamp.
+// Computes the factor on each lamp's coverage that makes its solid angle exact: a work-group per lamp.
 // C++ twin: addLamp() in engine/light/lamp.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,9 +1,10 @@
 #version 460
-// Selects the light's coefficients, quantizes them into a dense table of zeros elsewhere, and says what that cost and
-// how the table differs from that of the light before.
-// One work-group, in passes over all: the maxima, the selection, the sums that guard the range, the values. All that
-// decides a value is integer, or a float product that is exact or rounded once.
-// C++ twin: makeLightVector() in engine/light/light_vector.h, where the steps are numbered.
+// Selects the light's coefficients, quantizes them into a dense table that is zero elsewhere, and measures what that
+// lost and how the table differs from that of the light before.
+// One work-group makes several passes over all coefficients: for the maxima, the selection, the sums that guard the
+// range, and the values. Everything that decides a value is an integer, or a float product that is exact or rounded
+// once.
+// C++ twin: makeLightVector() in engine/light/light_vector.h, which numbers the steps.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/light_packing.glsl"
@@ -13,18 +14,18 @@ const uint kGroup = 128;
 layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Push { LightQuantizePush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; };
-layout(binding = 1, scalar) buffer Table { PackedLight table[]; }; // the light, then its changes
+layout(binding = 1, scalar) buffer Table { PackedLight table[]; }; // the light's entries, then their changes
 layout(binding = 2, scalar) buffer Stats { LightStats stats; };
-// What entries are selected by, kept by the first pass; every lane reads those that it wrote.
+// The weights by which entries are selected, stored by the first pass. Every lane reads those that it wrote.
 layout(binding = 3, scalar) buffer Weights { uint weights[]; };
 
 shared uvec3 partial[kGroup];
 shared vec2 energies[kGroup];
 shared uint bins[kGroup];
-shared uvec2 chosen; // a bin, and how many of its entries are still to be kept
+shared uvec2 chosen; // a bin, and how many of its entries remain to be kept
 
-// Magnitudes are compared as the bits of their floats, which are in the same order.
-const uint kExponent = 23; // where it starts
+// Magnitudes are compared as the bits of their floats, which have the same order.
+const uint kExponent = 23; // lowest bit of the exponent
 const uint kLeastNormal = 1u << kExponent;
 
 uint largest(uvec3 v) { return max(v.r, max(v.g, v.b)); }
@@ -41,7 +42,7 @@ uint weightOf(uint index, uint magnitude) {
     return magnitude >= fall + kLeastNormal ? magnitude - fall : 0;
 }
 
-// The largest |component| of all coefficients, and the largest weight. Fills `weights`.
+// Returns the largest |component| of all coefficients, and the largest weight. Fills `weights`.
 uvec2 groupMaxima(uint lane) {
     uvec2 found = uvec2(0);
     for (uint i = lane; i < push.coefficients; i += kGroup) {
@@ -58,17 +59,17 @@ uvec2 groupMaxima(uint lane) {
     return partial[0].xy;
 }
 
-// Entries in the order of selection: by weight, and of equals the one of lower index first.
+// Returns an entry's rank for selection: by weight, and of equals the one of lower index first.
 uvec2 rankOf(uint index) { return uvec2(weights[index], push.coefficients - 1 - index); }
 
-// The least rank that is kept.
+// Returns whether a rank is at least `least`.
 bool isKept(uvec2 rank, uvec2 least) {
     return rank.x > least.x || (rank.x == least.x && rank.y >= least.y);
 }
 
-// The rank of the entry number push.count: found digit by digit, from the highest, by counting the entries whose
-// digits before are those found.
-const uint kDigitBits = 7; // 2^7 bins: one a lane
+// Returns the rank of entry number push.count, found digit by digit from the highest: counts the entries that share
+// the digits found so far, by their next digit.
+const uint kDigitBits = 7; // 2^7 bins: one per lane
 uvec2 selectByCount(uint lane) {
     uvec2 found = uvec2(0);
     uint remaining = push.count;
@@ -84,7 +85,7 @@ uvec2 selectByCount(uint lane) {
                 if (follows) atomicAdd(bins[(value >> shift) & (kGroup - 1)], 1);
             }
             barrier();
-            // Entries in this bin and all above.
+            // Number of entries in this bin and all above.
             for (uint step = 1; step < kGroup; step *= 2) {
                 const uint above = lane + step < kGroup ? bins[lane + step] : 0;
                 barrier();
@@ -92,7 +93,7 @@ uvec2 selectByCount(uint lane) {
                 barrier();
             }
             const uint above = lane + 1 < kGroup ? bins[lane + 1] : 0;
-            if (lane == 0) chosen = uvec2(0, remaining); // where there are fewer
+            if (lane == 0) chosen = uvec2(0, remaining); // if there are fewer entries
             barrier();
             if (above < remaining && bins[lane] >= remaining) chosen = uvec2(lane, remaining - above);
             barrier();
@@ -103,27 +104,27 @@ uvec2 selectByCount(uint lane) {
     return found;
 }
 
-// The exponent field of the smallest power of two of which `magnitude` is at most 32767: 14 below its own, or 13
-// if its mantissa is above that of 32767, 0x7ffe00.
+// Returns the exponent field of the smallest power of two of which `magnitude` is at most 32767 multiples: 14 below
+// its own, or 13 if its mantissa is above that of 32767, 0x7ffe00.
 uint stepExponent(uint magnitude) { return max((magnitude + 0x1ffu) >> kExponent, 15u) - 14u; }
 
 float inverseOf(uint exponent) { return uintBitsToFloat((254u - exponent) << kExponent); }
 
-// In steps, of which `inverse` is one part: a product with a power of two.
+// Returns magnitudes in units of the step; `inverse` is its reciprocal, a power of two.
 vec3 placesOf(uint index, float inverse) { return uintBitsToFloat(magnitudesOf(index)) * inverse; }
 
-// To nearest, halves away from zero. Floor and rest are exact.
+// Rounds to nearest, halves away from zero. Floor and rest are exact.
 uvec3 quantize(vec3 places) {
     const vec3 whole = floor(places);
     return uvec3(whole) + uvec3(greaterThanEqual(places - whole, vec3(0.5)));
 }
 
-// The largest channel's sum of magnitudes over the kept coefficients.
+// Returns the largest channel's sum of magnitudes over the kept coefficients.
 uint groupMagnitude(uint lane, uvec2 least, float inverse) {
     uvec3 sum = uvec3(0);
     for (uint i = lane; i < push.coefficients; i += kGroup)
         if (isKept(rankOf(i), least)) sum += quantize(placesOf(i, inverse));
-    barrier(); // what was there before has been read
+    barrier(); // all lanes have read the values before
     partial[lane] = sum;
     barrier();
     for (uint step = kGroup / 2; step > 0; step /= 2) {
@@ -135,7 +136,7 @@ uint groupMagnitude(uint lane, uvec2 least, float inverse) {
 
 bool fits16(ivec3 value) { return all(lessThanEqual(abs(value), ivec3(32767))); }
 
-// Of counts of changes.
+// Adds counts of changes, either of which may be unknown.
 uint addChange(uint a, uint b) { return max(a, b) == kUnknownChange ? kUnknownChange : a + b; }
 
 void main() {
@@ -153,7 +154,7 @@ void main() {
     const float inverse = inverseOf(exponent);
     const float scale = maxima.x > 0 ? uintBitsToFloat(exponent << kExponent) : 0;
     const bool isSameScale = stats.scale == scale;
-    vec2 energy = vec2(0); // before, and lost
+    vec2 energy = vec2(0); // total, and lost
     uint kept = 0, changed = 0;
     for (uint i = lane; i < push.coefficients; i += kGroup) {
         const vec3 places = placesOf(i, inverse);

@@ -1,6 +1,6 @@
 #version 460
-// Mean radiance of each texel of the lighting cube: a weighted sum over the pixels of its footprint in a
-// prepared latitude-longitude map, turned by interpolating between columns. Several maps add up.
+// Computes the mean radiance of each texel of the lighting cube: a weighted sum over the pixels of its footprint in a
+// prepared latlong map, turned by interpolating between columns. Several maps add up.
 // C++ twin: sampleEnvironment() in engine/light/light_cube.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

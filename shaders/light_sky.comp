@@ -1,5 +1,5 @@
 #version 460
-// Adds the day sky to the lighting cube, without the sun's disc.
+// Adds the day sky, without the sun's disc, to the lighting cube.
 // C++ twin: addSky() in engine/light/day_sky.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LightSky sky; };
 layout(binding = 0, scalar) buffer Radiance { vec3 radiance[]; };
 
-const uint kCells = 2; // of a texel's side
+const uint kCells = 2; // along a texel's side
 
 void main() {
     const uint index = gl_GlobalInvocationID.x, mask = (1u << sky.sideBits) - 1;

@@ -1,6 +1,6 @@
 #version 460
-// Quantizes each row's selected coefficients to 11/11/10 bits against its largest component, and counts
-// those that do not become zero. One group a row. CPU twin: packRow in precompute/twins/transport_twin.h.
+// Quantizes each row's selected coefficients to 11/11/10 bits against its largest component, and counts those that do
+// not become zero. One work-group per row. CPU twin: packRow() in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/haar_block.glsl"
@@ -12,9 +12,9 @@ layout(constant_id = 0) const uint kFaceSize = 64; // F
 
 layout(push_constant, scalar) uniform Push { RowsPush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; }; // lib/haar_block.glsl
-layout(binding = 1, scalar) readonly buffer Selected { uint selected[]; }; // N places a row
+layout(binding = 1, scalar) readonly buffer Selected { uint selected[]; }; // N per row
 layout(binding = 2, scalar) readonly buffer SelectedCounts { uint selectedCounts[]; };
-layout(binding = 3, scalar) writeonly buffer Values { uint values[]; }; // N places a row
+layout(binding = 3, scalar) writeonly buffer Values { uint values[]; }; // N per row
 layout(binding = 4, scalar) writeonly buffer Counts { uint counts[]; }; // entries that are not zero
 layout(binding = 5, scalar) writeonly buffer Scales { float scales[]; };
 layout(binding = 6, scalar) buffer Statistics { RowStatistics statistics[]; };

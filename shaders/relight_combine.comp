@@ -1,7 +1,8 @@
 #version 460
-// Tuples of a cluster's vertices in one term: the projections of its basis vectors times the vertices' weights, summed
-// in the order of the components, kind after kind. Eight vertices an invocation, so that a projection serves several.
-// Clusters whose projections are as before, or that have none and stay zero, are left out.
+// Computes the tuples of a cluster's vertices in one term: the projections on its basis vectors times the vertices'
+// weights, summed in the order of the components, kind after kind. An invocation does eight vertices, so that a
+// projection serves several. Clusters whose projections have not changed are skipped, as are those that have none,
+// whose tuples stay zero.
 // C++ twin: relight() in precompute/twins/relight_twin.h. Layout: engine/transport/bases/bases_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -37,7 +38,7 @@ void main() {
     const BasisVertices cluster = clusters[number];
     const uint octet = gl_WorkGroupID.x % push.groupsPerTerm * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (octet * kVertices >= cluster.vertices) return;
-    // A channel of eight vertices in two registers.
+    // One channel of eight vertices takes two registers.
     precise vec4 red[2] = vec4[](vec4(0), vec4(0)), green[2] = red, blue[2] = red;
     const BasisTermKinds kinds = termKinds[term];
     for (uint kind = kinds.first; kind < kinds.first + kinds.count; kind++) {

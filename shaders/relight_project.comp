@@ -1,9 +1,8 @@
 #version 460
-// The light on the basis vectors of clusters: exact sums, times the light's scale. A subgroup a cluster and 64 of its
-// components. It reads the columns that the light, or its change, meets: two words of four components a lane, so that
-// larger subgroups read several columns at a time. Sums are integers: those changed any number of times are those made
-// anew.
-// C++ twin: relight() in precompute/twins/relight_twin.h. Layout: engine/transport/bases/bases_relighter.h.
+// Projects the light onto the basis vectors of clusters: exact sums, times the light's scale. A subgroup handles 64
+// components of a cluster. It reads only the columns at which the light, or its change, is not zero, with two words
+// of four components per lane, so that larger subgroups read several columns at a time. Since sums are integers,
+// updating them any number of times gives the same as summing anew.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #ifndef PORTABLE
@@ -13,8 +12,8 @@
 #include "shaders/shared/render.h"
 
 layout(local_size_x_id = 0) in; // a multiple of 8
-layout(binding = 0, std430) readonly buffer Indices { uint indices[]; };    // two columns a word
-layout(binding = 1, scalar) readonly buffer Table { PackedLight table[]; }; // the light, then how it changed
+layout(binding = 0, std430) readonly buffer Indices { uint indices[]; }; // two columns per word
+layout(binding = 1, scalar) readonly buffer Table { PackedLight table[]; }; // the light's entries, then their changes
 layout(binding = 2, scalar) readonly buffer Light { LightStats light; };
 
 const uint kListed = 64;
@@ -22,7 +21,7 @@ shared uint listedColumns[kListed];
 shared ivec3 listedLights[kListed];
 
 #ifdef PORTABLE
-shared uint gMet; // a bit an invocation, of which there are at most 32
+shared uint gMet; // a bit per invocation, of which there are at most 32
 
 uvec4 ballot(bool isMet) {
     if (gl_LocalInvocationID.x == 0) gMet = 0;
@@ -30,7 +29,7 @@ uvec4 ballot(bool isMet) {
     if (isMet) atomicOr(gMet, 1u << gl_LocalInvocationID.x);
     barrier();
     const uint met = gMet;
-    barrier(); // before it is cleared again
+    barrier(); // before gMet is cleared again
     return uvec4(met, 0, 0, 0);
 }
 uint countBelow(uvec4 met) { return bitCount(met.x & (1u << gl_LocalInvocationID.x) - 1); }
@@ -43,8 +42,8 @@ uint countOf(uvec4 met) { return subgroupBallotBitCount(met); }
 
 const uint kLanes = gl_WorkGroupSize.x;
 
-// Lists columns of [next, end) until there are no more or the list may be full, and moves `next` behind those it has
-// looked at. Returns how many are listed; callers go through them between this and a barrier.
+// Lists the active columns in [next, end), at which the light is not zero, until there are no more or the list may be
+// full; moves `next` past those examined. Returns how many are listed; callers use the list before the next barrier.
 uint listColumns(inout uint next, uint end, bool replaces) {
     const uint firstEntry = replaces ? 0 : uint(table.length()) / 2;
     uint listed = 0;
@@ -74,9 +73,9 @@ layout(binding = 3, scalar) readonly buffer Groups { BasisGroup groups[]; };
 layout(binding = 4, std430) readonly buffer Basis { uint basis[]; }; // column after column
 layout(binding = 5, scalar) buffer Sums { ivec3 componentSums[]; };
 layout(binding = 6, scalar) writeonly buffer Projections { vec4 projections[]; };
-layout(binding = 7, std430) writeonly buffer Stamps { uint stamps[]; }; // of clusters: when they last changed
+layout(binding = 7, std430) writeonly buffer Stamps { uint stamps[]; }; // per cluster: the last recording that changed it
 
-const uint kWords = 8; // of a column, that a group reads at a time
+const uint kWords = 8; // words of a column that a work-group reads at a time
 const uint kStreams = kLanes / kWords;
 
 shared ivec3 streamSums[kLanes * 8];
@@ -87,7 +86,7 @@ shared ivec3 streamSums[kLanes * 8];
     sums[first + 2] += bitfieldExtract(word, 16, 8) * value;                                                          \
     sums[first + 3] += (word >> 24) * value;
 
-// Sums [first, first + 4) of components from `component` on.
+// Stores sums [first, first + 4) as those of the components from `component` on.
 #define STORE(component, first)                                                                                       \
     for (uint i = 0; i < 4; i++) {                                                                                    \
         if (!replaces) sums[first + i] += componentSums[component + i];                                               \
@@ -99,7 +98,7 @@ void main() {
     const BasisGroup group = groups[gl_WorkGroupID.x];
     const uint lane = gl_LocalInvocationID.x;
     const uint word = lane % kWords, stream = lane / kWords;
-    // A second word of the same columns: listing these again would cost more.
+    // A lane also reads a second word of the same columns: listing these again would cost more.
     const bool hasWord = group.firstWord + word < group.wordsPerColumn;
     const bool hasSecond = group.firstWord + word + kWords < group.wordsPerColumn;
     const uint end = group.firstColumn + group.columns;

@@ -1,6 +1,6 @@
 #version 460
-// Tuples of transport times light: a row, that is a vertex and a term, per invocation. Sums are exact, so that
-// their order does not show.
+// Computes tuples as transport times light: an invocation per row, that is, per vertex and term. Sums are exact, so
+// that their order does not matter.
 // C++ twin: relight() in precompute/twins/relight_twin.h. Layout: engine/transport/rows/rows_relighter.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -24,7 +24,7 @@ void main() {
     if (row >= push.rows) return;
     ivec3 sum = ivec3(0);
     const uint end = starts[row + 1];
-    // Eight entries in three loads: software devices pay by the load, not by the byte.
+    // Eight entries take three loads: on software devices the cost is per load, not per byte.
     for (uint group = starts[row]; group < end; group++) {
         const uvec4 indices = entries[3 * group];
         const uvec4 first = entries[3 * group + 1], second = entries[3 * group + 2];

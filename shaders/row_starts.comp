@@ -1,5 +1,5 @@
 #version 460
-// Where each row's entries start when rows lie end to end: an exclusive running sum of their counts. One group.
+// Computes where each row's entries start when compacted: an exclusive prefix sum of their counts. One work-group.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/bake.h"

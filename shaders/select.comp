@@ -1,12 +1,13 @@
 #version 460
-// The N coefficients of largest magnitude of each row. Of equal ones the first are kept; zeros never are.
+// Selects the N coefficients of largest magnitude of each row. Of equal ones the first are kept; zeros never are.
 //
-// Squared magnitudes are positive floats, so their bits, here *keys*, sort as they do and a radix search finds
-// the N-th largest. First the largest key of each block: N blocks that hold a key of at least b prove that the
-// N-th largest is. Only blocks that reach b are read then, and of their keys those that reach it are searched.
-// They are few enough, as a rule, to be listed; otherwise all slots of these blocks are gone through again and
-// again. The set of what is kept becomes a bit a coefficient, so that it comes out in order. One group a row.
-// CPU twin: selectLargest in precompute/twins/transport_twin.h.
+// Squared magnitudes are positive floats, so their bits, here called keys, have the same order, and a radix search
+// finds the N-th largest. It starts with the largest key of each block: if N blocks have a key of at least b, the
+// N-th largest is at least b. Only blocks that reach b are then read, and of their keys those that reach it are
+// searched. As a rule these are few enough to be listed; otherwise the search goes through all slots of these blocks
+// repeatedly. The selection is stored as a bit per coefficient, so that it comes out in order. One work-group per
+// row.
+// CPU twin: selectLargest() in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/haar_step.glsl"
@@ -17,9 +18,9 @@ layout(local_size_x_id = 1) in;                    // at most 64
 
 layout(push_constant, scalar) uniform Push { RowsPush push; };
 layout(binding = 0, scalar) readonly buffer Coefficients { vec3 coefficients[]; }; // lib/haar_block.glsl
-layout(binding = 0, std430) readonly buffer Quarters { vec4 quarters[]; };          // the same, quicker to read
+layout(binding = 0, std430) readonly buffer Quarters { vec4 quarters[]; }; // the same, faster to read
 layout(binding = 1, scalar) readonly buffer Summaries { vec2 summaries[]; };        // of blocks
-layout(binding = 2, scalar) writeonly buffer Selected { uint selected[]; }; // N places a row
+layout(binding = 2, scalar) writeonly buffer Selected { uint selected[]; }; // N per row
 layout(binding = 3, scalar) writeonly buffer Counts { uint counts[]; };
 layout(binding = 4, scalar) writeonly buffer Statistics { RowStatistics statistics[]; };
 
@@ -33,13 +34,13 @@ const uint kCapacity = 512; // of the list of keys
 shared uint bins[kBins];
 shared uvec2 laneSums[kLanes];
 shared float laneEnergies[kLanes];
-shared uint blockList[kBlocks]; // those that are read; above 16 bits the slots that reach the bound
-shared uint keyList[kCapacity], slotList[kCapacity]; // what reaches the bound, if it fits: key, 16 · block + slot
-shared uvec2 kept[kWords];                           // a bit a coefficient: larger than the threshold; equal
+shared uint blockList[kBlocks]; // blocks that are read; above 16 bits the slots that reach the bound
+shared uint keyList[kCapacity], slotList[kCapacity]; // candidates, if they fit: key, 16 · block + slot
+shared uvec2 kept[kWords]; // a bit per coefficient: above the threshold; equal to it
 shared uint foundBin, foundAbove, foundCount;
 shared uvec2 total;
 
-// Four bins an octave of squared magnitudes, from 2⁻⁴⁰ to 2²⁴; what lies outside shares the first and the last.
+// Bins of squared magnitudes, four per octave, from 2⁻⁴⁰ to 2²⁴; values outside share the first and the last.
 const uint kBoundShift = 21;
 const int kFirstBound = (127 - 40) * 4;
 uint boundBin(uint key) { return uint(clamp(int(key >> kBoundShift) - kFirstBound, 0, int(kBins) - 1)); }
@@ -50,7 +51,7 @@ uint key(uint row, uint slot) {
     return floatBitsToUint(squaredMagnitude(coefficients[16 * kBlocks * row + slot]));
 }
 
-// Candidate `i`: of the list, or of all slots of the blocks that are read.
+// Return slot and key of candidate `i`: from the list, or among all slots of the blocks that are read.
 uint candidateSlot(uint i, bool isListed) {
     return isListed ? slotList[i] : 16 * (blockList[i / 16] & 0xffff) + i % 16;
 }
@@ -66,8 +67,8 @@ void clearBins() {
     barrier();
 }
 
-// Finds the bin, from the top, in which the running count reaches `wanted` (≥ 1); foundAbove becomes the
-// count in the bins above it. With fewer than `wanted` in all bins, finds bin 0.
+// Finds the bin, from the top, in which the running count reaches `wanted` (≥ 1), and sets foundAbove to the count in
+// the bins above it. If all bins have fewer than `wanted`, finds bin 0.
 void findBin(uint wanted) {
     const uint lane = gl_LocalInvocationID.x;
     const uint run = kBins / kLanes;
@@ -88,7 +89,7 @@ void findBin(uint wanted) {
     barrier();
 }
 
-// The sum over the lanes before this one; `total` becomes the sum over all.
+// Returns the sum over the lanes before this one; sets `total` to the sum over all.
 uvec2 sumBefore(uvec2 value) {
     const uint lane = gl_LocalInvocationID.x;
     laneSums[lane] = value;
@@ -165,8 +166,8 @@ void main() {
     for (uint i = lane; i < (isListed ? candidates : 0); i += kLanes)
         keyList[i] = key(row, slotList[i]);
 
-    // The N-th largest key, digit by digit: `prefix` holds the digits found, `wanted` its rank among the keys
-    // that share them. Where all of these are wanted, the search is over.
+    // Finds the N-th largest key digit by digit. `prefix` holds the digits found, `wanted` the key's rank among those
+    // that share them. If all of these are wanted, the search is over.
     uint prefix = 0, wanted = push.kept;
     bool whole = false;
     for (uint digit = 0; digit < 4 && !whole; digit++) {
@@ -183,7 +184,7 @@ void main() {
         whole = foundCount == wanted;
     }
 
-    // With fewer than N keys that are not zero the search ends at 0: keep all of them.
+    // With fewer than N keys that are not zero the search ends at 0, and all of them are kept.
     const uint threshold = whole ? max(prefix, bound) - 1 : max(prefix, 1);
     for (uint i = lane; i < candidates; i += kLanes) {
         const uint k = candidateKey(row, i, isListed);

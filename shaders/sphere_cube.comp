@@ -1,6 +1,6 @@
 #version 460
-// Downsamples the light cube to faces of kSphereCube² texels, each with a border from its neighbors so that bilinear
-// lookups have no seam, and makes one light of every coarse cell, in the middle of what it emits.
+// Downsamples the lighting cube to faces of kSphereCube² texels, each with a border from its neighbors so that
+// bilinear lookups have no seam, and makes one light of every coarse cell, at the centroid of its radiance.
 // C++ twin: sphereCube() and cellLights() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,7 +13,7 @@ layout(binding = 0, scalar) readonly buffer Radiance { vec3 radiance[]; };
 layout(binding = 1, std430) writeonly buffer Texels { vec4 texels[]; };
 layout(binding = 2, std430) writeonly buffer Lights { vec4 lights[]; }; // direction, and radiance · solid angle
 
-// Mean radiance of a texel of kSphereCube a side.
+// Returns the mean radiance of a texel, of kSphereCube a side.
 vec3 meanOf(uint face, uvec2 texel) {
     const uint side = push.faceSize / kSphereCube;
     vec3 sum = vec3(0);

@@ -1,5 +1,6 @@
 #version 460
-// The light about every view direction that spheres are made for: a polar map of radiance times solid angle.
+// Resamples the light about every view direction for which spheres are made: a polar map of radiance times solid
+// angle.
 // C++ twin: polarLight() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lib/cubemap.glsl"
@@ -8,12 +9,11 @@
 #include "shaders/shared/sphere.h"
 
 layout(local_size_x = 32) in;
-layout(binding = 0) uniform sampler2DArray cube; // kSphereCube² and a border
-TEXELS(1, vec4, samplerBuffer, Nodes, nodes); // axis and side, two texels a node
+layout(binding = 0) uniform sampler2DArray cube; // kSphereCube² texels and a border
+TEXELS(1, vec4, samplerBuffer, Nodes, nodes); // axis and side, two texels per node
 layout(binding = 2, std430) writeonly buffer Polar { vec4 polar[]; };
 
-// Samples of a cell on either side: closer than texels, so that bilinear lookups sum to about the same wherever a light
-// is.
+// Samples along a side of a cell: closer than texels, so that lookups sum to about the same wherever a light is.
 const uint kSide = 2;
 
 void main() {

@@ -1,7 +1,8 @@
 #version 460
-// Multiplies the light's spectrum with the kernel, frequency by frequency: a convolution in the azimuth about the view
-// direction is a product of Fourier coefficients, a matrix over rings. Four rows of a component for two nodes an invocation.
-// C++ twin: litSpheres() in precompute/twins/lit_sphere_twin.h, which has these passes as one sum.
+// Multiplies the light's spectrum with the kernel, frequency by frequency: a convolution in the azimuth about the
+// view direction is a product of Fourier coefficients, here with a matrix over rings. An invocation does four rows of
+// a component for two nodes.
+// C++ twin: litSpheres() in precompute/twins/lit_sphere_twin.h, which does these passes as one sum.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/texels.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Azimuthal Fourier coefficients of polar light, Σ L e^(-imφ), m from 0: eight frequencies of a ring an invocation.
-// C++ twin: litSpheres() in precompute/twins/lit_sphere_twin.h, which has these passes as one sum.
+// Computes the azimuthal Fourier coefficients of polar light, Σ L e^(-imφ), from m = 0: eight frequencies of a ring
+// per invocation.
+// C++ twin: litSpheres() in precompute/twins/lit_sphere_twin.h, which does these passes as one sum.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/polar_map.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Spheres from Fourier coefficients: four rows and four azimuths an invocation, of one harmonic of the view's azimuth.
-// Harmonic 0 is real.
-// C++ twin: litSpheres() in precompute/twins/lit_sphere_twin.h, which has these passes as one sum.
+// Synthesizes spheres from Fourier coefficients: an invocation does four rows and four azimuths, for one harmonic of
+// the view's azimuth. Harmonic 0 is real.
+// C++ twin: litSpheres() in precompute/twins/lit_sphere_twin.h, which does these passes as one sum.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/polar_map.glsl"

@@ -1,11 +1,11 @@
 #version 460
-// Transport of all terms over one cube face of one point, in the Haar basis.
+// Computes the transport of all terms over one cube face of one point, in the Haar basis.
 //
 // A lane takes a block of 4×4 lighting texels that light reaches, evaluates light map × cosine × solid angle ×
-// visible fraction, and goes two levels deep; what the terms share, where to look and with which weight, it
-// finds once. Then lanes take 4×4 averages, and then the face's last blocks. Blocks are taken from a list: lanes
-// that had nothing to do would cost software devices as much as those that work.
-// CPU twins: transportVector and haarForwardFaces in precompute/twins/transport_twin.h.
+// visible fraction, and transforms it by two levels. The places and weights of lookups, which all terms share, are
+// found once. Then lanes take blocks of 4×4 averages, and then the face's last blocks. Blocks come from a list: idle
+// lanes would cost software devices as much as busy ones.
+// CPU twins: transportVector() in precompute/twins/transport_twin.h, haarForwardFaces() in engine/math/haar.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/cubemap.glsl"
@@ -15,9 +15,9 @@
 #include "shaders/lib/texels.glsl"
 #include "shaders/shared/bake.h"
 
-layout(constant_id = 0) const uint kFaceSize = 64;       // F, lighting texels a side
+layout(constant_id = 0) const uint kFaceSize = 64; // F, lighting texels along a side
 layout(constant_id = 1) const uint kVisibilitySize = 256; // a multiple of F, at most 8 F
-layout(constant_id = 2) const uint kSamplesPerSide = 1;  // evaluations a side of a lighting texel
+layout(constant_id = 2) const uint kSamplesPerSide = 1; // evaluations along a lighting texel's side
 layout(constant_id = 3) const uint kMapSize = 48;
 layout(constant_id = 4) const uint kMapping = 0;
 layout(constant_id = 5) const uint kTerms = 4; // K, of all dispatches
@@ -26,39 +26,39 @@ layout(local_size_x_id = 6) in;
 layout(push_constant, scalar) uniform Push { TransportPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Visible { uint visible[]; };
-// Texel ((y (S + 1) + x) K + term) 3 + channel: the four corners of a lookup between the map's texels x - 1 and x,
-// y - 1 and y. A buffer, not an image: software devices find the place in an image anew, level and layer and
-// all, for each fetch.
+// Texel ((y (S + 1) + x) K + term) 3 + channel has the four corners of a lookup between the map's texels x - 1 and x,
+// y - 1 and y. It is a buffer, not an image, because software devices compute an image's address anew, with level and
+// layer, for each fetch.
 TEXELS(2, vec4, samplerBuffer, Corners, corners);
 layout(binding = 3, std430) coherent buffer Coefficients { vec4 coefficients[]; }; // lib/haar_block.glsl
 layout(binding = 4, scalar) writeonly buffer Summaries { vec2 summaries[]; };      // of blocks
 
 const uint kLanes = gl_WorkGroupSize.x;
-const uint kBlocks = kFaceSize / 4; // a side
+const uint kBlocks = kFaceSize / 4; // along a side
 const uint kFaceBlocks = kBlocks * kBlocks;
 const uint kRowBlocks = HAAR_BLOCKS(kFaceSize);
-const uint kCoarse = kFaceSize / 16; // blocks a side, of the second stage
+const uint kCoarse = kFaceSize / 16; // blocks of the second stage along a side
 const uint kCoarseBlocks = kCoarse * kCoarse;
 const uint kRatio = kVisibilitySize / kFaceSize;
-const uint kCell = kRatio / kSamplesPerSide; // visibility texels a side of one evaluation
-const uint kBlockBits = 4 * kRatio;          // a side
+const uint kCell = kRatio / kSamplesPerSide; // visibility texels along a side of one evaluation
+const uint kBlockBits = 4 * kRatio; // visibility texels along a side of a block
 const uint kWordsPerLine = kVisibilitySize / 32;
-// Without a loop over terms, the places of all 16 lookups need not be kept: a quarter faster on lavapipe.
+// Without a loop over terms, the places of all 16 lookups need not be stored, which is a quarter faster on lavapipe.
 const bool kOneTerm = kTerms == 1;
 
-// The face's blocks: reached ones from the front, in any order, the others from the back.
+// The face's blocks: those that light reaches from the front, in any order, the others from the back.
 shared uint blockList[kFaceBlocks];
 shared uint reachedBlocks, otherBlocks;
 shared vec3 averages[kTerms * kCoarseBlocks]; // of the second stage
-uint lines[kBlockBits];                       // a block's visibility, a word a line: its lowest bits
+uint lines[kBlockBits]; // a block's visibility: a word per line, in its lowest bits
 
-// Where a lookup finds its corners and what each counts for.
+// The corners of a lookup in `corners`, and their weights.
 struct Place {
-    int texel; // of the first term's red
+    int texel; // texel of the first term's red
     vec4 weights;
 };
 
-// `cell` counts evaluations from the block's first.
+// Returns the place of evaluation number `cell` of a block.
 Place placeOf(uvec2 block, uvec2 cell, uint face, mat3 frame) {
     const float cellWidth = 2.0 / float(kFaceSize * kSamplesPerSide);
     uint count = 0;
@@ -75,7 +75,8 @@ Place placeOf(uvec2 block, uvec2 cell, uint face, mat3 frame) {
                  weight * vec4(left.x * left.y, right.x * left.y, left.x * right.y, right.x * right.y));
 }
 
-// Three fetches of four corners: samplers round weights to 8 bits on many devices, and CPU twins do not.
+// Looks up with three fetches of four corners each. Many devices round a sampler's weights to 8 bits, and CPU twins
+// do not.
 vec3 weightedLookup(Place place, uint term) {
     const int texel = place.texel + 3 * int(term);
     return vec3(dot(texelOf(corners, texel), place.weights), dot(texelOf(corners, texel + 1), place.weights),
@@ -149,13 +150,13 @@ void main() {
     for (uint entry = lane; entry < otherBlocks; entry += kLanes)
         for (uint term = 0; term < push.terms; term++) {
             const uint place = (firstRow + term) * kRowBlocks + firstBlock + blockList[kFaceBlocks - 1 - entry];
-            coefficients[12 * place + 11] = vec4(0); // with the average
+            coefficients[12 * place + 11] = vec4(0); // includes the average
             summaries[place] = vec2(0);
         }
     memoryBarrierBuffer();
     barrier();
 
-    // The stages above.
+    // The coarser stages.
     for (uint i = lane; i < push.terms * kCoarseBlocks; i += kLanes) {
         const uint firstPlace = (firstRow + i / kCoarseBlocks) * kRowBlocks, block = i % kCoarseBlocks;
         const uvec2 corner = 4 * uvec2(block % kCoarse, block / kCoarse);

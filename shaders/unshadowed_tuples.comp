@@ -1,5 +1,5 @@
 #version 460
-// Sums the unshadowed tuples of all normals: polar maps about +Y, four terms an invocation.
+// Sums the unshadowed tuples of all normals: polar maps about +Y, four terms per invocation.
 // C++ twin: unshadowedTuples() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -27,7 +27,7 @@ void main() {
     const mat2 turned = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
     const mat3 frame = mat3(turned) * (side == 0 ? tangentFrame(normal) : lowerTangentFrame(normal));
     const uint images = push.isGray != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
-    vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples lie in memory
+    vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples are stored
     for (int light = 0; light < int(kTupleLights); light++) {
         const vec3 local = frame * texelOf(lights, 2 * light).xyz;
         if (local.z <= kGrazingCosine) continue;

@@ -1,13 +1,13 @@
 #version 460
-// Keeps the pixels that are to be shaded more than once, for the stencil to mark: those with a sample that is not
-// shaded together with the first, or not covered as it is.
+// Keeps the pixels that are shaded more than once, so that the stencil marks them: those with a sample that is not
+// shaded together with the first, or that differs from it in coverage.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/pixel_samples.glsl"
 #include "shaders/lib/texels.glsl"
 
 layout(push_constant, scalar) uniform Push { ViewEdgesPush push; };
-TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // of the part: three corners and nothing
+TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // of the part: three corners, fourth component unused
 
 bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
 
@@ -18,7 +18,7 @@ uvec3 cornersOf(uint surface) {
 void main() {
     uint seen[kSamples];
     readSamples(seen);
-    // The stencil tells most pixels of other parts before the shader runs.
+    // The stencil rejects most pixels of other parts before the shader runs.
     if (seen[0] != 0 && !isOfPart(seen[0])) discard;
     const uvec3 first = cornersOf(seen[0]);
     bool isEdge = false;

@@ -1,5 +1,5 @@
 #version 460
-// What the mesh is like where a pixel sees it, instead of radiance: its triangles, normals, how dense it is.
+// Shows properties of the mesh instead of radiance: its triangles, its normals, or its density.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/barycentric.glsl"
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push { ViewInspectPush push; };
 #ifdef MULTISAMPLED
 #include "shaders/lib/pixel_samples.glsl"
 #else
-layout(binding = 0) uniform usampler2DArray surfaces; // as view_shade.frag
+layout(binding = 0) uniform usampler2DArray surfaces; // as in view_shade.frag
 #endif
 TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles);
 TEXELS(2, vec4, samplerBuffer, Vertices, vertices);
@@ -19,8 +19,8 @@ layout(location = 0) out vec4 radiance;
 
 const vec3 kLine = vec3(0.9, 0.45, 0.05);
 
-// 1 on a triangle's edges, 0 from a pixel off them; less where triangles are a few pixels high, so that these do
-// not drown in lines.
+// Returns 1 on a triangle's edges and 0 from a pixel off them. Less where triangles are a few pixels high, so that
+// lines do not hide them.
 float edge(vec3 direction, vec3 corners[3], vec3 weights) {
     const vec3 perX = barycentricWeights(push.rays.eye, direction + push.rays.right, corners) - weights;
     const vec3 perY = barycentricWeights(push.rays.eye, direction + push.rays.down, corners) - weights;
@@ -30,13 +30,13 @@ float edge(vec3 direction, vec3 corners[3], vec3 weights) {
     return fade * (1 - clamp(min(min(pixels.x, pixels.y), pixels.z), 0, 1));
 }
 
-// Blue: sixteen times the median area and more; white: the median; red: a sixteenth and less.
+// Returns blue at sixteen times the median area and more, white at the median, red at a sixteenth and less.
 vec3 densityColor(float area) {
     const float density = clamp(log2(push.medianArea / max(area, 1e-30)) / 4, -1, 1);
     return mix(vec3(0.85), density < 0 ? vec3(0.02, 0.1, 0.8) : vec3(0.8, 0.03, 0.02), abs(density));
 }
 
-// Returns the color of a triangle where the ray through a place in the image meets it.
+// Returns the color of a triangle where the ray through a point of the image meets it.
 vec3 colorAt(uint triangle, vec2 place) {
     const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
     const uvec3 numbers = texelOf(triangles, int(triangle)).xyz;

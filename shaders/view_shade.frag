@@ -1,9 +1,9 @@
 #version 460
-// Reflected radiance of the triangle that a pixel sees, where its ray meets it: view maps of the bound layers, looked
-// up in the local view direction, times the interpolated tuple. C++ twins: lookupMap() in
-// engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The sampler does the bilinear lookup;
-// devices may round its weights to 8 bits, which the eye forgives and a bake would not. Buffers are read as texels:
-// on lavapipe that takes a fraction of the time of loads.
+// Computes the radiance reflected at the point where a pixel's ray meets the triangle that it sees: view maps of the
+// bound layers, looked up in the local view direction, times the interpolated tuple. C++ twins: lookupMap() in
+// engine/scene/factored_brdf.h, paintWeights() in engine/render/appearance.h. The sampler does the bilinear lookup:
+// devices may round its weights to 8 bits, which is invisible here, though a bake could not tolerate it. Buffers are
+// read as texels, which on lavapipe takes a fraction of the time of loads.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/barycentric.glsl"
@@ -16,23 +16,23 @@
 #include "shaders/shared/render.h"
 
 layout(constant_id = 0) const uint kTerms = 4;
-layout(constant_id = 1) const bool kGray = false; // all view maps are: ViewMapTexture
+layout(constant_id = 1) const bool kGray = false; // whether all view maps are gray: ViewMapTexture
 layout(constant_id = 2) const uint kLook = 0;
-layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms
-layout(constant_id = 4) const uint kEstimate = 0; // how what the terms leave of the BRDF is added: unshadowed.glsl
-layout(constant_id = 7) const uint kHarmonics = 0;     // most that a bound layer's lit spheres have
-layout(constant_id = 8) const bool kTangents = false;  // frames follow the vertices' tangents, else the normal
+layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms only
+layout(constant_id = 4) const uint kEstimate = 0; // how the residual is added: unshadowed.glsl
+layout(constant_id = 7) const uint kHarmonics = 0; // most harmonics of a bound layer's lit spheres
+layout(constant_id = 8) const bool kTangents = false; // frames follow from vertex tangents; else from normals
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGray ? kQuads : (3 * kTerms + 3) / 4;
 layout(push_constant, scalar) uniform Push { ViewShadePush push; };
 #ifdef MULTISAMPLED
 #include "shaders/lib/pixel_samples.glsl"
-layout(constant_id = 6) const bool kEdges = false; // pixels that are shaded more than once; else the others
+layout(constant_id = 6) const bool kEdges = false; // shades pixels with several groups of samples; else the others
 #else
-layout(binding = 0) uniform usampler2DArray surfaces; // 0: none
+layout(binding = 0) uniform usampler2DArray surfaces; // triangle ids; 0: none
 #endif
-TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // three corners and nothing
+TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // three corners, fourth component unused
 TEXELS(2, vec4, samplerBuffer, Vertices, vertices);     // ViewVertex: kVertexTexels
 #ifdef PORTABLE
 layout(binding = 3, std430) readonly buffer Tuples { float tuples[]; };
@@ -52,12 +52,12 @@ layout(binding = 6) uniform sampler2DArray baseColor;
 layout(binding = 7) uniform sampler2DArray materialMap;
 layout(binding = 13) uniform sampler2DArray normalMap;
 layout(binding = 14) uniform sampler2DArray emissionMap;
-layout(binding = 11) uniform sampler2DArray unshadowedTuples; // three images for each four terms
+layout(binding = 11) uniform sampler2DArray unshadowedTuples; // three images per four terms
 TEXELS(12, vec4, samplerBuffer, IrradianceWeights, irradianceWeights); // laid out as tuples of whole quads
 
 layout(location = 0) out vec4 radiance;
 
-// Four terms of three channels, as they lie in memory; beyond K zero.
+// Four terms of three channels, as they are stored; terms beyond K are zero.
 struct Quad {
     vec4 a, b, c; // rgbr, gbrg, brgb
 };
@@ -78,7 +78,7 @@ Quad mapsOf(vec2 place, uint firstMap, uint quad) {
     return q;
 }
 
-// The first `terms`; the others are zero.
+// Sets all but the first `terms` terms to zero.
 void keepTerms(inout Quad q, uint terms) {
     const vec4 kept = vec4(lessThan(uvec4(0, 1, 2, 3), uvec4(terms)));
     q.a *= kept.xxxy;
@@ -112,7 +112,7 @@ vec3 layerWeight(ViewLayer layer, vec4 paint, vec3 base) {
     return weight;
 }
 
-// Of the first four materials.
+// Returns the weights of the first four materials.
 vec4 paintWeights(Footprint at, vec4 color) {
     if (push.paint == kUnpainted) return vec4(0);
     vec4 paint = push.paint == kPaintedByMap ? textureOver(materialMap, at) : color;
@@ -124,8 +124,8 @@ vec4 paintWeights(Footprint at, vec4 color) {
 // The place of a normal's unshadowed tuple.
 struct TuplePlace {
     vec2 polar;  // about +Y, in [0, 1]
-    uint isBelow; // 1: the turn is from lowerTangentFrame()
-    float turn;  // of the frame from that of the normal, in whole turns; 0 where frames follow from normals
+    uint isBelow; // 1: the turn is relative to lowerTangentFrame()
+    float turn; // rotation of the frame against that of the normal, in turns; 0 without tangents
 };
 
 Quad unshadowedTuple(vec2 place, uint image) {
@@ -150,8 +150,8 @@ Quad unshadowedTuple(TuplePlace at, uint quad) {
     return Quad(mix(a.a, b.a, share), mix(a.b, b.b, share), mix(a.c, b.c, share));
 }
 
-// Returns the unshadowed radiance towards the eye, which `local` is the direction of in the frame; or, as a limit, what
-// normal maps may raise it to.
+// Returns the unshadowed radiance towards the eye, whose direction in the frame is `local`; or, if `isLimit`, the
+// most to which normal maps may raise it.
 vec3 unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
     const SpherePlaces at = spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
     if (kLook == kSingleLook) return push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at);
@@ -170,7 +170,7 @@ vec3 shade(uint triangle, vec3 direction) {
         low[c] = texelOf(vertices, int(corners[c] * kVertexTexels));
         high[c] = texelOf(vertices, int(corners[c] * kVertexTexels + 1));
     }
-    // Moved to the nearest edge if rounding puts them outside.
+    // Weights that rounding puts outside are moved to the nearest edge.
     vec3 weights = barycentricWeights(push.rays.eye, direction, vec3[3](low[0].xyz, low[1].xyz, low[2].xyz));
     weights.yz = clamp(weights.yz, 0, 1);
     weights.yz /= max(1, weights.y + weights.z);
@@ -178,7 +178,7 @@ vec3 shade(uint triangle, vec3 direction) {
 
     vec3 normal = vec3(0);
     for (int c = 0; c < 3; c++) normal += weights[c] * vec3(low[c].w, high[c].xy);
-    // Opposite normals can cancel out on a fold; any direction does there.
+    // Opposite normals can cancel out on a fold, where any direction will do.
     normal = dot(normal, normal) < 1e-12 ? vec3(0, 1, 0) : normalize(normal);
     mat3 frame = tangentFrame(normal);
     vec3 tangent = vec3(0);
@@ -196,7 +196,7 @@ vec3 shade(uint triangle, vec3 direction) {
 
     vec4 paint = vec4(0);
     vec3 base = vec3(0), emitted = vec3(0);
-    mat3 mapped = frame; // of the normal that is seen; transport knows that of the vertices
+    mat3 mapped = frame; // frame of the mapped normal; transport is in that of the vertices
     vec3 seen = local;
     if (kLook == kSurfaceLook) {
         const vec3 corner[3] = vec3[3](low[0].xyz, low[1].xyz, low[2].xyz);
@@ -226,14 +226,14 @@ vec3 shade(uint triangle, vec3 direction) {
     }
     vec3 exact = vec3(0);
     if (kEstimate != kTermsAlone) {
-        // Mapped normals may face light below the surface's horizon, of which no visibility is known. They raise the
-        // radiance no more than by the concentration of its kernel, which is too little where a low sun is all.
+        // Mapped normals may face light below the surface's horizon, for which there is no visibility. They raise the
+        // radiance at most by the concentration of its kernel, which is too little if a low sun is the only light.
         exact = unshadowedAt(direction, mapped, seen, paint, base, false);
         if (kLook == kSurfaceLook && detail.normalScale != 0)
             exact = min(exact, unshadowedAt(direction, frame, local, paint, base, true));
         if (kEstimate == kUnshadowed) return exact + emitted;
         tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
-        // At -Y tangentFrame() has no direction of its own, and takes that of the frames at this azimuth.
+        // At -Y tangentFrame() is singular, and equals the frames at this azimuth.
         if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
     }
 
@@ -299,7 +299,7 @@ float groundCoverage(uint triangle, vec3 direction) {
     return share * share;
 }
 
-// Returns the radiance where the ray through a place in the image meets the triangle, premultiplied by coverage.
+// Returns the radiance where the ray through a point of the image meets the triangle, premultiplied by coverage.
 vec4 shadeAt(uint triangle, vec2 place) {
     const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
     const float coverage = groundCoverage(triangle, direction);
@@ -310,8 +310,8 @@ bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces
 
 #ifdef MULTISAMPLED
 
-// Sums the part's groups of samples, each premultiplied by its share: the first sample left, with all whose triangles
-// share a vertex with its own.
+// Sums the part's groups of samples, each times its share of the pixel. A group is the first sample left, with all
+// whose triangles share a vertex with its own.
 vec4 shadeEdge(uint seen[kSamples]) {
     uvec3 corners[kSamples];
     uint left = 0;
@@ -341,7 +341,7 @@ void main() {
         radiance = shadeEdge(seen);
         return;
     }
-    // All samples are one group, and its mean position the center.
+    // All samples are one group, whose mean position is the center.
     const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
     if (!isOfPart(surface)) discard;
     radiance = shadeAt(surface - push.firstSurface, gl_FragCoord.xy);
@@ -351,7 +351,7 @@ void main() {
 
 void main() {
     const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
-    // The stencil tells most pixels of other parts before the shader runs.
+    // The stencil rejects most pixels of other parts before the shader runs.
     if (!isOfPart(surface)) discard;
     radiance = shadeAt(surface - push.firstSurface, gl_FragCoord.xy);
 }

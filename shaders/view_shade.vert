@@ -1,5 +1,5 @@
 #version 460
-// The rectangle of pixels that a part may cover.
+// Draws the rectangle of pixels that a part may cover.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/render.h"

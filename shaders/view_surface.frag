@@ -1,5 +1,5 @@
 #version 460
-// Which triangle is seen.
+// Writes the triangle id to the visibility buffer.
 layout(location = 0) flat in uint surface;
 layout(location = 0) out uint seen;
 

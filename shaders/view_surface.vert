@@ -1,5 +1,6 @@
 #version 460
-// A triangle's first vertex says which it is: positions are numbered so (engine/render/numbered_triangles.h).
+// Transforms positions of the visibility buffer. A triangle's first vertex gives its id: positions are numbered so
+// (engine/render/numbered_triangles.h).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/render.h"

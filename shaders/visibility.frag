@@ -1,5 +1,5 @@
 #version 460
-// A covered texel is blocked.
+// Marks a covered texel as blocked.
 layout(location = 0) out uint blocked;
 
 void main() { blocked = 1; }

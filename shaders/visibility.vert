@@ -1,5 +1,5 @@
 #version 460
-// Rasterizes the occluder into one cube face of one point; the instance says which layer.
+// Rasterizes the occluder into one cube face of one point; the instance gives the layer.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_ARB_shader_viewport_layer_array : require
@@ -11,7 +11,7 @@ layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Layers { uint instanceLayers[]; };
 
-invariant gl_Position; // visibility.vert and visibility_face.vert give the same bits
+invariant gl_Position; // visibility.vert and visibility_face.vert must give the same bits
 
 void main() {
     const uint layer = instanceLayers[gl_InstanceIndex];

@@ -1,7 +1,7 @@
 #version 460
-// Decides which clusters of the occluder are drawn into which cube faces: a cluster is left out when its
-// bounding box lies wholly below the point's horizon, behind the face, or outside the face's pyramid, or when it
-// is part of a closed surface and shows the point front faces only.
+// Decides which clusters of the occluder are drawn into which cube faces. A cluster is left out if its bounding box
+// is wholly below the point's horizon, behind the face, or outside the face's pyramid, or if it is part of a closed
+// surface and shows the point front faces only.
 // The order of instances is not deterministic, but the image is: every triangle writes the same value.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,8 +10,8 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kCull = true; // false: every cluster is drawn into every face
-// All layers are drawn at once, a draw a cluster, an instance a layer that it shows in. False: one by one, a
-// draw a layer and cluster.
+// True: all layers are drawn at once, with a draw per cluster and an instance per layer that it is visible in. False:
+// layers are drawn one by one, with a draw per layer and cluster.
 layout(constant_id = 1) const bool kLayered = true;
 layout(push_constant, scalar) uniform Push { CullPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };

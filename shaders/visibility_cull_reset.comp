@@ -1,5 +1,5 @@
 #version 460
-// Starts every cluster's indirect draw with no instances.
+// Resets every cluster's indirect draw to no instances.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/bake.h"

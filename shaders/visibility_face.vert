@@ -1,5 +1,5 @@
 #version 460
-// Rasterizes the occluder into the cube face of one point that the push constant says: for devices whose vertex
+// Rasterizes the occluder into the cube face of one point that the push constant gives, for devices whose vertex
 // shaders cannot choose a layer.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 
-invariant gl_Position; // visibility.vert and visibility_face.vert give the same bits
+invariant gl_Position; // visibility.vert and visibility_face.vert must give the same bits
 
 void main() {
     gl_Position = visibilityClip(positions[gl_VertexIndex], points[push.layer / 6], push.layer % 6, push);

@@ -1,5 +1,6 @@
 #version 460
-// One bit per texel: free and above the point's horizon. Bit i of a word is texel i of its 32, row by row.
+// Packs visibility to one bit per texel: whether it is free and above the point's horizon. Bit i of a word is texel i
+// of its 32, row by row.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/lib/cubemap.glsl"
@@ -13,7 +14,7 @@ layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, std430) readonly buffer Blocked { uvec4 blocked[]; }; // bytes, 0 or 1
 layout(binding = 2, std430) writeonly buffer Visible { uint visible[]; };
 
-// Bit 8i of `bytes` to bit i.
+// Moves bit 8i of `bytes` to bit i.
 uint gather(uint bytes) { return (bytes * 0x01020408u) >> 24 & 0xfu; }
 uint gather(uvec4 bytes) {
     return gather(bytes.x) | gather(bytes.y) << 4 | gather(bytes.z) << 8 | gather(bytes.w) << 12;

@@ -1,11 +1,11 @@
 #version 460
-// Traces the rays of one tile of a point's visibility cube together, as a packet. One subgroup a tile.
+// Traces the rays of one tile of a point's visibility cube together, as a packet. One subgroup per tile.
 //
-// The packet walks a hierarchy of boxes from near to far. Eight lanes share a node, a child each: it is left
-// out where it lies below the horizon, outside the tile's pyramid, or where all rays that could meet it are
-// blocked already. In a leaf each lane takes a triangle and finds, row by row, which rays meet it: a ray
-// (u, v, 1) does where it lies on the inner side of the three planes through the point and an edge. Two triangles
-// that share an edge compute the same border, and both include it, so that no ray slips between them.
+// The packet traverses a hierarchy of boxes from near to far. Eight lanes share a node, a child each: it is skipped
+// if it is below the horizon, outside the tile's pyramid, or if all rays that could meet it are blocked already. In a
+// leaf each lane takes a triangle and finds, row by row, which rays meet it: a ray (u, v, 1) does if it is on the
+// inner side of the three planes through the point and an edge. Two triangles that share an edge compute the same
+// border, and both include it, so that no ray slips between them.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -22,45 +22,45 @@ layout(local_size_x_id = 3) in; // the device's subgroup size: 8 to 64, a multip
 layout(push_constant, scalar) uniform Push { TracePush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
 layout(binding = 1, std430) readonly buffer Nodes { vec4 children[]; };    // BvhChild: two vectors each
-layout(binding = 2, std430) readonly buffer Triangles { vec4 corners[]; }; // three a triangle
+layout(binding = 2, std430) readonly buffer Triangles { vec4 corners[]; }; // three per triangle
 layout(binding = 3, scalar) writeonly buffer Visible { uint visible[]; };
-layout(binding = 4, scalar) buffer Unfinished { uint unfinished; }; // packets that were not traced to the end
+layout(binding = 4, scalar) buffer Unfinished { uint unfinished; }; // number of packets that were not traced to the end
 
 const uint kWidth = 32; // rays of a tile's row
 const uint kTilesPerRow = kSize / kWidth;
 const uint kTilesPerFace = kTilesPerRow * (kSize / kHeight);
 
-shared uint blocked[kHeight]; // a word a row, a bit a ray; below the horizon too
+shared uint blocked[kHeight]; // a word per row, a bit per ray; set below the horizon too
 shared uint stack[kStackSize];
 
-// The tile. All are uniform.
+// The tile. All values are uniform in the subgroup.
 float gHalfSize; // texels per unit of a face coordinate
 uint gFace;
 ivec2 gFirst;     // texel
 vec2 gLow, gHigh; // borders, in face coordinates
 vec3 gOrigin;     // the point and its normal, in face coordinates
 vec3 gNormal;
-vec3 gSigns; // of swizzled axes
+vec3 gSigns; // signs of the swizzled axes
 
-// v * kFaceAxes[gFace], without the products that are zero.
+// Return v * kFaceAxes[gFace] without the products that are zero; swizzle() omits the signs.
 vec3 swizzle(vec3 v) { return gFace < 2 ? v.zyx : gFace < 4 ? v.xzy : v; }
 vec3 toFace(vec3 v) { return swizzle(v) * gSigns; }
 
-// The tile's texels whose centers lie between face coordinates, or a thousandth of a texel beyond.
+// Finds the tile's texels whose centers are between face coordinates, or up to a thousandth of a texel beyond.
 void reach(vec2 low, vec2 high, out ivec2 first, out ivec2 last) {
     first = max(ivec2(ceil((max(low, -2) + 1) * gHalfSize - 0.501)) - gFirst, ivec2(0));
     last = min(ivec2(floor((min(high, 2) + 1) * gHalfSize - 0.499)) - gFirst, ivec2(kWidth - 1, kHeight - 1));
 }
 
-// The bits of a row's texels from first to last.
+// Returns the bits of a row's texels from first to last.
 uint spanBits(int first, int last) { return (0xffffffffu >> (31 - (last - first))) << first; }
 
-// Whether a box can block a ray that is still free.
+// Returns whether a box can block a ray that is still free.
 bool mayBlock(vec3 low, vec3 high) {
     if (!(low.x <= high.x)) return false;
     const vec3 center = toFace(0.5 * (low + high)) - gOrigin;
     vec3 extent = swizzle(0.5 * (high - low));
-    extent += 1e-6 * (abs(center) + extent); // rounding must not leave out what could block
+    extent += 1e-6 * (abs(center) + extent); // a margin, so that rounding leaves nothing out that could block
     const float near = center.z - extent.z, far = center.z + extent.z;
     if (far <= 0) return false;
     if (dot(gNormal, center) + dot(abs(gNormal), extent) <= 0) return false;
@@ -97,8 +97,8 @@ void blockTriangle(uint triangle) {
         if (first.x > last.x || first.y > last.y) return;
     }
 
-    // The planes through the point and an edge: x u + y v + z is positive on their inner side. The order of
-    // operations makes an edge's plane the negative of itself when its ends are exchanged.
+    // The planes through the point and an edge: x u + y v + z is positive on the inner side. The order of operations
+    // makes an edge's plane exactly the negative of itself when its ends are exchanged.
     precise vec3 bc = b.yzx * c.zxy - b.zxy * c.yzx;
     precise vec3 ca = c.yzx * a.zxy - c.zxy * a.yzx;
     precise vec3 ab = a.yzx * b.zxy - a.zxy * b.yzx;
@@ -114,7 +114,7 @@ void blockTriangle(uint triangle) {
         const float v = (float(gFirst.y + row) + 0.5) / gHalfSize - 1;
         precise vec3 rest = y * v + z;
         precise vec3 border = rest * scale; // u where the row crosses the plane
-        // A plane along the row takes all of it or nothing.
+        // A plane parallel to the row includes all of it or nothing.
         const vec3 level = mix(vec3(-2), vec3(2), lessThan(rest, vec3(0)));
         const vec3 lows = mix(mix(border, level, isLevel), vec3(-2), isUpper);
         const vec3 highs = mix(vec3(2), border, isUpper);
@@ -126,7 +126,7 @@ void blockTriangle(uint triangle) {
     }
 }
 
-// Bits of `mask` moved so that bit i becomes bit i ^ octant.
+// Returns `mask` with bit i moved to bit i ^ octant.
 uint reorder(uint mask, uint octant) {
     if ((octant & 1) != 0) mask = (mask & 0x55) << 1 | (mask & 0xaa) >> 1;
     if ((octant & 2) != 0) mask = (mask & 0x33) << 2 | (mask & 0xcc) >> 2;
@@ -134,7 +134,7 @@ uint reorder(uint mask, uint octant) {
     return mask;
 }
 
-// The hits among the eight lanes of an entry.
+// Returns the hits among the eight lanes of an entry.
 uint hitsOf(uvec4 hits, uint entry) { return (entry < 4 ? hits.x : hits.y) >> 8 * (entry % 4) & 0xff; }
 
 void order() {
@@ -165,7 +165,7 @@ void main() {
     uint top = subgroupBallot(anyFree) != uvec4(0) ? 1 : 0;
     order();
 
-    // Eight lanes take an entry: entry 0 from the top of the stack, entry 1 from below it, …
+    // Eight lanes take an entry: entry 0 from the top of the stack, entry 1 from below it, and so on.
     const uint slot = lane % kBvhWidth, mine = lane / kBvhWidth, entries = lanes / kBvhWidth;
     const vec3 middle = kFaceAxes[gFace] * vec3(0.5 * (gLow + gHigh), 1);
     const uint octant = uint(middle.x < 0) | uint(middle.y < 0) << 1 | uint(middle.z < 0) << 2;
@@ -185,8 +185,8 @@ void main() {
             child = floatBitsToUint(low.w);
             hit = mayBlock(low.xyz, high.xyz);
         }
-        // The nearest goes on top: children of entry 0 above those of entry 1, and for each entry the slots in
-        // the order of the tile's octant.
+        // The nearest goes on top: children of entry 0 above those of entry 1, and for each entry the slots in the
+        // order of the tile's octant.
         const uvec4 hits = subgroupBallot(hit);
         uint below = 0, all = 0;
         for (uint other = 0; other < entries; other++) {
@@ -203,7 +203,7 @@ void main() {
     const uint firstWord = ((point * 6 + gFace) * kSize + uint(gFirst.y)) * (kSize / 32) + uint(gFirst.x) / 32;
     for (uint row = lane; row < kHeight; row += lanes) visible[firstWord + row * (kSize / 32)] = ~blocked[row];
 
-    // A device that ends loops after so many turns would end this one too.
+    // A device that ends loops after a number of turns would end this one too.
     uint turns = 0;
     for (uint i = 0; i < push.loopTest; i++) turns += i + 1;
     if (top > 0 || turns != push.loopTest * (push.loopTest + 1) / 2) atomicAdd(unfinished, 1);

@@ -1,5 +1,5 @@
-// Checks for bugs: conditions that only a mistake in this program can break.
-// They stay on in every build, print both values and abort. Bad input is not a bug: see error.h.
+// Checks for bugs: conditions that only a mistake in this program can break. They stay on in every build,
+// print the condition and its values, and abort. Bad input is not a bug: see error.h.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace relume {
 
-// Prints the failed condition with its place and aborts.
+// Prints the failed condition, its values and its place in the source, then aborts.
 [[noreturn]] void failCheck(std::string_view condition, std::string_view values, const char* file, int line);
 
-// A value as the message of a failed check has it.
+// Returns a value as text, for the message of a failed check.
 template <typename T>
 std::string printed(const T& value) {
     if constexpr (std::is_arithmetic_v<T>)

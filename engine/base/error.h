@@ -1,5 +1,5 @@
-// Failures of input or environment. The text says which file, what was expected, what was found and
-// what to do. Thrown where found, caught in main only, where the type decides the exit code.
+// Errors for bad input or a failing environment. Their text says which file, what was expected, what was
+// found and what to do. They are caught in main only, where the type decides the exit code.
 #pragma once
 
 #include "engine/base/printable.h"
@@ -8,7 +8,7 @@
 
 namespace relume {
 
-// Exit codes of every program: documented in README.md.
+// Exit codes of every program, documented in README.md.
 enum ExitCode : int {
     kExitDone = 0,
     kExitFailed = 1,
@@ -18,19 +18,19 @@ enum ExitCode : int {
     kExitStopped = 128, // + the signal's number
 };
 
-// Bad input or a failing environment: exit code 1.
+// An error of input or environment: exit code 1.
 class Error : public std::runtime_error {
   public:
     explicit Error(const std::string& text) : std::runtime_error(printable(text)) {}
 };
 
-// Options that cannot be used as given: exit code 2.
+// Thrown when options cannot be used as given: exit code 2.
 class UsageError : public Error {
   public:
     using Error::Error;
 };
 
-// No Vulkan device that will do: exit code 4.
+// Thrown when no Vulkan device is suitable: exit code 4.
 class NoDeviceError : public Error {
   public:
     using Error::Error;

@@ -1,4 +1,4 @@
-// Whole-file reads and atomic writes.
+// Reading of files, whole or piece by piece, and atomic writing.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace relume {
 
-// Returns the whole file. Throws Error when it cannot be read, or is larger than `limit` bytes.
+// Returns the whole file. Throws Error if it cannot be read, or is larger than `limit` bytes.
 std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit = size_t(64) << 30);
 
-// A regular file that is read piece by piece.
+// A regular file, open to be read piece by piece.
 class FileReader {
   public:
-    // Throws Error when it cannot be opened, or is something else than a regular file.
+    // Opens the file. Throws Error if it cannot be opened or is not a regular file.
     explicit FileReader(std::filesystem::path path);
     ~FileReader();
     FileReader(const FileReader&) = delete;
@@ -26,7 +26,7 @@ class FileReader {
     uint64_t size() const { return mSize; }
     const std::filesystem::path& path() const { return mPath; }
 
-    // Fills `bytes` from `offset` on. Throws Error when the file has become shorter, or cannot be read.
+    // Fills `bytes` from `offset` on. Throws Error if the file has become shorter or cannot be read.
     void read(uint64_t offset, std::span<std::byte> bytes) const;
 
   private:
@@ -35,27 +35,27 @@ class FileReader {
     uint64_t mSize = 0;
 };
 
-// A file that appears whole or not at all: bytes go to a temporary file beside `path`, which replaces
-// `path` only in commit(). Destroyed before commit(), it leaves `path` as it was.
+// A file that appears whole or not at all. Bytes go to a temporary file beside `path`, which commit() renames
+// to `path`. If it is destroyed before commit(), `path` stays as it was.
 class AtomicFile {
   public:
-    // Creates the temporary file, beside the file that a symbolic link leads to. Throws Error when the folder
-    // cannot be written, or `path` is something else than a regular file (a device, a folder).
+    // Creates the temporary file, beside the target if `path` is a symbolic link. Throws Error if the folder
+    // cannot be written or `path` exists and is not a regular file (a device, a folder).
     explicit AtomicFile(std::filesystem::path path);
-    // The same with a temporary file of a name of its own, `path` + `suffix`, so that one left behind by a
-    // killed process is used again. The caller keeps others from writing the same file.
+    // Creates a temporary file with a fixed name, `path` + `suffix`, so that one left behind by a killed
+    // process is used again. The caller must keep other processes from writing the same file.
     AtomicFile(std::filesystem::path path, const std::string& suffix);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    // Where a library that writes by file name must write.
+    // Returns the file's temporary name, for libraries that write by file name.
     const std::filesystem::path& temporaryPath() const { return mTemporary; }
 
-    // Appends bytes. Throws Error on failure (a full disk, say).
+    // Appends bytes. Throws Error on failure, such as a full disk.
     void write(std::span<const std::byte> bytes);
 
-    // Flushes to the disk, renames over the final path. Throws Error on failure.
+    // Flushes to the disk and renames the temporary file to `path`. Throws Error on failure.
     void commit();
 
   private:
@@ -64,10 +64,10 @@ class AtomicFile {
     int mDescriptor = -1;
 };
 
-// Throws Error, before long work, if an AtomicFile could not be made for `path`. Leaves nothing behind.
+// Throws Error if no AtomicFile can be made for `path`: call it before long work. Leaves nothing behind.
 void expectWritable(const std::filesystem::path& path);
 
-// Writes `bytes` to `path`, whole or not at all.
+// Writes to `path`, whole or not at all. Throws Error on failure.
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
 

@@ -1,4 +1,4 @@
-// Content hashes: XXH3, 128 bits for provenance, 64 bits for checksums.
+// Content hashes by XXH3: 128 bits for provenance, 64 bits for checksums.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace relume {
 
-// 64-bit checksum of the bytes.
+// Returns a 64-bit checksum.
 uint64_t hash64(std::span<const std::byte> bytes);
 
-// 128-bit content hash of the bytes, as 32 hexadecimal digits.
+// Returns a 128-bit content hash as 32 hexadecimal digits.
 std::string hashText(std::span<const std::byte> bytes);
 
-// The same of bytes that come piece by piece.
+// Computes the hash of hashText() from bytes that are added piece by piece.
 class Hasher {
   public:
     Hasher();

@@ -1,13 +1,13 @@
-// Ctrl-C and SIGTERM as a wish that long work can grant when it suits.
+// Ctrl-C and SIGTERM as a request, which long work honors when it can stop safely.
 #pragma once
 
 namespace relume {
 
-// From now on the first SIGINT or SIGTERM only sets what caughtInterrupt() tells; a second one ends the
-// process as ever. A signal that was ignored (nohup) stays so.
+// Makes the first SIGINT or SIGTERM only set the result of caughtInterrupt(); a second one ends the process
+// as usual. A signal that was ignored (as with nohup) stays ignored.
 void catchInterrupts();
 
-// The signal that came, 0 for none.
+// Returns the signal that was caught, or 0.
 int caughtInterrupt();
 
 } // namespace relume

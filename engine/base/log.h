@@ -1,4 +1,4 @@
-// Words for people about what a library met and went on from; what it could not go on from is an Error.
+// Messages about what the library met and recovered from. What it cannot recover from is an Error.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@ enum class LogLevel { Debug, Info, Warning, Error };
 
 using LogFunction = std::function<void(LogLevel level, const std::string& text)>;
 
-// Hands every message from now on to `function`, on whichever thread it comes from; none: they are dropped,
-// as they are until this is first called. Call it while nothing else of the library runs.
+// Sends all further messages to `function`, on whichever thread logs them. Without a function, as at first,
+// messages are dropped. Not thread-safe: call it while nothing else of the library runs.
 void setLog(LogFunction function);
 
 void log(LogLevel level, const std::string& text);

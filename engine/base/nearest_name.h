@@ -7,8 +7,8 @@
 
 namespace relume {
 
-// The one of `names` (not empty) with the smallest edit distance (Levenshtein 1966) to `name`; the first
-// of equals.
+// Returns the element of `names` (not empty) with the smallest edit distance to `name` (Levenshtein 1966);
+// the first one if several are equally near.
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> names);
 
 } // namespace relume

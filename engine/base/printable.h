@@ -1,4 +1,4 @@
-// Text from files and command lines, made fit for a terminal.
+// Escaping of text from files and command lines before it reaches a terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace relume {
 
-// The text with every control character but line feeds spelled out, as \x1b: none can end a message early, or
-// command a terminal.
+// Returns the text with every control character except line feeds escaped, as in \x1b, so that none can end a
+// message early or command a terminal.
 std::string printable(std::string_view text);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Progress of long work on stderr: a bar on a terminal, a line every 10 % elsewhere.
+// Progress of long work on stderr: a bar on a terminal, otherwise a line every 10 %.
 #pragma once
 
 #include <chrono>
@@ -8,27 +8,27 @@
 
 namespace relume {
 
-// Shows nothing for work that ends within two seconds. Not thread-safe: one thread reports.
+// Shows progress, but nothing in the first two seconds. Not thread-safe: one thread reports.
 class Progress {
   public:
-    // `total` items of work; `unit` names them in the plural ("vertices").
+    // `total` counts the items of work; `unit` is their plural ("vertices"). `quiet` shows nothing.
     Progress(std::string_view title, uint64_t total, std::string unit, bool quiet = false);
-    // Ends the line of an unfinished bar, clears a title without one.
+    // Ends the line of an unfinished bar; clears a title shown without a bar.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Where work stands whose items differ in cost.
+    // The state of work whose items differ in cost, so that the count alone does not give fraction and rate.
     struct State {
         uint64_t done;
         double fraction, perSecond, secondsLeft;
     };
 
-    // Says that `done` items are finished.
+    // Reports that `done` items are finished.
     void update(uint64_t done);
     void update(const State& state);
 
-    // The stage in hand: shown at once on a terminal.
+    // Sets the name of the current stage. On a terminal it is shown at once, or with the bar's next update.
     void setTitle(std::string_view title);
 
   private:

@@ -1,4 +1,4 @@
-// A record of the files that a process reads, so that it does not overwrite them.
+// A record of the files that a process reads, kept so that it does not overwrite them.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace relume {
 
-// Collects the names of files that readFile() and FileReader open while it lives, on any thread. At most one
-// lives at a time.
+// Collects the names of files that readFile() and FileReader open during its lifetime, on any thread. Only
+// one may exist at a time.
 class ReadFiles {
   public:
     ReadFiles();
@@ -17,7 +17,7 @@ class ReadFiles {
 
     std::set<std::filesystem::path> paths() const;
 
-    static void add(const std::filesystem::path& path); // does nothing while none lives
+    static void add(const std::filesystem::path& path); // does nothing if there is no collector
 
   private:
     std::set<std::filesystem::path> mPaths;

@@ -1,4 +1,4 @@
-// What a run of frames spent its time on: spans of CPU and GPU on one clock.
+// Where the time of a sequence of frames went: spans of CPU and GPU work on one clock.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@ struct TimingSpan {
     enum class Track { Cpu, Gpu };
 
     Track track;
-    std::optional<uint32_t> frame; // from 0; none outside the frames
+    std::optional<uint32_t> frame; // counted from 0; none outside frames
     std::string name;
     int64_t start;    // nanoseconds since the capture began
     int64_t duration; // nanoseconds
 };
 
-// How the device's clock was put on the CPU's.
+// How the device's clock was related to the CPU's.
 enum class ClockMatch {
-    None,       // not at all: there are no GPU spans
-    Calibrated, // both read together, VK_EXT_calibrated_timestamps
-    Anchored,   // by a timestamp that the device wrote between two readings of the CPU's clock
+    None,       // no relation is known: there are no GPU spans
+    Calibrated, // both clocks were read together (VK_EXT_calibrated_timestamps)
+    Anchored,   // the device wrote a timestamp between two readings of the CPU's clock
 };
 
 struct TimingTrace {
     std::string device, driver;
     ClockMatch clock = ClockMatch::None;
-    int64_t clockUncertainty = 0; // nanoseconds that GPU spans may be off against CPU spans
-    // By track, then start; of two that start together the longer comes first, so that a span precedes those
-    // inside it. Spans of a track nest or are disjoint.
+    int64_t clockUncertainty = 0; // error of GPU spans against CPU spans, in nanoseconds, either way
+    // Ordered by track, then start; of spans that start together the longest comes first, so that a span
+    // precedes those inside it. Spans of a track nest or are disjoint.
     std::vector<TimingSpan> spans;
 };
 

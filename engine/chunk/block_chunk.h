@@ -1,29 +1,29 @@
-// Types by which layouts of transport describe and check the chunk of a block of vertices.
+// Types with which layouts of transport describe and check the chunk of a block of vertices.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"
 
 namespace relume {
 
-constexpr int kLargestTerms = 32; // of a set
+constexpr int kLargestTerms = 32; // K of a set
 
-// A block in its set: its vertices from `first` on, and the run of its chunk.
+// The place of a block in its set: its range of vertices and the run of its chunk.
 struct BlockPlace {
     uint32_t first, vertices, run;
 };
 
-// Bytes that a chunk can have before compression.
+// The sizes in bytes that a chunk can have before compression: `least` to `most` in steps of `step`.
 struct ChunkSizes {
     uint64_t least, most, step;
 };
 
-// Limits that rows are checked against.
+// Limits against which rows are checked.
 struct RowLimits {
-    uint32_t coefficients; // indices are below it
-    uint64_t longestRow;   // in entries
+    uint32_t coefficients; // every index is below this
+    uint64_t longestRow;   // most entries in a row
 };
 
-// Gives the bytes of a chunk before compression.
+// Returns the bytes of a chunk before compression.
 using LoadChunk = std::function<std::vector<std::byte>()>;
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Little-endian numbers into and out of bytes, the same on every machine.
+// Writing and reading of little-endian numbers, the same on every machine.
 #pragma once
 
 #include "engine/base/error.h"
@@ -13,7 +13,7 @@
 
 namespace relume {
 
-// Appends to a vector of bytes.
+// Appends numbers and bytes to a vector of bytes.
 class ByteWriter {
   public:
     template <std::unsigned_integral T>
@@ -23,7 +23,8 @@ class ByteWriter {
 
     void put(std::span<const std::byte> bytes) { mBytes.insert(mBytes.end(), bytes.begin(), bytes.end()); }
 
-    // All lowest bytes, then all second bytes and so on: bytes of equal significance compress best together.
+    // Appends all lowest bytes, all second bytes and so on: those of equal significance compress best
+    // together.
     template <std::unsigned_integral T>
     void putPlanes(std::span<const T> values) {
         const size_t start = mBytes.size(), count = values.size();
@@ -41,8 +42,8 @@ class ByteWriter {
     std::vector<std::byte> mBytes;
 };
 
-// Reads what ByteWriter wrote. Every read is checked against the end and throws Error beyond it; `where`
-// names the bytes in that error and must outlive the reader.
+// Reads what ByteWriter wrote. Reading beyond the end throws Error. `where` names the data in that error; the
+// reader keeps a reference to it and to `bytes`, which must outlive the reader.
 class ByteReader {
   public:
     ByteReader(std::span<const std::byte> bytes, std::string_view where) : mRest(bytes), mWhere(where) {}

@@ -16,53 +16,55 @@ namespace relume {
 
 constexpr uint32_t kAssetFormatVersion = 3;
 
-// Four letters. A reader that does not know a tag refuses the file if the first letter is a capital, and
-// skips the chunk otherwise.
+// The type of a chunk, four letters. A reader that does not know a tag refuses the file if the first letter
+// is a capital, and skips the chunk otherwise.
 using ChunkTag = std::array<char, 4>;
 constexpr ChunkTag chunkTag(const char (&text)[5]) { return {text[0], text[1], text[2], text[3]}; }
 constexpr bool isRequired(ChunkTag tag) { return tag[0] >= 'A' && tag[0] <= 'Z'; }
 std::string tagText(ChunkTag tag); // for messages: anything but letters and digits becomes '?'
 
-// Owner of chunks that belong to the file as a whole.
+// The owner of chunks that belong to the file as a whole.
 constexpr uint32_t kWholeFile = 0xffffffff;
 
-// Limits that bound what a reader must hold, and what a small file can make it allocate.
+// Limits on what a reader must hold and on what a small file can make it allocate.
 constexpr size_t kLargestChunk = size_t(8) << 20; // bytes before compression
 constexpr uint64_t kLargestRatio = 1024;          // raw size ≤ kLargestRatio · stored size + kRatioSlack
 constexpr uint64_t kRatioSlack = 65536;
 
-// A line of the table. A long array is cut into chunks of the same tag and owner: run 0, 1, 2, ….
+// An entry of the chunk table. A long array is cut into chunks of the same tag and owner: run 0, 1, 2, ….
 struct ChunkEntry {
     ChunkTag tag{};
-    uint32_t owner = kWholeFile; // a part, or a set of materials counted over all parts
+    uint32_t owner = kWholeFile; // a part, or a set of materials, counted over all parts
     uint32_t run = 0;
     uint64_t offset = 0; // from the start of the file
     uint64_t storedSize = 0;
-    uint64_t rawSize = 0; // equal to storedSize: stored plainly; else one zstd frame
+    uint64_t rawSize = 0; // equal to storedSize: stored uncompressed; else one zstd frame
     uint64_t checksum = 0;
 };
 
-// A chunk as it lies in a file, wherever that will be: its entry's offset is yet to be set.
+// A chunk as it is stored in a file. The offset of its entry is not yet set.
 struct StoredChunk {
     ChunkEntry entry;
     std::vector<std::byte> bytes;
 };
 
-// Compresses 1 to kLargestChunk bytes.
+// Compresses 1 to kLargestChunk bytes; stores them as they are if that is no longer.
 StoredChunk storeChunk(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw);
 
-// Collects chunks in file order, compressing each as it comes, and gives the bytes of the file.
+// Collects chunks in file order, compressing each as it is added, and writes the file.
 class ChunkWriter {
   public:
-    // Gives the stored bytes of a chunk that is kept elsewhere.
+    // Returns the stored bytes of a chunk that is kept elsewhere.
     using Load = std::function<std::vector<std::byte>()>;
     // Takes the next bytes of the file.
     using Output = std::function<void(std::span<const std::byte>)>;
 
     void add(ChunkTag tag, uint32_t owner, uint32_t run, std::span<const std::byte> raw);
-    // `load` is called once, by finish(), when the chunk's turn comes: no two are held at a time.
+    // Adds a chunk that is already stored. finish() calls `load` once, when the chunk's turn comes, so that
+    // no two such chunks are in memory at a time.
     void addStored(const ChunkEntry& entry, Load load);
 
+    // Write the whole file: header, table, chunks.
     void finish(const Output& output);
     std::vector<std::byte> finish();
 
@@ -75,45 +77,45 @@ class ChunkWriter {
     std::vector<std::byte> mData;
 };
 
-// The bytes of a file, wherever they are.
+// Random access to the bytes of a file, in memory or elsewhere.
 struct ByteSource {
     uint64_t size = 0;
-    // Gives `count` bytes from `offset` on, which lie within `size`; `room` is for those that are in no
-    // memory yet.
+    // Returns `count` bytes from `offset` on, a range within `size`. Bytes that are not in memory yet are
+    // read into `room`, which must then outlive the result.
     std::function<std::span<const std::byte>(uint64_t offset, size_t count, std::vector<std::byte>& room)>
         read;
 };
-ByteSource sourceOf(std::span<const std::byte> bytes); // which must outlive it
+ByteSource sourceOf(std::span<const std::byte> bytes); // `bytes` must outlive it
 
-// What a stored chunk stands for. Throws Error; `name` stands for the file there.
+// Returns the decompressed contents of a stored chunk. Throws Error; `name` names the file in it.
 std::vector<std::byte> unpackChunk(const ChunkEntry& entry, std::span<const std::byte> stored,
                                    const std::string& name);
 
-// Whether these bytes begin as a .relume file of any version does.
+// Returns whether the bytes begin as a .relume file of any version does.
 bool hasAssetMagic(std::span<const std::byte> bytes);
 
-// A checked view of a file.
+// Reads a .relume file chunk by chunk, after checking it.
 class ChunkFile {
   public:
-    // Verifies everything but the chunks' contents: magic, version, every checksum, sizes, limits, order of
-    // runs. Holds the table and one chunk at a time. `name` stands for the file in errors. Throws Error.
+    // Checks all but the chunks' decompressed contents: magic, version, checksums, sizes, limits, that no run
+    // is there twice. Holds the table and one chunk at a time. `name` names the file in errors. Throws Error.
     ChunkFile(ByteSource source, std::string name, uint32_t version = kAssetFormatVersion);
-    ChunkFile(std::span<const std::byte> bytes, std::string name) // which must outlive it
+    ChunkFile(std::span<const std::byte> bytes, std::string name) // `bytes` must outlive it
         : ChunkFile(sourceOf(bytes), std::move(name)) {}
 
-    // In file order.
+    // Returns all chunks in file order.
     const std::vector<ChunkEntry>& entries() const { return mEntries; }
 
-    // The runs of an array, in order; none for an empty one.
+    // Returns the runs of an array in order; none if it is empty. Throws Error if a run is missing.
     std::vector<ChunkEntry> find(ChunkTag tag, uint32_t owner) const;
 
-    // A single run, whatever others there are; null where it is missing.
+    // Returns a single run, whether or not others are there; null if it is missing.
     const ChunkEntry* findRun(ChunkTag tag, uint32_t owner, uint32_t run) const;
 
-    // A chunk's bytes, decompressed. Throws Error.
+    // Returns the decompressed bytes of a chunk. Throws Error.
     std::vector<std::byte> load(const ChunkEntry& entry) const;
 
-    // A chunk's bytes as they lie in the file, once more held against their checksum: a file on disk may have
+    // Returns the bytes of a chunk as stored. Checks their checksum again, because a file on disk may have
     // changed. Throws Error.
     std::vector<std::byte> loadStored(const ChunkEntry& entry) const;
 
@@ -130,12 +132,13 @@ class ChunkFile {
     std::map<std::tuple<ChunkTag, uint32_t, uint32_t>, size_t> mIndex; // (tag, owner, run)
 };
 
-// Name the chunks of a tag and owner, a "part" or a "set", or one of them, in errors.
+// Return the location of chunks for error messages: file, tag and owner, and the run of a single entry.
+// `ownerKind` is "part" or "set".
 std::string whereOf(const ChunkFile& file, ChunkTag tag, uint32_t owner, const char* ownerKind);
 std::string whereOf(const ChunkFile& file, const ChunkEntry& entry, const char* ownerKind);
 
-// Chunks of an array, whose headers of `chunkBytes` and content are checked to have these bytes before
-// anything is allocated for them. Throws Error.
+// Returns the chunks of an array. Throws Error, before anything is allocated for them, unless they have
+// contentBytes in total besides headers of chunkBytes each.
 std::vector<ChunkEntry> findSized(const ChunkFile& file, ChunkTag tag, uint32_t owner, uint64_t chunkBytes,
                                   uint64_t contentBytes, const char* ownerKind);
 

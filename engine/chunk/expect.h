@@ -1,4 +1,4 @@
-// Checks of data that throw an Error where something does not hold.
+// Checks of data that throw Error if a condition does not hold.
 #pragma once
 
 #include "engine/base/error.h"

@@ -1,4 +1,4 @@
-// Indices of coefficients that rise, and their form in a file: the gaps between them.
+// Rising indices of coefficients, and their form in a file: the gaps between them.
 #pragma once
 
 #include "engine/base/error.h"
@@ -11,7 +11,7 @@
 
 namespace relume {
 
-// Calls take(gap) with the number of indices skipped before each.
+// Calls take(gap) for each index, with the number of indices skipped before it.
 template <typename Take>
 void forEachGap(std::span<const uint16_t> indices, const Take& take) {
     uint32_t next = 0; // the smallest index that may come
@@ -21,8 +21,7 @@ void forEachGap(std::span<const uint16_t> indices, const Take& take) {
     }
 }
 
-// Appends the indices that have these gaps to `indices`. Throws Error for one that is not below
-// `coefficients`.
+// Appends to `indices` those that have these gaps. Throws Error if one is not below `coefficients`.
 inline void decodeIndices(std::span<const uint16_t> gaps, uint32_t coefficients, const std::string& where,
                           std::vector<uint16_t>& indices) {
     uint32_t next = 0;
@@ -35,7 +34,7 @@ inline void decodeIndices(std::span<const uint16_t> gaps, uint32_t coefficients,
     }
 }
 
-// Throws Error for indices that do not rise, or are not below `coefficients`; where() names them.
+// Throws Error if indices do not rise or one is not below `coefficients`; where() returns their location.
 template <typename Where>
 void checkIndices(std::span<const uint16_t> indices, uint32_t coefficients, const Where& where) {
     uint32_t next = 0;

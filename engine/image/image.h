@@ -1,4 +1,4 @@
-// Linear float images.
+// Float images.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -8,7 +8,8 @@
 
 namespace relume {
 
-// Rows from the top, linear sRGB primaries, alpha = coverage.
+// An RGBA image, row by row from the top. Colors have sRGB primaries and are linear unless a function says
+// otherwise; alpha is coverage.
 struct Image {
     int width = 0, height = 0;
     std::vector<vec4> pixels;

@@ -1,5 +1,5 @@
-// Meshes generated in code: for tests, and for `relume bake` with no file. With uvs, an image covers each
-// once; vertices are doubled along the seams.
+// Meshes generated in code, for tests and for `relume bake` without a file. With uvs an image covers each
+// once, and vertices are doubled along the seams.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -8,18 +8,18 @@
 
 namespace relume {
 
-// A unit sphere about the origin from a subdivided icosahedron: 10·4^levels + 2 vertices. The image is a
-// latlong whose center faces +Z.
+// Returns a unit sphere about the origin from a subdivided icosahedron: 10·4^levels + 2 vertices. The image
+// is a latlong map whose center faces +Z.
 Mesh makeSphere(int levels, bool hasUvs = false);
 
-// A torus about the Y axis, `around` × `across` vertices.
+// Returns a torus about the Y axis, of `around` × `across` vertices.
 Mesh makeTorus(float majorRadius, float minorRadius, int around, int across, bool hasUvs = false);
 
-// The default object: a (2, 3) torus knot, smooth, self-shadowing; about `vertices` vertices.
+// Returns the default object, a smooth, self-shadowing (2, 3) torus knot of about `vertices` vertices.
 Mesh makeKnot(int vertices = 12000, bool hasUvs = false);
 
-// A square in the plane y = 0, side `size`, `quads` a side, normals up. The image's right is
-// +X, its lower edge faces +Z.
+// Returns a square in the plane y = 0 with sides of `size` and `quads` quads along each, normals up. The
+// image's right is +X; its lower edge faces +Z.
 Mesh makePlane(float size, int quads, bool hasUvs = false);
 
 } // namespace relume

@@ -7,10 +7,10 @@
 
 namespace relume {
 
-// Reads .exr (latlong, or cube by its envmap attribute) or .hdr. A file without the attribute is a
-// latlong with pixel centers; one with it has its first and last rows on the poles, and is resampled; a
-// cube becomes a latlong of four times a face's width. Negative values become 0, those above 1e12 become
-// that; both are counted in the log. Throws Error, also for a latlong that is not twice as wide as high.
+// Reads .exr (latlong, or cube by its envmap attribute) or .hdr. A file without the attribute is a latlong
+// with pixel centers. A latlong with it has its first and last rows on the poles, and is resampled. A cube
+// becomes a latlong of four times a face's width. Negative values become 0 and those above 1e12 become that;
+// the log counts both. Throws Error, also for a latlong that is not twice as wide as high.
 Environment readEnvironment(const std::filesystem::path& path);
 
 } // namespace relume

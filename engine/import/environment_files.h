@@ -1,4 +1,4 @@
-// Environments that light is made of, from files: each read once, if it is asked for often.
+// Environments of a light, read from files and cached.
 #pragma once
 
 #include "engine/light/light.h"
@@ -11,20 +11,21 @@
 
 namespace relume {
 
+// Reads environments, keeping the 64 maps and 4 pictures used last.
 class EnvironmentFiles {
   public:
-    // Prepared for sampling; of an empty path the built-in sky. Throws Error.
+    // Returns the map, prepared for sampling; for an empty path the built-in sky. Throws Error.
     std::shared_ptr<const Environment> map(const std::filesystem::path& file);
 
-    // As it is looked at, of a few files at a time; null unless keepPictures() was called. Throws Error.
+    // Returns the map for display (makePicture()), or null unless keepPictures() was called. Throws Error.
     std::shared_ptr<const Environment> picture(const std::filesystem::path& file);
     void keepPictures() { mKeepsPictures = true; }
 
-    // The files whose names have a number where `pattern` has ####, by rising number, whatever its digits; as
-    // they were when first asked for. Throws Error when there are none, or two of the same number.
+    // Returns the files whose names have a number where `pattern` has ####, by rising number, of any number
+    // of digits. They are listed at the first call. Throws Error if there are none, or two of one number.
     const std::vector<std::filesystem::path>& sequence(const std::filesystem::path& pattern);
 
-    // All that were asked for, those of sequences whether or not they were read.
+    // Returns all files that were asked for, including those of sequences whether or not they were read.
     const std::set<std::filesystem::path>& named() const { return mNamed; }
 
   private:
@@ -34,13 +35,13 @@ class EnvironmentFiles {
     static void keep(Kept& kept, size_t most, const std::filesystem::path& file,
                      std::shared_ptr<const Environment> environment);
 
-    Kept mMaps, mPictures; // the latest first
+    Kept mMaps, mPictures; // most recently used first
     bool mKeepsPictures = false;
     std::map<std::filesystem::path, std::vector<std::filesystem::path>> mSequences;
     std::set<std::filesystem::path> mNamed;
 };
 
-// Whether a path stands for a sequence: its file's name has a #, and there is no such file.
+// Returns whether a path stands for a sequence: its file name has a #, and no such file exists.
 bool isSequence(const std::filesystem::path& path);
 
 } // namespace relume

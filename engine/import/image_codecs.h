@@ -1,4 +1,4 @@
-// Decoders and encoders behind image_file.h: bytes in memory to and from pixels. Internal to the engine.
+// Decoders and encoders behind image_file.h, between bytes in memory and pixels. Internal to the engine.
 #pragma once
 
 #include "engine/import/image_file.h"
@@ -13,25 +13,24 @@ namespace relume {
 bool isExr(std::span<const std::byte> bytes);
 bool isRadiance(std::span<const std::byte> bytes);
 
-// What readImage() makes of a file's bytes; `name` is the file's name for the text of an Error.
+// Decodes a file's bytes as readImage() does; `name` names the file in errors.
 ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name);
 
-// One format each. Pixels may be infinite or NaN.
+// Decode one format each. Pixels may be infinite or NaN. Throw Error.
 ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name);
 Image decodeRadiance(std::span<const std::byte> bytes, const std::string& name);
 
-// Throws Error unless the attributes of an OpenEXR header of one part have the sizes that their types ask
-// for.
+// Throws Error unless the header attributes of a one-part OpenEXR file have sizes that fit their types.
 void checkExrHeader(std::span<const std::byte> bytes, const std::string& name);
 
 std::vector<std::byte> encodeExr(const Image& image);
 
-// Throws Error unless an image of width × height may come from a file of `bytes` bytes: neither empty,
+// Throws Error unless an image of width × height may come from a file of `bytes` bytes: it must not be empty,
 // nor over 2^28 pixels or 65536 a side, nor far beyond what compression can reach, so that a small file
-// cannot take a large memory.
+// cannot take much memory.
 void checkImageSize(const std::string& name, int64_t width, int64_t height, size_t bytes);
 
-// The same, for floating pixels, which take sixteen bytes each in memory: zeros compress a thousandfold.
+// A stricter check for float pixels, which take sixteen bytes each in memory: zeros compress a thousandfold.
 void checkDensity(const std::string& name, int64_t width, int64_t height, size_t bytes);
 
 } // namespace relume

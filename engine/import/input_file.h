@@ -1,11 +1,11 @@
-// Where what is baked came from.
+// The origin of what is baked.
 #pragma once
 
 #include <string>
 
 namespace relume {
 
-// A file that something was made of: for provenance.
+// An input file, for provenance.
 struct InputFile {
     std::string file;
     std::string hash; // hashText of its bytes

@@ -1,5 +1,5 @@
-// Objects of JSON files that people write, checked: unknown keys and wrong values are errors that name file,
-// place and field.
+// Checked access to JSON files that people write. Unknown keys and wrong values are errors that name file,
+// place and key.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -12,27 +12,29 @@
 
 namespace relume {
 
-// A JSON file of at most 16 MiB, and its text. Throw Error.
+// Read a JSON file of at most 16 MiB, parsed or as text. Throw Error.
 nlohmann::json readJson(const std::filesystem::path& path);
 std::string readJsonText(const std::filesystem::path& path);
 
 // Returns whether arrays and objects are nested more than `most` deep. The library's parser could tell by a
-// callback, but with one its time grows with the square of an array's length.
+// callback, but would then take time quadratic in an array's length.
 bool isJsonDeeper(std::string_view text, size_t most);
 
-// `name` stands for the text in errors. Throws Error.
+// Parses JSON; `name` names the text in errors. Throws Error if it is invalid or nested too deeply.
 nlohmann::json parseJson(std::string_view text, const std::string& name, size_t mostDepth = 32);
 
+// A JSON object whose values are read by key. Throws Error for values of a wrong type or out of range.
 class JsonObject {
   public:
     using Json = nlohmann::json;
 
-    // `place`: the file, and where in it. Throws Error unless `json`, which must outlive this, is an object
-    // with none but these keys.
+    // `place` names the file, and the object in it, in errors. Throws Error unless `json`, which must outlive
+    // this, is an object without other keys than these.
     JsonObject(const Json& json, std::string place, std::span<const std::string_view> keys);
 
-    // Null when the key is not there.
+    // Returns null if the key is missing.
     const Json* find(const char* key) const;
+    // Throws Error: names place and key, what was expected, and what was found.
     [[noreturn]] void fail(const char* key, std::string_view expected) const;
 
     std::string text(const char* key, const std::string& fallback) const; // never empty if the key is there
@@ -40,7 +42,7 @@ class JsonObject {
     bool flag(const char* key, bool fallback) const;
     vec3 vector(const char* key, vec3 fallback, float low, float high) const;
 
-    // The same of keys that must be there.
+    // Read keys that must be there.
     std::string requiredText(const char* key, std::string_view expected) const;
     float requiredNumber(const char* key, float low, float high) const;
     vec3 requiredVector(const char* key, float low, float high) const;

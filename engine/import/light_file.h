@@ -1,4 +1,4 @@
-// Light as files describe it: docs/light_format.md.
+// Reading of light files: docs/light_format.md.
 #pragma once
 
 #include "engine/import/moving_light.h"
@@ -7,7 +7,7 @@ namespace relume {
 
 constexpr float kSmallestLampRadius = 1e-4f; // degrees
 
-// Throws Error that names file and field.
+// Reads a light file. Throws Error that names file and key.
 MovingLight readLight(const std::filesystem::path& path);
 
 } // namespace relume

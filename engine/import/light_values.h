@@ -1,4 +1,4 @@
-// From the values of a light file to light: internal to engine/import.
+// Conversion of a light file's values to a light: internal to engine/import. Defined in light_file.cpp.
 #pragma once
 
 #include "engine/import/environment_files.h"
@@ -7,15 +7,15 @@
 
 namespace relume {
 
-// What the light of a file is made from at a moment.
+// The context in which a light file's values are evaluated at a time.
 struct LightMoment {
     std::string name; // of the file, for errors
     std::filesystem::path folder;
-    double seconds; // of sequences and the sky's time
+    double seconds; // the time, for sequences and the sky
     EnvironmentFiles& files;
 };
 
-// `values`: the file's, without tracks (light_track.h). Throws Error that names file and field.
+// Makes the light of a file's values, without tracks (light_track.h). Throws Error that names file and key.
 Light makeLight(const nlohmann::json& values, const LightMoment& moment);
 
 } // namespace relume

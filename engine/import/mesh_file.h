@@ -1,4 +1,4 @@
-// Mesh files: OBJ, PLY, glTF 2.0 (.gltf, .glb), told apart by extension.
+// Reading of mesh files: OBJ, PLY, glTF 2.0 (.gltf, .glb), told apart by extension.
 #pragma once
 
 #include "engine/import/scene.h"
@@ -10,21 +10,19 @@
 
 namespace relume {
 
-// Reads, triangulates, welds (equal position and, where given, normal), drops degenerate triangles
-// (with a count in the log), makes angle-weighted normals where the file has none, and turns Z up
-// into Y up on request. Uvs and colors are kept, and kept apart, where they are wanted. Throws Error for
-// anything truncated, corrupt, absurd, empty or not finite.
+// Reads a mesh, triangulates it, cleans it up (mesh_cleanup.h), and turns Z up into Y up on request. Keeps
+// the attributes in `wanted`. Throws Error if the file is truncated, corrupt, absurd, empty or not finite.
 Mesh readMesh(const std::filesystem::path& path, UpAxis up = UpAxis::Y, MeshAttributes wanted = {});
 
-// The same from a file's bytes; `path` gives the format by its extension, the folder that a glTF file's
-// buffers may lie in, and the name in errors.
+// Reads a mesh from a file's bytes. `path` gives the format by its extension, the folder that a glTF file's
+// buffers may be in, and the name in errors.
 Mesh decodeMesh(std::span<const std::byte> bytes, const std::filesystem::path& path, UpAxis up,
                 MeshAttributes wanted = {});
 
-// Whether a file of this name is glTF, which brings materials of its own.
+// Returns whether a file of this name is glTF, which has materials of its own.
 bool isGltf(const std::filesystem::path& path);
 
-// Turns a mesh that has Z up into one that has Y up.
+// Turns a mesh with Z up into one with Y up.
 void turnZUp(Mesh& mesh);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Metalness and roughness that vary over a surface, as a blend of a few materials in which they are even.
+// Metalness and roughness that vary over a surface, expressed as a blend of a few uniform materials.
 #pragma once
 
 #include "engine/scene/texture.h"
@@ -18,9 +18,9 @@ struct MetalRoughnessMap {
 };
 
 // Returns the nodes and weights whose blends come nearest to a glTF metallic-roughness texture (roughness in
-// G, metalness in B, linear) times its factors; nothing where that is even, and its mean serves. Roughness is
-// blended linearly in its inverse square, within .01 of the least error that two GGX lobes leave of one
-// between them: of the lobe, .17 where one is 1.6 times as rough as the other, .28 where twice.
+// G, metalness in B, linear) times its factors; none if the result is uniform, so that its mean serves.
+// Roughness is blended linearly in its inverse square, within .01 of the least error that two GGX lobes leave
+// of one between them: .17 of the lobe if one is 1.6 times as rough as the other, .28 if twice.
 std::optional<MetalRoughnessMap> blendMetalRoughness(const Texture& texture, float metallicFactor,
                                                      float roughnessFactor);
 

@@ -1,4 +1,4 @@
-// Light as it is from moment to moment.
+// Light that may change over time.
 #pragma once
 
 #include "engine/import/environment_files.h"
@@ -9,26 +9,27 @@
 
 namespace relume {
 
+// Evaluates the light of a light file, or a constant light, at a time.
 class MovingLight {
   public:
     explicit MovingLight(Light still);
 
-    // What a light file (docs/light_format.md) holds: `name` for errors, `folder` for the files it names.
-    // Throws Error for text that is no JSON, and for values that are not as they should be at any time.
+    // Parses the text of a light file (docs/light_format.md). `name` names it in errors; `folder` is where
+    // the files that it names are. Throws Error if it is not JSON, or if a value is invalid at any time.
     MovingLight(std::string_view text, std::string name, std::filesystem::path folder);
 
     bool moves() const { return mMoves; }
 
-    // At a time of at least 0. Throws Error when a sequence's file cannot be read.
+    // Returns the light at a time ≥ 0, in seconds. Throws Error if a sequence's file cannot be read.
     Light at(double seconds);
 
-    // That the description names, the light file itself left out.
+    // Returns the files that the light file names.
     const std::set<std::filesystem::path>& files() const { return mFiles.named(); }
 
     // Lets at() also return the full-resolution pictures that backgrounds need.
     void keepPictures() { mFiles.keepPictures(); }
 
-    // Factor of all of it, at least 0.
+    // Sets a factor ≥ 0 on all light.
     void setGain(float gain) { mGain = gain; }
 
   private:
@@ -36,7 +37,7 @@ class MovingLight {
 
     Light read(const Description& values, double seconds);
 
-    Light mStill; // where there is no description
+    Light mStill; // without a description
     std::shared_ptr<const Description> mDescription;
     std::string mName;
     std::filesystem::path mFolder;

@@ -1,4 +1,4 @@
-// Bakes of format version 2, whose META is JSON and which lack residuals.
+// Conversion of bakes of format version 2, whose META is JSON and which lack residuals.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace relume {
 
-// Whether these bytes begin as a .relume file of version 2 does.
+// Returns whether the bytes begin as a .relume file of version 2 does.
 bool isOldAsset(std::span<const std::byte> bytes);
 
-// The same bake in a file of this version, still without residuals. `name` stands for the file in errors.
-// Throws Error as decodeAsset().
+// Returns the same bake as a file of the current version, still without residuals. `name` names the file in
+// errors. Throws Error as decodeAsset() does.
 std::vector<std::byte> updateAsset(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace relume

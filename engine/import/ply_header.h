@@ -1,4 +1,4 @@
-// The header of a PLY file: what its data are.
+// The header of a PLY file, which describes its data.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct PlyScalarType {
 struct PlyProperty {
     std::string name;
     const PlyScalarType* type;
-    const PlyScalarType* countType = nullptr; // of a list
+    const PlyScalarType* countType = nullptr; // of a list's length; null unless it is a list
 };
 
 struct PlyElement {
@@ -32,11 +32,11 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::Ascii;
     std::vector<PlyElement> elements;
-    size_t size = 0; // bytes of the header: where the data begin
+    size_t size = 0; // bytes of the header, behind which the data begin
 };
 
-// Reads the header at the start of `file`. Throws Error, in which `name` stands for the file. Counts are the
-// file's word: nothing says yet that the data are there.
+// Reads the header at the start of `file`. Throws Error, in which `name` names the file. Counts are as the
+// file claims: the data may not be there.
 PlyHeader readPlyHeader(std::string_view file, const std::string& name);
 
 } // namespace relume

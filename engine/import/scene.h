@@ -1,4 +1,4 @@
-// What is baked: parts, each a mesh with a material.
+// Scenes to be baked: parts, each a mesh with a material.
 #pragma once
 
 #include "engine/import/ground.h"
@@ -17,7 +17,7 @@ namespace relume {
 
 enum class UpAxis { Y, Z };
 
-// What a mesh without materials of its own is made of, where none is named.
+// The material of a mesh that has none of its own, by default.
 constexpr const char* kDefaultMaterial = "gold";
 
 constexpr float kLargestBrushRotation = 36000; // degrees, either way
@@ -26,25 +26,24 @@ constexpr float kLargestBrushRotation = 36000; // degrees, either way
 struct Part {
     std::string name;
     Mesh mesh;
-    std::string material;   // As readMaterials() takes it: precompute/brdf/material_list.h.
-    std::string source;     // The file it came from, or "built-in NAME"; for provenance.
-    std::string sourceHash; // hashText of that file's bytes; empty for built-in meshes.
-    std::optional<Texture> baseColor = std::nullopt; // By mesh.uvs; multiplies the material's base color.
-    std::optional<Texture> materialMap =
-        std::nullopt;             // By mesh.uvs: weights of the set's first four materials.
-    bool paintedByColors = false; // Whether mesh.colors are these weights instead.
-    bool tintedByColors = false;  // Whether mesh.colors multiply the material's base color.
+    std::string material;   // as readMaterials() takes it: precompute/brdf/material_list.h
+    std::string source;     // the file it came from, or "built-in NAME"; for provenance
+    std::string sourceHash; // hashText() of that file's bytes; empty for built-in meshes
+    std::optional<Texture> baseColor = std::nullopt;   // at mesh.uvs; multiplies the material's base color
+    std::optional<Texture> materialMap = std::nullopt; // at mesh.uvs: weights of a set's first four materials
+    bool paintedByColors = false;                      // whether mesh.colors are these weights instead
+    bool tintedByColors = false; // whether mesh.colors multiply the material's base color
     SurfaceDetail detail = {};
-    std::filesystem::path materialFolder = {}; // Where relative paths in `material` start.
-    std::vector<InputFile> textureFiles = {};  // What the textures came from, unless `source` holds them.
-    float brushRotation = 0;    // Degrees that tangents are turned by about the normals, counter-clockwise.
-    bool keepsVertices = false; // Whether automatic refinement leaves it: its tessellation was asked for.
+    std::filesystem::path materialFolder = {}; // where relative paths in `material` start
+    std::vector<InputFile> textureFiles = {};  // the textures' files, unless `source` holds them
+    float brushRotation = 0;    // degrees, counter-clockwise, by which tangents turn about normals
+    bool keepsVertices = false; // whether refinement leaves it, as its tessellation was asked for
 };
 
-// What a part is painted with.
+// The textures or colors that a part is painted with.
 struct PartPaint {
-    std::filesystem::path baseColor, materialMap; // Image files; empty for none.
-    bool isByColors = false;                      // Vertex colors instead of a material map.
+    std::filesystem::path baseColor, materialMap; // image files; empty for none
+    bool isByColors = false;                      // vertex colors instead of a material map
 
     bool usesUvs() const { return !baseColor.empty() || !materialMap.empty(); }
     bool isAny() const { return usesUvs() || isByColors; }
@@ -56,29 +55,28 @@ struct Scene {
 
 Bounds boundsOf(const Scene& scene);
 
-// Throws Error, in which `place` names the parts, if they are further from the origin than 10,000 times their
-// size: single precision rounds their shape there, by a thousandth and more.
+// Throws Error, in which `place` names the parts, if they reach further from the origin than 10,000 times
+// their size: single precision would round their shape there by a thousandth and more.
 void checkPlace(std::span<const Part> parts, const std::string& place);
 
-// Whether `name` is "sphere", "torus", "knot" or "plane".
+// Returns whether `name` is "sphere", "torus", "knot" or "plane".
 bool isBuiltinMesh(const std::string& name);
 
-// Whether a mesh has materials of its own: a glTF file, that is.
+// Returns whether a mesh has materials of its own, as glTF files have.
 bool hasOwnMaterials(const std::string& mesh);
 
-// The parts made of a mesh file or of a built-in mesh, with source and hashes filled in: one of this material
-// and paint; or, if there is no material, one for each of the mesh's own. Throws Error as readMesh and
-// readTexture do, when the mesh lacks the texture coordinates or colors that the paint needs, when it has no
-// materials of its own but must, and for paint on these.
+// Loads a mesh file or a built-in mesh as parts, with source and hashes filled in: one part of this material
+// and paint, or without a material one part for each of the mesh's own. Throws Error as readMesh() and
+// readTexture() do; if the mesh lacks the texture coordinates or colors that the paint needs; if it needs
+// materials of its own and has none; and for paint on a mesh's own materials.
 std::vector<Part> loadParts(const std::string& mesh, UpAxis up, const std::optional<std::string>& material,
                             const PartPaint& paint = {});
 
-// Adds a ground, sized by what is in the scene so far, which must not be empty. Throws UsageError for options
-// out of range.
+// Adds a ground, sized by the scene so far, which is not empty. Throws UsageError for options out of range.
 void addGround(Scene& scene, const GroundOptions& options, const std::string& material = "white-diffuse");
 
-// Reads a scene file (JSON: docs/scene_format.md). Mesh paths in it are relative to its folder. `ground`:
-// what a ground is like where the file does not say it. Throws Error naming file, key and remedy.
+// Reads a scene file (JSON: docs/scene_format.md), in which mesh paths are relative to its folder. `ground`
+// has the defaults for a ground. Throws Error that names file, key and remedy.
 Scene readScene(const std::filesystem::path& path, const GroundOptions& ground = {});
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Sessions of the viewer as files: docs/session_format.md.
+// Reading of the viewer's session files: docs/session_format.md.
 #pragma once
 
 #include <array>
@@ -15,9 +15,8 @@ constexpr std::array<std::string_view, 22> kSessionKeys = {
     "time",    "material",   "samples",         "terms",      "residual", "exposure",
     "tone",    "background", "background-blur", "ground-fade"};
 
-// Returns the content of a session file: keys of sessions alone, of the right types, none that excludes
-// another, and names of files as absolute paths. Values may be out of range. Throws Error that names file and
-// key.
+// Returns the content of a session file: only keys of sessions, of the right types, none that excludes
+// another, with file names as absolute paths. Values may be out of range. Errors name file and key.
 nlohmann::json readSessionFile(const std::filesystem::path& path);
 
 } // namespace relume

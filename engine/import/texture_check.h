@@ -1,6 +1,6 @@
-// Checks of PNG and JPEG files that their decoder leaves out: it takes what a truncated file lacks for zeros,
-// and trusts a JPEG file's tables to fit and to be there. What passes is whole, though its pixels may be
-// wrong.
+// Checks of PNG and JPEG files that their decoder omits: it reads zeros for what a truncated file lacks, and
+// assumes that a JPEG file's tables exist and are valid. A file that passes is complete, though its pixels
+// may be wrong.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace relume {
 bool isPng(std::span<const std::byte> bytes);
 bool isJpeg(std::span<const std::byte> bytes);
 
-// Each throws Error, in which `name` stands for the file, unless segments follow one another up to the end of
-// the image, which is of no more than kLongestTextureSide a side, and a PNG file's check sums, a JPEG file's
-// Huffman and quantization tables, are sound.
+// Throw Error, in which `name` names the file, unless segments follow one another up to the end of the image,
+// its sides are at most kLongestTextureSide, and a PNG file's checksums, or a JPEG file's Huffman and
+// quantization tables, are valid.
 void checkPng(std::span<const std::byte> bytes, const std::string& name);
 void checkJpeg(std::span<const std::byte> bytes, const std::string& name);
 

@@ -1,4 +1,4 @@
-// Files that timings go to: trace events and tables.
+// Writing of timings to files: trace events and tables.
 #pragma once
 
 #include "engine/base/timing_trace.h"
@@ -7,21 +7,20 @@
 
 namespace relume {
 
-// "none", "calibrated" or "anchored".
+// Returns "none", "calibrated" or "anchored".
 const char* nameOf(ClockMatch clock);
 
-// Trace events that Perfetto and chrome://tracing open: complete events on two threads, CPU and GPU, times in
-// microseconds; device, driver and clock in "otherData".
+// Returns trace events that Perfetto and chrome://tracing open: complete events on two threads, CPU and GPU,
+// with times in microseconds; device, driver and clock are in "otherData".
 std::string chromeTrace(const TimingTrace& trace);
 
-// A table: frame (empty outside frames), track, name, start_us, duration_us.
+// Returns a CSV table: frame (empty outside frames), track, name, start_us, duration_us.
 std::string csvTable(const TimingTrace& trace);
 
-// Throws UsageError, before long work, unless `path` ends in .json or .csv, and Error if it cannot be
-// written.
+// Throws UsageError unless `path` ends in .json or .csv, Error if it cannot be written. Use before long work.
 void expectTimingFile(const std::filesystem::path& path);
 
-// chromeTrace() to a .json, csvTable() to a .csv; whole or not at all. Throws Error.
+// Writes chromeTrace() to a .json file or csvTable() to a .csv file, atomically. Throws Error.
 void writeTimings(const std::filesystem::path& path, const TimingTrace& trace);
 
 } // namespace relume

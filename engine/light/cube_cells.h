@@ -7,8 +7,8 @@
 
 namespace relume {
 
-// Visits the centers (u, v) of count × count equal squares of a texel, row by row, with a weight in
-// proportion to their solid angle.
+// Visits the centers (u, v) of count × count equal squares of a texel, row by row, with a weight proportional
+// to their solid angle.
 template <typename Visit>
 void forEachSubCellPlace(int x, int y, int size, int count, Visit visit) {
     const auto center = [&](int texel, int sub) {
@@ -22,7 +22,7 @@ void forEachSubCellPlace(int x, int y, int size, int count, Visit visit) {
         }
 }
 
-// The same, with their unnormalized directions in place of (u, v).
+// Visits the same centers as unnormalized directions instead of (u, v).
 template <typename Visit>
 void forEachSubCell(int face, int x, int y, int size, int count, Visit visit) {
     forEachSubCellPlace(x, y, size, count,

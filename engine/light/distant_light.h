@@ -10,16 +10,16 @@ namespace relume {
 
 struct DistantLight {
     vec3 direction;  // any length but zero
-    vec3 irradiance; // on a surface that faces it
+    vec3 irradiance; // of a surface that faces the light
 };
 
-// What the lights add to texels of a cube of `size` ≥ 2 texels a side, by rising index, none twice. A light's
-// irradiance goes to the four texels around its direction in bilinear shares, across the cube's edges too; at
-// a corner, where three texels meet, the fourth share goes to these in thirds. Irradiance is exact, and
-// nothing jumps as a light moves.
+// Returns what the lights add to the texels of a cube of `size` ≥ 2 texels a side, by rising index, no index
+// twice. A light's irradiance is shared bilinearly among the four texels around its direction, across the
+// cube's edges too; at a corner, where three texels meet, the fourth share is split equally among them.
+// Irradiance is exact, and nothing jumps as a light moves.
 std::vector<shared::LightTap> distantTaps(std::span<const DistantLight> lights, int size);
 
-// CPU twin of shaders/light_distant.comp.
+// Adds distant lights to the cube. CPU twin of shaders/light_distant.comp.
 void addDistantLights(LightCube& cube, std::span<const DistantLight> lights);
 
 } // namespace relume

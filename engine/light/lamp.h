@@ -12,11 +12,11 @@ struct Lamp {
     vec3 radiance;
 };
 
-// The lamp as the device takes it: amount is its solid angle.
+// Returns the lamp as the device takes it; its amount is its solid angle.
 shared::LightCap makeLampCap(const Lamp& lamp, int size);
 
-// Adds a lamp to the cube: the share of each texel that it covers times its radiance, scaled so that
-// Σ radiance · solid angle is exact. CPU twin of shaders/light_lamp_gains.comp and light_lamps.comp.
+// Adds a lamp to the cube: its radiance times the share of each texel that it covers, scaled so that Σ
+// radiance · solid angle is exact. CPU twin of shaders/light_lamp_gains.comp and light_lamps.comp.
 void addLamp(LightCube& cube, const Lamp& lamp);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// All light of a moment: what an image is lit by.
+// All light of a moment, as a list of sources.
 #pragma once
 
 #include "engine/light/day_sky.h"
@@ -11,22 +11,21 @@
 
 namespace relume {
 
-// A prepared map (prepareForSampling), turned by `rotation` radians as in sampleEnvironment(), times `gain`.
-// A blend of two is both of them, with gains 1 - w and w.
+// An environment: a map from prepareForSampling(), turned by `rotation` radians as in sampleEnvironment() and
+// multiplied by `gain`. A blend of two is both of them, with gains 1 - w and w.
 struct EnvironmentLight {
     std::shared_ptr<const Environment> map;
     float rotation = 0, gain = 1;
-    std::shared_ptr<const Environment> picture =
-        nullptr; // makePicture() of the same, for backgrounds; or null
+    std::shared_ptr<const Environment> picture = nullptr; // makePicture() of it, for backgrounds, or null
 
     bool operator==(const EnvironmentLight&) const = default;
 };
 
-// Most lamps, strokes and distant lights, of each.
+// The most lamps, strokes and distant lights, of each kind.
 constexpr size_t kMostSources = 512;
 
-// Environments and sky are summed; strokes painted over them, in their order; the sun, lamps and distant
-// lights added.
+// The sources of a light. Environments and sky are summed, strokes are painted over them in order, then the
+// sun, lamps and distant lights are added.
 struct Light {
     std::vector<EnvironmentLight> environments = {};
     std::optional<DaySky> sky = std::nullopt;
@@ -35,19 +34,19 @@ struct Light {
     std::vector<DistantLight> distant = {};
 };
 
-// Unit vector at an azimuth (0: +Z, 90: +X) and an elevation, in degrees.
+// Returns the unit vector at an azimuth (0: +Z, 90: +X) and an elevation, in degrees.
 vec3 directionAt(float azimuth, float elevation);
 
-// All of it turned about +Y, by a positive angle from +Z towards +X.
+// Returns the light turned about +Y by `angle` radians; a positive angle turns +Z towards +X.
 Light turned(Light light, float angle);
 
-// All of it `factor` times as bright, which is at least 0.
+// Returns the light `factor` ≥ 0 times as bright.
 Light scaled(Light light, float factor);
 
-// The lamps, and the sky's sun after them.
+// Returns the lamps, followed by the sky's sun.
 std::vector<Lamp> lampsAndSun(const Light& light);
 
-// CPU twin of LightPass up to the transform.
+// Sums the sources into a cube of `size` texels a side. CPU twin of LightPass up to the transform.
 LightCube sampleLight(const Light& light, int size);
 
 } // namespace relume

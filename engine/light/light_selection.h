@@ -1,36 +1,37 @@
-// Which coefficients of the light are kept.
+// Selection of the light entries that are kept.
 #pragma once
 
 #include <optional>
 
 namespace relume {
 
-// Largest |quantized coefficient|, and the paper's threshold, of kLightMaximum.
+// The largest magnitude of a quantized coefficient, and the paper's threshold in the same unit.
 constexpr int kLightMaximum = 32767;
 constexpr int kPaperLightThreshold = 1024;
 
-// With area weights so many lose less of an image than any other step (docs/errors.md). The paper's threshold
-// keeps 24 to 600 entries, and loses up to 30 % where small lamps outshine a room.
+// The default count. With area weights, so many entries lose less of an image than any other step
+// (docs/errors.md). The paper's threshold keeps 24 to 600 entries and loses up to 30 % where small lamps
+// outshine a room.
 constexpr int kDefaultLightCount = 512;
 
-// An entry's weight is the largest |component| of its three channels; with `areaWeighted` times the share of
-// a face that its Haar function covers, a power of two (Ng, Ramamoorthi, Hanrahan: All-Frequency Shadows
-// Using Non-linear Wavelet Lighting Approximation, 2003, "area-weighted selection": a smooth receiver answers
-// to a wavelet in proportion to its area). Weights below 2^-126 are 0, and such entries are never kept.
+// How light entries are selected. An entry's weight is its largest |component|, times, if `areaWeighted`, the
+// share of a face that its Haar function covers, a power of two (Ng, Ramamoorthi, Hanrahan: All-Frequency
+// Shadows Using Non-linear Wavelet Lighting Approximation, 2003, "area-weighted selection": the response of a
+// smooth receiver to a wavelet is proportional to its area). Weights below 2^-126 count as 0, and such
+// entries are never kept.
 struct LightSelection {
-    // If given, entries of at least (threshold - ½) / kLightMaximum of the largest weight are kept: all, with
-    // 0.
+    // If given, keeps entries of at least (threshold - ½) / kLightMaximum of the largest weight; 0 keeps all.
     std::optional<int> threshold = std::nullopt;
-    // Else the `count` entries of the largest weight; of equals those of lower index. At least 1.
+    // Otherwise the `count` entries of largest weight are kept, at least 1; of equals the lower index.
     int count = kDefaultLightCount;
-    // None: counted entries are, as the paper's threshold is not.
+    // None: weighted by area if entries are counted, not with a threshold.
     std::optional<bool> areaWeighted = std::nullopt;
 
     bool isAreaWeighted() const { return areaWeighted.value_or(!threshold); }
     bool operator==(const LightSelection&) const = default;
 };
 
-// The share of the largest weight that a kept entry has at least.
+// Returns the share of the largest weight that an entry must have to be kept.
 inline float shareOf(int threshold) {
     return threshold > 0 ? (float(threshold) - 0.5f) / float(kLightMaximum) : 0;
 }

@@ -1,4 +1,4 @@
-// Strokes: a painted environment is light with discs of color over it.
+// Strokes: discs of color with which environments are painted.
 #pragma once
 
 #include "engine/light/light_cube.h"
@@ -11,15 +11,15 @@ struct Stroke {
     float angularRadius; // radians, in (0, π]
     vec3 radiance;
     float softness = 0.5f; // the share of the radius over which it fades, in [0, 1]
-    float opacity = 1;     // in its middle, in [0, 1]
+    float opacity = 1;     // at its center, in [0, 1]
 
     bool operator==(const Stroke&) const = default;
 };
 
-// The stroke as the device takes it: amount is its opacity.
+// Returns the stroke as the device takes it; its amount is its opacity.
 shared::LightCap makeStrokeCap(const Stroke& stroke, int size);
 
-// Mixes a stroke into what the cube holds. CPU twin of shaders/light_strokes.comp.
+// Blends a stroke over the cube's radiance. CPU twin of shaders/light_strokes.comp.
 void paintStroke(LightCube& cube, const Stroke& stroke);
 
 } // namespace relume

@@ -11,33 +11,33 @@ namespace relume {
 
 constexpr int kCubeFaces = 6;
 
-// A face's three axes in the world: the direction of (u, v) is forward + u * right + v * down.
+// The three axes of a face in the world. The direction of (u, v) is forward + u · right + v · down.
 struct CubeFaceAxes {
     vec3 right, down, forward;
 };
 
-// Axes of `face`, 0 to 5.
+// Returns the axes of `face`, 0 to 5.
 CubeFaceAxes cubeFaceAxes(int face);
 
-// Unnormalized direction of face coordinates (u, v); its length is sqrt(1 + u² + v²).
+// Returns the direction of face coordinates (u, v), not normalized; its length is √(1 + u² + v²).
 vec3 cubeDirection(int face, float u, float v);
 
-// Unit direction through the center of a texel.
+// Returns the unit direction through the center of a texel.
 vec3 cubeTexelDirection(int face, int x, int y, int size);
 
-// Solid angle of a texel by the midpoint rule: 4 / (size² (1 + u² + v²)^(3/2)), in steradian. Over a
-// cube it sums to 4π within 1e-4 for size ≥ 64.
+// Returns the solid angle of a texel by the midpoint rule, 4 / (size² (1 + u² + v²)^(3/2)), in steradians.
+// Over a cube it sums to 4π within 1e-4 for size ≥ 64.
 float cubeTexelSolidAngle(int x, int y, int size);
 
-// A place on a cube of `size` texels a side.
+// A texel of a cube map.
 struct CubeTexel {
     int face, x, y;
 };
 
-// The texel that a direction, of any length but zero, passes through.
+// Returns the texel that a direction of any length but zero passes through; faces have `size` texels a side.
 CubeTexel cubeTexel(vec3 direction, int size);
 
-// Index of a texel in an array of six faces, row by row: face·size² + y·size + x.
+// Returns the index of a texel in an array of six faces, row by row: face·size² + y·size + x.
 inline int cubeTexelIndex(int face, int x, int y, int size) { return (face * size + y) * size + x; }
 
 } // namespace relume

@@ -12,7 +12,7 @@ namespace relume {
 // Values are stored in files and passed to shaders: never renumber.
 enum class DiskMapping : uint32_t {
     Orthographic = 0,   // (x, y) = ((d·s + 1) / 2, (d·t + 1) / 2)
-    EqualAreaPolar = 1, // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - d·n)): of earlier files
+    EqualAreaPolar = 1, // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - d·n)): older files only
     EqualArea = 2,      // (x, y) = ((d·s, d·t) / sqrt(1 + d·n) + 1) / 2: Lambert's azimuthal projection
     Polar = 3, // (x, y) = (atan2(d·t, d·s) / 2π + 1/2, sqrt(1 - (d·n)²)): section 3.2 of the paper
 };
@@ -22,22 +22,22 @@ constexpr bool isPolar(DiskMapping mapping) {
     return mapping == DiskMapping::Polar || mapping == DiskMapping::EqualAreaPolar;
 }
 
-// Map coordinates in [0, 1]² of a unit direction in its local frame, z ≥ 0.
+// Returns the map coordinates, in [0, 1]², of a unit direction in its local frame with z ≥ 0.
 vec2 diskMapCoordinates(DiskMapping mapping, vec3 local);
 
-// The unit direction at map coordinates, or nothing where the map has none (outside the disk).
+// Returns the unit direction at map coordinates, or nothing outside the disk.
 std::optional<vec3> diskMapDirection(DiskMapping mapping, vec2 coordinates);
 
-// Solid angle per unit of map area at coordinates inside the map's domain, in sr.
+// Returns the solid angle per unit of map area, in steradians, at coordinates inside the map's domain.
 float diskMapSolidAngle(DiskMapping mapping, vec2 coordinates);
 
-// A direction with z at least kGrazingCosine: one at or below the horizon, as interpolated normals
-// give at silhouettes, is lifted to just above it and normalized. Every view lookup goes through it.
+// Returns a direction with z of at least kGrazingCosine. A direction at or below the horizon, as interpolated
+// normals give at silhouettes, is lifted to just above it and normalized. Every view lookup uses it.
 constexpr float kGrazingCosine = 1e-3f;
 vec3 liftAboveHorizon(vec3 local);
 
-// Names are those of files and the command line: "orthographic", "polar-sine" (Polar), "equal-area", and
-// "polar" (EqualAreaPolar), which no new bake takes.
+// The names in files and on the command line are "orthographic", "polar-sine" (Polar), "equal-area", and
+// "polar" (EqualAreaPolar), which new bakes do not accept.
 std::string_view diskMappingName(DiskMapping mapping);
 std::optional<DiskMapping> diskMappingFromName(std::string_view name);
 

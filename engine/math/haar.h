@@ -18,15 +18,15 @@ namespace relume {
 // Transforms one square of size × size values in place; `size` is a power of two.
 void haarForward(std::span<vec3> values, int size);
 
-// The inverse of haarForward.
+// Inverts haarForward().
 void haarInverse(std::span<vec3> values, int size);
 
-// Both for the six faces of a cube, one after another, in place.
+// Transform each of the six faces of a cube, stored one after another, in place.
 void haarForwardFaces(std::span<vec3> cube, int faceSize);
 void haarInverseFaces(std::span<vec3> cube, int faceSize);
 
-// Where the bake's kernels put a coefficient, face · size² + y · size + x, of six faces: 16 · block + slot.
-// GLSL twin: shaders/lib/haar_block.glsl.
+// Returns where the bake's kernels store the coefficient of index face · size² + y · size + x: at 16 · block
+// + slot. GLSL twin: shaders/lib/haar_block.glsl.
 size_t haarSlot(size_t coefficient, size_t size);
 
 } // namespace relume

@@ -1,45 +1,47 @@
-// Relights one set of a part's materials: what every layout of transport implements.
+// The interface of relighters of one set of materials, which every layout of transport implements.
 #pragma once
 
 #include "engine/vk/commands.h"
 
 namespace relume {
 
-// How tuples follow a light that changes. All give the same bits.
+// How tuples are updated when the light changes. All modes give the same bits. The rows layout always
+// relights in full.
 enum class RelightMode {
-    Full,        // from all of the light
-    Incremental, // from what changed since the light recorded before, wherever sums of that light are there
-    Auto         // by whichever is less
+    Full,        // from all light entries
+    Incremental, // from the changes since the light's last recording, if tuples are up to date with that
+    Auto         // from whichever list of entries is shorter
 };
 
-// The light on the device, as LightPass (engine/render/light_pass.h) has recorded it.
+// The light on the device, as recorded by LightPass (engine/render/light_pass.h).
 struct DeviceLight {
-    const vk::Buffer& table; // two halves: the light, then how it changed
-    const vk::Buffer& stats; // shared::LightStats
-    uint64_t recording, recordingBefore;
+    const vk::Buffer& table;             // two halves: the light's entries, then its changes
+    const vk::Buffer& stats;             // shared::LightStats
+    uint64_t recording, recordingBefore; // numbers of this recording of light and of the one before
 };
 
+// Computes the tuples of one set of materials from transport and light.
 class SetRelighter {
   public:
-    // Throws OutOfMemory, or Error when the device cannot bind as many tuples. `name` stands for the part.
+    // Throws OutOfMemory, or Error if the device cannot bind as many tuples. Errors name part `name`.
     SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name);
     virtual ~SetRelighter() = default;
 
-    // Writes the tuples under the light recorded before.
+    // Records the computation of the tuples from the light recorded before.
     void record(vk::Commands& commands, const DeviceLight& light, RelightMode mode);
 
-    // Buffers that the transport is divided into, for what one binding holds.
+    // Returns the number of buffers that the transport is divided into, so that each fits one binding.
     virtual size_t shards() const = 0;
 
     uint32_t rows() const { return mRows; }
-    const vk::Buffer& tuples() const { return mTuples; } // vec3 per row; zero before the first record()
+    const vk::Buffer& tuples() const { return mTuples; } // one vec3 per row; zero before the first record()
 
   private:
     virtual void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode) const = 0;
 
     uint32_t mRows = 0;
     vk::Buffer mTuples;
-    uint64_t mRecording = 0; // of the light that the sums are of
+    uint64_t mRecording = 0; // number of the light recording that the sums belong to
 };
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// A view over the light that is seen behind it.
+// Composition of a view over the light that is seen behind it.
 #pragma once
 
 #include "engine/light/background.h"
@@ -6,22 +6,23 @@
 
 namespace relume {
 
+// Composites views over backgrounds. Keeps a reference to the device, which must outlive it.
 class BackgroundPass {
   public:
     explicit BackgroundPass(const vk::Device& device);
 
-    // The background of the record() calls that follow: makeBackground(). Uploads its map, unless the last
-    // light had it, and waits for that.
+    // Sets the background of the record() calls that follow, by makeBackground(). Uploads its map, and waits
+    // for that, unless the light before had the same map.
     void setLight(const Light& light, float deviation = 0);
 
-    // Pass "background": `view`, whose radiance is premultiplied by alpha, over the background turned by
-    // `turn` radians. It is in TRANSFER_SRC_OPTIMAL before and after, and so is image() then.
+    // Records pass "background": composites `view`, whose radiance is premultiplied by alpha, over the
+    // background turned by `turn` radians. `view` is in TRANSFER_SRC_OPTIMAL before and after, image() after.
     void record(vk::Commands& commands, const vk::Image& view, const Camera& camera, float turn = 0);
 
-    // RGBA32F, linear, alpha 1.
+    // Returns the result: RGBA32F, linear, alpha 1.
     const vk::Image& image() const { return mImage; }
 
-    // The image of the last submission. Waits for the device.
+    // Returns the image of the last submission. Waits for the device.
     Image read() const;
 
   private:

@@ -5,6 +5,7 @@
 
 namespace relume {
 
+// Measures of the difference of an image from a reference.
 struct ImageDifference {
     double relativeRmse;  // sqrt(Σ(a-b)² / Σb²) over linear RGB; b is the reference
     double psnr;          // dB, peak = largest value of b; infinite for equal images
@@ -12,7 +13,7 @@ struct ImageDifference {
     double flip;          // mean ꟻLIP error in [0, 1] after toneMap (ACES, exposure 0)
 };
 
-// Alpha does not count. Throws Error when the sizes differ, a value is not finite or the reference is black.
+// Compares RGB only. Throws Error if sizes differ, a value is not finite or the reference is black.
 ImageDifference compareImages(const Image& image, const Image& reference);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Two views in one image, for eyes: side by side, or how far apart they are.
+// Visual comparison of two views in one image: side by side, or as a map of their difference.
 #pragma once
 
 #include "engine/vk/commands.h"
@@ -9,20 +9,21 @@ enum class CompareMode { Split, Difference };
 
 struct CompareOptions {
     CompareMode mode = CompareMode::Split;
-    float split = 0.5f; // of the width: what is left of it shows the first image, the rest the second
-    float scale = 1;    // of the mean of a pixel's three differences, for heatColor() (heat_color.h)
+    float split = 0.5f; // share of the width, from the left, that shows the first image
+    float scale = 1;    // factor on the mean of a pixel's three differences before heatColor() (heat_color.h)
 };
 
+// Compares two images. Keeps a reference to the device, which must outlive it.
 class ComparePass {
   public:
     explicit ComparePass(const vk::Device& device);
 
-    // Pass "compare": both linear images of one size, in TRANSFER_SRC_OPTIMAL before and after; image() is
-    // too, then.
+    // Records pass "compare" of two linear images of one size, in TRANSFER_SRC_OPTIMAL before and after, as
+    // image() is after.
     void record(vk::Commands& commands, const vk::Image& first, const vk::Image& second,
                 const CompareOptions& options);
 
-    // RGBA32F; alpha as the images have it.
+    // Returns the result: RGBA32F; alpha is that of the images.
     const vk::Image& image() const { return mImage; }
 
   private:

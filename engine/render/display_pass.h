@@ -1,4 +1,4 @@
-// A window's image: the view as a display takes it.
+// Conversion of a view to display values, onto a window's image.
 #pragma once
 
 #include "engine/render/tone_map.h"
@@ -11,16 +11,17 @@ namespace relume {
 struct DisplayOptions {
     ToneCurve curve = ToneCurve::Agx;
     float exposureStops = 0;
-    vec3 background{0}; // display values, where nothing is covered
+    vec3 background{0}; // display values where nothing is covered
 };
 
+// Tone-maps views onto images of a window.
 class DisplayPass {
   public:
-    // `format`: of the images drawn on, not converting.
+    // `format` is that of the images drawn on, without conversion to sRGB.
     DisplayPass(const vk::Device& device, VkFormat format);
 
-    // Pass "display": toneMap() of `view`, which is in TRANSFER_SRC_OPTIMAL before and after, onto `target`
-    // of the same size, whose contents are lost; then in COLOR_ATTACHMENT_OPTIMAL.
+    // Records pass "display": toneMap() of `view` onto `target`, of the same size. `view` is in
+    // TRANSFER_SRC_OPTIMAL before and after; `target` is overwritten, and left in COLOR_ATTACHMENT_OPTIMAL.
     void record(vk::Commands& commands, const vk::Image& view, const vk::Image& target,
                 const DisplayOptions& options) const;
 

@@ -1,4 +1,4 @@
-// Drawn images, back in host memory.
+// Download of drawn images to host memory.
 #pragma once
 
 #include "engine/image/image.h"

@@ -1,11 +1,11 @@
-// Numbers as colors. GLSL twin: shaders/compare.frag.
+// A color scale for numbers. GLSL twin: shaders/compare.frag.
 #pragma once
 
 #include "engine/math/vector.h"
 
 namespace relume {
 
-// From black (0) over blue, purple and orange to yellow (1 and more); linear.
+// Returns a linear color: from black (0) over blue, purple and orange to yellow (1 and more).
 vec3 heatColor(float heat);
 
 } // namespace relume

@@ -1,5 +1,5 @@
-// Light change, first half: a light becomes the quantized coefficients that relighting multiplies with.
-// Everything stays on the device: sample → radiance → Haar → coefficients → quantize → table.
+// Light change, first half: turns a light into the quantized light entries by which relighting multiplies
+// transport. All of it stays on the device: sample → radiance → Haar → coefficients → quantize → table.
 #pragma once
 
 #include "engine/light/light_vector.h"
@@ -13,42 +13,43 @@ struct LightStats {
     float scale;                     // LightVector::scale
     float error;                     // LightVector::error
     uint32_t kept;                   // entries
-    std::optional<uint32_t> changed; // that differ from the light recorded before; none: not to be told
+    std::optional<uint32_t> changed; // entries that differ from the light recorded before; none if unknown
 };
 
+// Samples, transforms, selects and quantizes light. Keeps a reference to the device, which must outlive it.
 class LightPass {
   public:
-    // `faceSize`: F of the asset, 32 or 64 (any even power of two to 64 works).
+    // `faceSize` is F of the asset, 32 or 64 (any even power of two up to 64 works).
     LightPass(const vk::Device& device, int faceSize);
 
-    // The light of the record() calls that follow. Sources are sampled anew by every record(), at most
-    // kMostSources of a kind; a cube, of F texels a side, is taken as it is. Maps of environments that the
-    // light before did not have are uploaded, which waits: maps are told apart by their pointers, and kept
-    // until the next light.
+    // Sets the light of the record() calls that follow. Sources, at most kMostSources of a kind, are sampled
+    // anew by every record(). Maps of environments that the light before did not have are uploaded, which
+    // waits; maps are identified by their pointers, and kept alive until the next light. A cube, of F texels
+    // a side, is used as it is.
     void setLight(Light light);
-    void setEnvironment(const Environment& prepared); // alone
+    void setEnvironment(const Environment& prepared); // as the only source
     void setCube(const LightCube& cube);
 
-    // Passes "light sample" (environments), "light sky", "light strokes", "light lamps", "light distant"
-    // (where there are any), "light haar", "light quantize". `rotation` in radians turns the light, as
-    // turned() does, but not a cube. Compute and draws may use the results at once. Recordings are to be
-    // submitted in their order, and once: the table's changes are those since the recording before.
+    // Records passes "light sample" (environments), "light sky", "light strokes", "light lamps", "light
+    // distant" (those that there is a source for), "light haar" and "light quantize". `rotation` turns the
+    // light, but not a cube, by radians as turned() does. Compute and draws may use the results at once.
+    // Submit recordings once, in order: the table has the changes since the recording before.
     void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {});
 
     int faceSize() const { return mFaceSize; }
-    // 6 F² × shared::PackedLight, zero where dropped; then, of the same shape, how the light changed.
+    // Returns 6 F² × shared::PackedLight, zero where dropped, then as many differences from the light before.
     const vk::Buffer& table() const { return mTable; }
     const vk::Buffer& stats() const { return mStats; }       // shared::LightStats
     const vk::Buffer& radiance() const { return mRadiance; } // 6 F² × vec3
 
-    // Of the last record() and the one before, among those of all light passes: from 1; 0 is none.
+    // Return the numbers of the last record() and the one before, from 1 over all light passes; 0 for none.
     uint64_t recording() const { return mRecording; }
     uint64_t recordingBefore() const { return mRecordingBefore; }
 
-    // What selection and quantization cost in the last submission of record(). Waits for the device.
+    // Returns statistics of the last submission of record(). Waits for the device.
     LightStats readStats() const;
 
-    // What the last submission of record() left, for tests and `relume verify`. They wait for the device.
+    // Return results of the last submission of record(), for tests and `relume verify`. Wait for the device.
     LightCube readCube() const;
     LightVector readVector() const;
 

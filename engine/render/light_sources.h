@@ -1,4 +1,4 @@
-// What lights, summed into the lighting cube on the device: the first passes of LightPass.
+// The sum of light sources as a lighting cube on the device: the first passes of LightPass.
 #pragma once
 
 #include "engine/light/light.h"
@@ -6,16 +6,18 @@
 
 namespace relume {
 
+// Sums light sources. Keeps a reference to the device, which must outlive it.
 class LightSources {
   public:
     LightSources(const vk::Device& device, int faceSize);
 
-    // Uploads the maps of `light`'s environments, unless the last light had them; those are kept alive.
-    // Waits. Throws Error for a map of more pixels than the device reads of a buffer.
+    // Uploads the maps of `light`'s environments, except those that the light before had, and keeps them
+    // alive. Waits. Throws Error for a map of more pixels than the device can read from a buffer.
     void prepare(const Light& light);
 
-    // Writes 6 F² × vec3 of `radiance`. The environments' maps are among those prepared; all else travels
-    // with the commands. What comes next must wait for compute, and compute for what came before.
+    // Records the writing of `radiance`, 6 F² × vec3. The environments' maps must be prepared; other sources
+    // travel with the commands. The caller adds the barriers: this waits for earlier compute, and readers
+    // wait for this.
     void record(vk::Commands& commands, const Light& light, const vk::Buffer& radiance) const;
 
   private:

@@ -1,6 +1,6 @@
-// Lit spheres: what a material reflects of light that nothing shadows, for every mirror direction, from a
-// grid of view directions (Sloan, Martin, Gooch, Gooch: The Lit Sphere, 2001). Made when first needed, and
-// anew when the light has changed. engine/scene/residual.h has the mathematics.
+// Lit spheres: a material's unshadowed reflection of the light for every mirror direction, from a grid of
+// view directions (Sloan, Martin, Gooch, Gooch: The Lit Sphere, 2001). A sphere is made when first needed,
+// and anew after the light changed. engine/scene/residual.h has the mathematics.
 #pragma once
 
 #include "engine/render/light_pass.h"
@@ -14,43 +14,44 @@
 
 namespace relume {
 
+// Makes and keeps the lit spheres of an asset. Keeps a reference to the device, which must outlive it.
 class LitSpheres {
   public:
-    // Makes buffers for all parts and sets of `asset` that have a residual; for none unless `takesResiduals`.
-    // Throws OutOfMemory.
+    // Makes buffers for all parts and sets of `asset` that have a residual, or for none unless
+    // `takesResiduals`. Throws OutOfMemory.
     LitSpheres(const vk::Device& device, const Asset& asset, bool takesResiduals);
 
-    // Records pass "unshadowed": it sets the light of all spheres made from now on, and sums the unshadowed
-    // tuples.
+    // Records pass "unshadowed", which sets the light of all spheres made from now on, and sums the
+    // unshadowed tuples.
     void recordLight(vk::Commands& commands, const LightPass& light);
 
-    // Records pass "spheres": it makes the missing spheres of these kernels and grid nodes, for draws that
-    // follow.
+    // Records pass "spheres", which makes the missing spheres of these kernels and grid nodes, for draws that
+    // follow. Throws Error if the device's images have too few layers.
     void record(vk::Commands& commands, std::span<const uint32_t> kernels, const std::set<uint32_t>& nodes);
 
-    // Null: terms alone.
+    // Returns the residual of a set, or null if its K terms are drawn alone.
     const ResidualSet* set(size_t part, size_t set) const { return mResiduals[part][set].get(); }
-    // The number of a layer's kernel.
+    // Returns the number of a layer's kernel.
     uint32_t kernel(const SphereKernel* layer) const { return mKernelNumbers.at(layer); }
 
-    // A layer for each node and kernel, by slots(): a sphere of kSphereAzimuths × kSphereRings for harmonic 0
-    // of the view's azimuth a, below it two for each other harmonic c, whose products with cos 2ca and -sin
-    // 2ca are added to it. RGBA32F.
+    // Returns the spheres, RGBA32F, one layer of the image per kernel and node, found by slots(). A layer has
+    // kSphereAzimuths × kSphereRings texels for harmonic 0 of the view's azimuth a, and below them two such
+    // images for each further harmonic c, which are added times cos 2ca and -sin 2ca.
     const vk::Image& image() const { return mImage; }
-    // uint: the layer of kernel · kGridNodes + node.
+    // Returns the layer, a uint, of kernel · kGridNodes + node.
     const vk::Buffer& slots() const { return mSlots; }
-    // Two vec4 a node: its direction, and the side that azimuth 0 is at.
+    // Returns two vec4 per node: its direction, and the side towards azimuth 0.
     const vk::Buffer& grid() const { return mGrid; }
-    // Tuples of points that nothing shadows: polar maps about +Y of kTupleAzimuths × kTupleRings normals,
-    // three for each four terms of a set, laid out as tuples are; kTurnedRows for sets of parts with
-    // tangents. RGBA32F.
+    // Returns the unshadowed tuples, RGBA32F: polar maps about +Y of kTupleAzimuths × kTupleRings normals
+    // (kTurnedRows for sets of parts with tangents), three images for each four terms of a set, laid out as
+    // tuples are.
     const vk::Image& tuples() const { return mTuples; }
     uint32_t firstTuples(const ResidualSet* set) const { return mSets.at(set).firstImage; }
-    // Laid out as tuples, in whole quads of terms: ResidualSet::irradianceWeights.
+    // Returns ResidualSet::irradianceWeights, laid out as tuples are, in whole quads of terms.
     const vk::Buffer& weights() const { return mWeights; }
     uint32_t firstWeight(const ResidualSet* set) const { return mSets.at(set).firstImage; } // in texels
 
-    // As they were last made, for tests and `relume verify`. They wait for the device.
+    // Return what was last made, for tests and `relume verify`. Wait for the device.
     std::vector<vec3> readSphere(uint32_t kernel, uint32_t node) const; // spheres × rings × azimuths
     std::vector<vec3> readTuples(const ResidualSet* set) const;         // rows × azimuths × terms
 
@@ -65,7 +66,7 @@ class LitSpheres {
     struct Set {
         uint32_t firstImage, terms, mapping;
         ViewMapTexture lightMaps;
-        uint32_t isTurned; // 0 if the frames of all its parts follow from normals
+        uint32_t isTurned; // 1 if a part has tangents, 0 if the frames of all its parts follow from normals
 
         uint32_t rows() const { return isTurned ? shared::kTurnedRows : shared::kTupleRings; }
     };
@@ -82,16 +83,16 @@ class LitSpheres {
     std::map<const ResidualSet*, Set> mSets;
     std::vector<Kernel> mKernels;
     vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
-    vk::Sampler mSampler, mPolarSampler; // the latter wraps in x
+    vk::Sampler mSampler, mPolarSampler; // mPolarSampler repeats in x
     vk::Buffer mTexels, mLights, mTupleTexels, mGrid, mSlots, mWeights;
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mCubeImage, mImage, mTuples;
-    std::vector<vk::Image> mRetired;  // smaller ones of before, which commands that wait may still name
+    std::vector<vk::Image> mRetired;  // earlier, smaller images, which pending commands may still use
     std::vector<uint32_t> mSlotTable; // slots(); kNone
     std::vector<uint32_t> mFreeSlots;
     uint32_t mSlotCount = 0;
-    uint32_t mMostParts = 1;                   // of a kernel
-    uint32_t mTupleRows = shared::kTupleRings; // of an image of unshadowed tuples: the most that a set has
+    uint32_t mMostParts = 1;                   // over all kernels
+    uint32_t mTupleRows = shared::kTupleRings; // of an image of unshadowed tuples: the most of any set
 };
 
 } // namespace relume

@@ -1,5 +1,5 @@
-// Samples of a pixel in a visibility buffer of several, and which of them are shaded as one. Definitions of
-// what shaders/lib/pixel_samples.glsl repeats.
+// Samples of a pixel in a multisampled visibility buffer, and which of them are shaded together. CPU
+// definitions of what shaders/lib/pixel_samples.glsl repeats.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -12,15 +12,16 @@ namespace relume {
 
 constexpr int kDefaultSamples = 4, kMostSamples = 8;
 
-// Throws UsageError unless it is 1, 2, 4 or 8.
+// Throws UsageError unless `samples` is 1, 2, 4 or 8.
 void expectSamples(int samples);
 
-// Pixels from the upper left corner of the pixel: Vulkan's standard locations; the center of 1.
+// Returns the position of sample i, in pixels from the pixel's upper left corner: Vulkan's standard
+// locations, or the center for one sample.
 vec2 samplePosition(int samples, int i);
 
-// Bits of the samples of each group that is shaded once, as what its first sample sees, at the mean of their
-// positions: the first covered sample that is left, with those that `isOne` puts together with it. `seen`:
-// the surface of every sample, 0 where none is.
+// Groups the samples of a pixel. Returns a bit mask per group, which is shaded once, for the triangle of its
+// first sample, at the mean of its samples' positions. A group starts with the first covered sample that is
+// left and takes those that `isOne` accepts with it. `seen` has the triangle id of every sample, 0 for none.
 std::vector<uint32_t> groupSamples(std::span<const uint32_t> seen,
                                    const std::function<bool(uint32_t, uint32_t)>& isOne);
 

@@ -1,4 +1,4 @@
-// Light change, second half: the K-tuple of every vertex, on the device.
+// Light change, second half: computes the K-tuple of every vertex on the device.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -15,35 +15,36 @@
 namespace relume {
 
 struct RelighterOptions {
-    // Bytes of the largest buffer of transport; the device's own limit holds as well.
+    // Most bytes of a buffer of transport; the device's own limit applies as well.
     uint64_t largestShard = std::numeric_limits<uint64_t>::max();
-    bool residual = true; // whether sets that have one are drawn with it; else by their K terms alone
+    bool residual = true; // whether sets with a residual are drawn with it; otherwise by their K terms alone
 };
 
-// Holds the transport of every part and set of materials on the device, each in its layout.
+// Holds the transport of every part and set of materials on the device, each in its layout. Keeps a reference
+// to the device, which must outlive it.
 class Relighter {
   public:
-    // Throws OutOfMemory, or Error when a part has more rows than the device can bind tuples for, or the
-    // device cannot relight a layout.
+    // Throws OutOfMemory, or Error if a part has more rows than the device can bind tuples for, or the device
+    // cannot relight a layout.
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
-    // Pass "relight": tuples of every part's bound set (none given: the first) under the light recorded
-    // before. Draws may use them at once. Those of other sets stay as they are. Recordings are to be
-    // submitted in their order, and once: tuples may be made from those of the light before.
+    // Records pass "relight": computes the tuples of every part's bound set (without `appearance`: of its
+    // first set) from the light recorded before. Draws may use them at once. The tuples of other sets stay as
+    // they are. Submit recordings once, in order: tuples may be made from those of the light before.
     void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {});
 
-    // Of the record() calls that follow.
+    // Sets the mode of the record() calls that follow.
     void setMode(RelightMode mode) { mMode = mode; }
 
     size_t parts() const { return mParts.size(); }
     size_t shards(size_t part, size_t set = 0) const { return mParts[part][set]->shards(); }
-    // vec3 per row, row = vertex · terms + term: what the light gives of a term, the γ of the method.
+    // Returns the tuples γ: a vec3 per row, row = vertex · terms + term.
     const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set]->tuples(); }
 
-    // The unshadowed reflection of the light. A view pass makes the spheres that it needs.
+    // Returns the lit spheres: the unshadowed reflection of the light. A view pass makes those that it needs.
     LitSpheres& spheres() const { return *mSpheres; }
 
-    // Those of the last submission. Waits for the device.
+    // Returns the tuples of the last submission. Waits for the device.
     std::vector<vec3> readTuples(size_t part, size_t set = 0) const;
 
   private:
@@ -53,7 +54,7 @@ class Relighter {
     const vk::Device& mDevice;
     int mFaceSize;
     RelightMode mMode = RelightMode::Auto;
-    // Of the layouts that are there; where they are they stay, as the sets refer to them.
+    // The programs of the layouts in use. They must not move, as sets refer to them.
     std::tuple<std::unique_ptr<RowsRelighter::Programs>, std::unique_ptr<BasesRelighter::Programs>> mPrograms;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
     std::unique_ptr<LitSpheres> mSpheres;

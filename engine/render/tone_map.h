@@ -1,4 +1,4 @@
-// From linear radiance to display values: a still image's last step. DisplayPass does it on the device.
+// Tone mapping of linear radiance to display values. DisplayPass does the same on the device.
 #pragma once
 
 #include "engine/image/image.h"
@@ -14,8 +14,8 @@ enum class ToneCurve {
     Agx,  // Sobotka's AgX, base look, by the polynomial of Wrensch, "Minimal AgX Implementation", 2023
 };
 
-// Scales by 2^exposure, applies the curve, encodes as sRGB (IEC 61966-2-1) and clamps to [0, 1]. Alpha
-// stays. What is negative or not a number becomes 0.
+// Scales by 2^exposureStops, applies the curve, encodes as sRGB (IEC 61966-2-1) and clamps to [0, 1]. Alpha
+// is kept. Negative values and NaN become 0.
 Image toneMap(const Image& linear, ToneCurve curve, float exposureStops);
 
 std::optional<ToneCurve> toneCurveFromName(std::string_view name); // "none", "aces", "agx"

@@ -1,45 +1,46 @@
-// What of a mesh a camera cannot see, found ahead of drawing it.
+// Culling of those parts of a mesh that a camera cannot see, before drawing it.
 #pragma once
 
 #include "engine/scene/mesh.h"
 
 namespace relume {
 
-// What a mesh is drawn with.
+// The view with which a mesh is drawn.
 struct ClusterView {
-    mat4 clipFromWorld; // its last row of unit length but for its last element: depth
+    mat4 clipFromWorld; // last row gives depth: its first three elements have unit length
     vec3 eye;
-    float focalLength;   // pixels that a unit of length takes at unit depth
-    float pixelFraction; // of a pixel: places are rounded to multiples of it
-    bool hidesBacks;     // triangles that are clockwise in the image are not drawn
+    float focalLength;   // pixels that a unit of length covers at unit depth
+    float pixelFraction; // positions are rounded to multiples of this fraction of a pixel
+    bool hidesBacks;     // whether triangles that are clockwise in the image are not drawn
 };
 
+// Consecutive triangles.
 struct TriangleRun {
     uint32_t first, count;
 };
 
-// Consecutive triangles by the few: those of a bake are neighbors that face alike (docs/view_speed.md).
+// Clusters of a few consecutive triangles, which in a bake are neighbors that face alike
+// (docs/view_speed.md).
 class TriangleClusters {
   public:
     TriangleClusters() = default;
     explicit TriangleClusters(const Mesh& mesh);
 
-    // Rising runs that hold every triangle which may cover a pixel, however the device rounds. Clusters are
-    // left out that are beyond one plane of the frustum, or show nothing but backs where those are hidden.
+    // Returns rising runs that contain every triangle which may cover a pixel, however the device rounds.
+    // Clusters are left out that are beyond one plane of the frustum, or show only backs if those are hidden.
     std::vector<TriangleRun> visible(const ClusterView& view) const;
 
   private:
     struct Cluster {
         vec3 center;
-        float radius;   // a little more, for rounding
-        float shortest; // of its triangles' longest edges, those of no length aside
+        float radius;   // slightly enlarged, for rounding
+        float shortest; // the shortest of its triangles' longest edges, not counting those of no length
     };
 
     bool showsBacksAlone(size_t cluster, const ClusterView& view) const;
 
     std::vector<Cluster> mClusters;
-    // Of every triangle: the normal, as long as the height over the longest edge, and its product with a
-    // corner.
+    // Per triangle: the normal, scaled to the height over the longest edge, and its product with a corner.
     std::vector<vec4> mPlanes;
 };
 

@@ -1,7 +1,7 @@
-// View change: draws every part with its light-modulated tuples and view maps into a linear float image.
-// Touches no transport. First it draws which triangle every sample of every pixel sees, then it shades
-// pixels: once where one smooth surface is seen, else once for each. What is seen stays while the camera
-// does: then a new light is only shaded. docs/view_speed.md says why.
+// View change: draws every part into a linear float image from its tuples and view maps, without touching
+// transport. First it draws a visibility buffer, the triangle id of every sample of every pixel. Then it
+// shades: a pixel once if its samples see one smooth surface, else once per surface. The visibility buffer is
+// kept while the camera stays, so that a new light needs only the shading. docs/view_speed.md says why.
 #pragma once
 
 #include "engine/image/image.h"
@@ -18,59 +18,60 @@ namespace relume {
 
 struct ViewOptions {
     int width = 640, height = 480;
-    int samples = kDefaultSamples; // as setSamples()
-    // Whether parts with a residual are drawn as if nothing shadowed them, whatever their transport is.
+    int samples = kDefaultSamples; // see setSamples()
+    // Draws parts with a residual as if nothing shadowed them, whatever their transport.
     bool isUnshadowed = false;
 };
 
-// What an image shows instead of radiance: triangles' edges; normals, as normal maps are colored; how much
-// smaller (red) or larger (blue) triangles are than the asset's median.
+// What an image shows instead of radiance: edges of triangles; normals, colored as in normal maps; or
+// triangle sizes, smaller (red) or larger (blue) than the asset's median.
 enum class Inspect { Off, Wireframe, Normals, Density };
 
+// Draws views of an asset. Keeps references to device and asset, which must outlive it.
 class ViewPass {
   public:
-    // Uploads meshes, view maps and textures. `asset` must outlive this. Throws OutOfMemory, or
-    // Error when a part has more vertices than the device can bind, or the image is larger than it can make.
+    // Uploads meshes, view maps and textures. Throws OutOfMemory, or Error if a part has more vertices than
+    // the device can bind, or the image is larger than it can make.
     ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options = {});
 
-    // A new image size; what was drawn is lost.
+    // Sets the image size; discards what was drawn.
     void resize(int width, int height);
 
-    // Samples a pixel from the next record() on, 1, 2, 4 or 8; fewer if the device has not that many. 1: the
-    // center alone, all or nothing. Throws as the constructor does.
+    // Sets the samples per pixel from the next record() on: 1, 2, 4 or 8; fewer if the device does not
+    // support as many. With 1, coverage is decided at the pixel's center. Throws as the constructor does.
     void setSamples(int samples);
-    // The sample count in use.
+    // Returns the sample count in use.
     int samples() const { return mSamples; }
 
-    // Binds materials to parts from the next record() on; the default appearance until then. Nothing waits:
-    // the change travels with the commands.
+    // Binds materials to parts from the next record() on; until then the default appearance is bound. Does
+    // not wait: the change travels with the commands.
     void setAppearance(const Appearance& appearance);
 
-    // From the next record() on every part shows the first `terms` of its K only; 0 or K and more: all.
+    // Draws the first `terms` of K terms only, from the next record() on; 0, or K and more, draws all.
     void setTerms(int terms) { mTerms = terms; }
     // Adds the residual from the next record() on, where the relighter has one; on by default.
     void setResidual(bool isAdded) { mAddsResidual = isAdded; }
-    // Fades the ground from the next record() on; none draws all of it. Radiance is premultiplied by the
-    // coverage, which is alpha.
+    // Fades the ground from the next record() on; without a fade all of it is drawn. Radiance is
+    // premultiplied by the coverage, which is alpha.
     void setGroundFade(const std::optional<GroundFade>& fade) { mGroundFade = fade; }
-    // From the next record() on.
+    // Sets what images show from the next record() on.
     void setInspect(Inspect inspect) { mInspect = inspect; }
 
-    // Pass "view": draws the asset with the tuples recorded before.
+    // Records pass "view": draws the asset with the tuples recorded before.
     void record(vk::Commands& commands, const Camera& camera, const Relighter& relighter);
 
-    // RGBA32F, linear, premultiplied by alpha: the share of a pixel's samples that are covered. In
-    // TRANSFER_SRC_OPTIMAL after record(). It can be sampled as well.
+    // Returns the image: RGBA32F, linear, premultiplied by alpha, the share of a pixel's samples that are
+    // covered. It is in TRANSFER_SRC_OPTIMAL after record(), and can be sampled.
     const vk::Image& image() const { return mColor; }
-    // Depth of the first sample of every pixel, by the camera's clipFromWorld() with the asset's bounds, 1
-    // where nothing is seen; with a stencil that means nothing to others. It is in
-    // DEPTH_STENCIL_ATTACHMENT_OPTIMAL after record(), can be copied from, and is to be left in that layout.
+    // Returns the depth of the first sample of every pixel, by the camera's clipFromWorld() with the asset's
+    // bounds; 1 where nothing is seen. Its stencil is for internal use. It is in
+    // DEPTH_STENCIL_ATTACHMENT_OPTIMAL after record(), can be copied from, and must be left in that layout.
     const vk::Image& depth() const { return mSamples > 1 ? mPixelDepth : mDepth; }
 
-    // The image of the last submission. Waits for the device.
+    // Returns the image of the last submission. Waits for the device.
     Image read() const;
 
-    // One submission of record(), read back.
+    // Submits one record(), waits, and returns the image.
     Image render(const Camera& camera, const Relighter& relighter);
 
   private:
@@ -78,8 +79,8 @@ class ViewPass {
         uint32_t terms = 0, materials = 0;
         DiskMapping mapping = DiskMapping::Orthographic;
         ViewMapTexture viewMaps;
-        bool hasTangents = false; // which frames follow
-        // Of the tuples, as the shader reads them: four where no vertex begins amid a texel.
+        bool hasTangents = false; // whether frames follow from tangents
+        // Texel size of the tuples as the shader reads them: four if no vertex then begins within a texel.
         uint32_t floatsPerTexel() const { return terms % 4 == 0 ? 4 : 1; }
     };
     struct Part {
@@ -88,42 +89,42 @@ class ViewPass {
         vk::Buffer drawnPositions, drawnTriangles; // NumberedTriangles
         vk::Buffer vertices, triangles;            // shared::ViewVertex and corners, looked up by pixels
         TriangleClusters clusters;
-        uint32_t firstSurface = 0, surfaces = 0; // triangles, numbered over all parts from 1 on
-        uint32_t paint = 0;                      // how it is painted where it is
+        uint32_t firstSurface = 0, surfaces = 0; // first triangle id, from 1 over all parts; triangles
+        uint32_t paint = 0;                      // shared::kPaintedByMap and so on, if it is painted
         vk::Image baseColor, materialMap, normalMap, emissionMap;
         shared::ViewDetail detail;
-        bool isDetailed; // by detail
+        bool isDetailed; // whether `detail` has anything to draw
         std::vector<Set> sets;
-        vk::Buffer layers; // shared::ViewDetail, and shared::ViewLayer, as many as can be bound
+        vk::Buffer layers; // shared::ViewDetail, then as many shared::ViewLayer as can be bound
         PartAppearance bound;
-        uint32_t look = 0; // what that asks of the shader
+        uint32_t look = 0; // what the bound layers need of the shader: shared::kSingleLook and so on
         std::vector<shared::ViewLayer> boundLayers;
     };
-    // A camera, for an image of a size.
+    // A camera, for an image of a given size.
     struct Frame {
         mat4 clipFromWorld;
         vec3 eye;
         vec3 corner, right, down; // shared::ViewRays
-        vec2 pixel;               // its size in clip space
+        vec2 pixel;               // its size in normalized device coordinates
         bool operator==(const Frame&) const = default;
     };
 
     Part makePart(const AssetPart& source, uint32_t firstSurface);
     Set makeSet(const MaterialSet& source, const std::string& name);
     static const Set& boundSet(const Part& part) { return part.sets[part.bound.set]; }
-    // The pixels that a program shades: All with one sample a pixel; with several, Inner ones are shaded once
-    // and Edges once per group of samples.
+    // The pixels that a program shades: All with one sample per pixel; with several, Inner ones are shaded
+    // once and Edges once per group of samples.
     enum class Pixels { All, Inner, Edges };
-    // A shading tells a program what it shades, and how. `look`: shared::kSingleLook and so on; `estimate`:
-    // shared::kTermsAlone and so on; `harmonics`: of the bound layers' lit spheres, at most.
+    // What a program shades and how. `look` is shared::kSingleLook and so on; `estimate` shared::kTermsAlone
+    // and so on; `harmonics` the most of the bound layers' lit spheres.
     struct Shading {
         uint32_t look;
         bool allTerms;
         uint32_t estimate, harmonics;
         Pixels pixels;
     };
-    // The stencil value of a part's pixels. Parts that share a value are told apart by triangle id. With
-    // several samples the highest bit marks edges.
+    // Returns the stencil value of a part's pixels. Parts that share a value are told apart by triangle id.
+    // With several samples the highest bit marks edges.
     uint32_t stencilOf(const Part& part) const {
         return uint32_t(&part - mParts.data()) % (mSamples == 1 ? 255 : 127) + 1;
     }
@@ -138,15 +139,15 @@ class ViewPass {
                Pixels pixels);
     // Returns shared::kTermsAlone and so on.
     uint32_t estimateOf(const ResidualSet* residual) const;
-    // Null if the part shows the K terms alone with this set bound.
+    // Returns null if the part shows the K terms alone with this set bound.
     const ResidualSet* residualOf(size_t part, size_t set, const Relighter& relighter) const;
     // Makes the lit spheres that the bound layers of all parts need.
     void recordSpheres(vk::Commands& commands, const Frame& frame, const Relighter& relighter);
     void inspect(vk::Commands& commands, const Frame& frame, const Part& part);
-    // None: it is not seen.
+    // Returns none if the bounds are not seen.
     static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Bounds& bounds);
     const vk::GraphicsProgram& shadeProgram(const Set& set, const Shading& shading);
-    // Makes the programs of all sets and looks ahead of their use, so that no swap of materials waits.
+    // Makes the programs of all sets and looks before they are needed, so that no change of materials waits.
     void makeShadePrograms(const Relighter& relighter);
 
     const vk::Device& mDevice;
@@ -156,13 +157,14 @@ class ViewPass {
     int mSamples = 1;
     struct SamplePrograms {
         vk::GraphicsProgram surfaces, closedSurfaces;
-        vk::GraphicsProgram edges;   // of several samples only
-        vk::GraphicsProgram inspect; // made when it is first asked for
+        vk::GraphicsProgram edges;   // with several samples only
+        vk::GraphicsProgram inspect; // made when first needed
     };
     std::map<int, SamplePrograms> mPrograms;                     // by samples
     std::map<vk::Constants, vk::GraphicsProgram> mShadePrograms; // by the constants of view_shade.frag
     vk::Sampler mPixelSampler;
-    vk::Sampler mDiskSampler, mPolarSampler, mSurfaceSampler; // the latter two wrap: in x, and all around
+    vk::Sampler mDiskSampler, mPolarSampler,
+        mSurfaceSampler; // mPolarSampler repeats in x, mSurfaceSampler in x and y
     std::vector<Part> mParts;
     int mTerms = 0;
     bool mIsUnshadowed;
@@ -171,10 +173,10 @@ class ViewPass {
     Inspect mInspect = Inspect::Off;
     float mMedianArea = 0;
     vk::Image mColor, mSurfaces, mDepth;
-    vk::Image mPixelDepth; // of several samples: what the first ones hold
-    // What the images but mColor hold; none until it is recorded.
+    vk::Image mPixelDepth; // with several samples: the depth of the first ones
+    // The frame whose visibility buffer and depth the images hold; none until one is recorded.
     std::optional<Frame> mDrawn;
-    bool mHasMarkedEdges = false; // in the stencil of mDrawn
+    bool mHasMarkedEdges = false; // in the stencil, for mDrawn
 };
 
 } // namespace relume

@@ -10,26 +10,26 @@ struct Camera {
     vec3 target{0};
     float verticalFov = 0.6f; // radians
 
-    // World to Vulkan clip space (y down, depth 0 to 1), for an image of width / height `aspect`.
-    // `scene` bounds what is seen and decides the near and far planes.
+    // Returns the matrix from the world to Vulkan clip space (y down, depth 0 to 1), for an image whose width
+    // / height is `aspect`. Near and far planes enclose `scene`.
     mat4 clipFromWorld(float aspect, const Bounds& scene) const;
 
-    // Unit direction through the center of pixel (x, y), y down from the top.
+    // Returns the unit direction through the center of pixel (x, y), counted from the upper left corner.
     vec3 pixelDirection(int x, int y, int width, int height) const {
         return directionAt({float(x) + 0.5f, float(y) + 0.5f}, width, height);
     }
-    // Likewise through any place, in pixels from the upper left corner.
+    // Returns the unit direction through any point, in pixels from the upper left corner.
     vec3 directionAt(vec2 place, int width, int height) const;
 };
 
-// The camera on a sphere about the object that sees all of `bounds`: azimuth and elevation in
-// radians (azimuth 0 looks along -Z, growing to the right), distance in multiples of the one that
-// just fits the bounding sphere.
+// Returns a camera that looks at the center of `bounds`. Azimuth and elevation are in radians: azimuth 0
+// looks along -Z, and the eye moves to the right as it grows; elevation is clamped to ±89.5°. `distance` is
+// in multiples of the one at which the bounding sphere just fits the image.
 Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float distance, float verticalFov,
                    float aspect);
 
-// The default view: the whole object from slightly above, three quarters. The bounding box fills the image as
-// far as its shape lets it, with a margin of 3 % on either side.
+// Returns the default view: the whole object in three-quarter view from slightly above. The bounding box
+// fills the image as far as its shape permits, with a margin of 3 % on either side.
 Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Whether the back of a surface can be seen from outside.
+// Tests whether the back of a surface can be seen from outside.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -14,7 +14,8 @@ namespace relume {
 // A triangle whose corners are all in the same place belongs to no piece.
 std::vector<bool> findClosedTriangles(const Mesh& mesh);
 
-// Returns whether all triangles but those in a single place are of closed pieces, and there are such.
+// Returns whether there are closed pieces and every triangle belongs to one, not counting triangles whose
+// corners are all in the same place.
 bool isClosed(const Mesh& mesh);
 
 } // namespace relume

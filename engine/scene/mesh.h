@@ -1,4 +1,4 @@
-// Triangle meshes, as every stage sees them: welded, validated, with unit normals.
+// Triangle meshes, in the form that every stage takes: welded, validated, with unit normals.
 #pragma once
 
 #include "engine/math/tangent_frame.h"
@@ -11,19 +11,19 @@ namespace relume {
 
 struct Mesh {
     std::vector<vec3> positions;
-    std::vector<vec3> normals;     // One per position, unit length; may be empty for an occluder.
-    std::vector<uvec3> triangles;  // Counter-clockwise seen from outside; indices into positions.
-    std::vector<vec2> uvs = {};    // Empty or one per position: (0, 0) is an image's top left, v goes down.
-    std::vector<vec4> colors = {}; // Empty or one per position: linear, in [0, 1].
-    // Empty or one per position, unit length and orthogonal to the normal: s of the vertex's frame.
+    std::vector<vec3> normals;     // one per position, unit length; may be empty for an occluder
+    std::vector<uvec3> triangles;  // counter-clockwise seen from outside; indices into positions
+    std::vector<vec2> uvs = {};    // empty or one per position: (0, 0) is an image's top left, v goes down
+    std::vector<vec4> colors = {}; // empty or one per position: linear, in [0, 1]
+    // Empty or one per position: s of the vertex's tangent frame, unit and orthogonal to the normal.
     std::vector<vec3> tangents = {};
 
     size_t vertexCount() const { return positions.size(); }
     size_t triangleCount() const { return triangles.size(); }
 };
 
-// Attributes beyond position and normal that a reader keeps. Each splits vertices along its seams, and every
-// vertex costs time in a bake: so none unless something uses it.
+// The attributes that a reader keeps besides position and normal. Each splits vertices along its seams, and
+// every vertex costs bake time: keep those alone that something uses.
 struct MeshAttributes {
     bool uvs = false, colors = false;
 };
@@ -37,23 +37,24 @@ struct Bounds {
     void add(const Bounds& other) { low = glm::min(low, other.low), high = glm::max(high, other.high); }
     vec3 center() const { return 0.5f * (low + high); }
     vec3 extent() const { return high - low; }
-    // Radius of the sphere around the box: the scene's unit of length.
+    // Returns the radius of the sphere around the box, which serves as the scene's unit of length.
     float radius() const { return 0.5f * glm::length(extent()); }
 };
 
+// Returns the bounds of all positions.
 Bounds boundsOf(const Mesh& mesh);
 
-// Returns the frame that a vertex's transport is baked in: of its tangent, or of its normal if the mesh has
-// none.
+// Returns the frame in which a vertex's transport is baked: that of its tangent, or of its normal alone if
+// the mesh has no tangents.
 TangentFrame frameOf(const Mesh& mesh, size_t vertex);
 
-// Fills `normals` by summing face normals weighted with the corner's angle (Thürmer and Wüthrich 1998).
+// Computes `normals` as sums of face normals weighted by the corner's angle (Thürmer and Wüthrich 1998).
 void makeNormals(Mesh& mesh);
 
-// Makes vertex order[i] vertex i, with all its attributes. Triangles are the caller's to renumber.
+// Moves vertex order[i], with all its attributes, to index i. The caller renumbers the triangles.
 void reorderVertices(Mesh& mesh, std::span<const uint32_t> order);
 
-// Appends `other`'s vertices and triangles; attributes are kept only if both meshes have them.
+// Appends `other`'s vertices and triangles. An attribute is kept only if both meshes have it.
 void append(Mesh& mesh, const Mesh& other);
 
 } // namespace relume

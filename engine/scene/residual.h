@@ -1,4 +1,4 @@
-// The residual of a BRDF: kernels that give its exact, unshadowed reflection, which pixels combine with the
+// The residual of a BRDF: kernels for its exact, unshadowed reflection, which pixels combine with the
 // shadowed K terms (docs/residual.md).
 #pragma once
 
@@ -10,16 +10,16 @@
 
 namespace relume {
 
-// A BRDF as a convolution. With the light in polar coordinates about the direction towards the eye, (ρ', φ'),
-// the radiance that a surface reflects whose mirror direction is (ρ, φ), and in whose tangent frame the eye
-// is at azimuth a, is
+// A BRDF's unshadowed reflection as a convolution in azimuth. Light is given in polar coordinates (ρ', φ')
+// about the direction to the eye. A surface whose mirror direction is (ρ, φ), and in whose tangent frame the
+// eye is at azimuth a, reflects the radiance
 //
 //     E(ρ, φ; a) = Re Σ_c Σ_m e^(i (mφ + 2ca)) Σ_ρ' values[c, m][ρ, ρ'] Σ_φ' L(ρ', φ') e^(-imφ')
 //
-// where L is radiance times solid angle: a turn about the view direction turns a reflection along, so that
-// only rings mix. Components (c, m) in order: harmonic 0 with frequencies 0 to M, then harmonics 1 to H, each
-// with frequencies -M to M. Isotropic BRDFs have H = 0. That values are real takes mirror symmetry of the
-// BRDF.
+// where L is radiance times solid angle. Turning the light about the view direction turns the reflection with
+// it, so that only rings mix. Components (c, m) are in this order: harmonic 0 with frequencies 0 to M, then
+// harmonics 1 to H, each with frequencies -M to M. Isotropic BRDFs have H = 0. Values are real because the
+// BRDF is mirror-symmetric.
 struct SphereKernel {
     int frequencies = 0;      // M, at most kMostFrequencies
     int harmonics = 0;        // H, at most kMostHarmonics
@@ -29,21 +29,21 @@ struct SphereKernel {
     size_t valueCount() const { return size_t(components()) * shared::kSphereRings * shared::kSphereRings; }
 };
 
-// Returns the largest value of the kernel of a surface that faces the eye, over the mean of all directions:
-// how much brighter one light can make it than even light of the same energy. 4 of a diffuse one, hundreds of
-// a polished one.
+// Returns how concentrated the reflection is for a surface that faces the eye: the kernel's largest value
+// divided by its mean over all light directions, at least 1. About 4 for a diffuse BRDF, hundreds for a
+// polished one.
 float concentrationOf(const SphereKernel& kernel);
 
 // The residual of a set of materials.
 struct ResidualSet {
     // One kernel per layer of the set's view maps.
     std::vector<std::shared_ptr<const SphereKernel>> layers;
-    // Neither light nor view maps are negative anywhere: ratios of their sums are safe.
+    // Whether no texel of the light and view maps is negative, so that ratios of their sums are safe.
     bool hasNonnegativeTerms = false;
-    // The tuples have light of other surfaces, too, which what nothing shadows does not bound.
+    // Whether tuples include light from other surfaces, which the unshadowed radiance does not bound.
     bool isBounced = false;
-    // a_k per channel: Σ a_k g_k is as near to 1 as light maps come, in least squares over the hemisphere
-    // weighted by the cosine. So Σ a_k γ_k is the irradiance of a point.
+    // The weights a_k, per channel. Σ a_k g_k is as near to 1 as the light maps allow, in least squares over
+    // the hemisphere weighted by the cosine, so that Σ a_k γ_k approximates the irradiance of a point.
     std::vector<vec3> irradianceWeights;
 };
 

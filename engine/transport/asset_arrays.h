@@ -1,4 +1,4 @@
-// The arrays of an asset and their chunks' tags, in file order.
+// The arrays of an asset and the tags of their chunks, in file order.
 #pragma once
 
 #include "engine/chunk/chunk_file.h"
@@ -18,17 +18,17 @@ constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kResidualKernels = chunkTag("RKER"), kIrradianceWeights = chunkTag("RIRR");
 constexpr ChunkTag kVisibility = chunkTag("visb");
-// In a shard of a bake only.
+// Only in a shard of a bake.
 constexpr ChunkTag kShard = chunkTag("SHRD"), kBlockLosses = chunkTag("LOSS");
 
-// Calls array(tag, owner, vector) for every array but the transport, and transport(number, set) where that of
-// a set comes; sets are numbered over all parts.
+// Calls array(tag, owner, vector) for every array except transport, and transport(number, set) at the place
+// of a set's transport. Sets are numbered over all parts.
 template <typename Array, typename Transport>
 void forEachArray(const Asset& asset, const Array& array, const Transport& transport) {
     array(kOccluderPositions, kWholeFile, asset.occluder.positions);
     array(kOccluderTriangles, kWholeFile, asset.occluder.triangles);
     uint32_t setNumber = 0;
-    std::set<const ResidualSet*> residuals; // the first set of several has it
+    std::set<const ResidualSet*> residuals; // a shared residual is stored with the first of its sets
     for (uint32_t number = 0; number < asset.parts.size(); number++) {
         const AssetPart& part = asset.parts[number];
         array(kPositions, number, part.mesh.positions);

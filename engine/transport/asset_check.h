@@ -1,4 +1,4 @@
-// What must hold in every asset, whether it is about to be written or has just been read.
+// Checks of what must hold in every asset, whether it is about to be written or was just read.
 #pragma once
 
 #include "engine/chunk/block_chunk.h"
@@ -12,11 +12,11 @@ constexpr int kLargestLayers = 64; // of view maps in a set
 constexpr int kMostBounces = 8;
 constexpr int kSmallestMap = 4, kLargestMap = 256;
 
-// Everything of an asset but its transport.
+// Checks everything in an asset except its transport. Throws Error.
 void checkSkeleton(const Asset& asset, const std::string& name);
 
-// Sizes agree, indices lie within their arrays, numbers are finite and within their range, normals are unit
-// vectors, rows rise. `name` stands for the asset in errors. Throws Error for the first thing that is wrong.
+// Checks that sizes agree, indices lie within their arrays, numbers are finite and in range, normals are unit
+// vectors, and indices rise within rows. Throws Error for the first fault; `name` names the asset in it.
 void checkAsset(const Asset& asset, const std::string& name);
 
 } // namespace relume

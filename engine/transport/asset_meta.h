@@ -8,17 +8,17 @@
 
 namespace relume {
 
-// Limits that keep a hostile META chunk from standing for much memory.
+// A limit that keeps a hostile META chunk from taking much memory.
 constexpr size_t kLargestMeta = size_t(1) << 20; // bytes
 
 constexpr size_t kVisibilityKeyDigits = 32; // XXH3-128, in hexadecimal
 
-// How long a part's arrays are.
+// The lengths of a part's arrays.
 struct AssetPartSizes {
     uint64_t vertices = 0, triangles = 0, uvs = 0, colors = 0, tangents = 0;
 };
 
-// How long an asset's arrays are. The sizes of maps, textures and kernels are set in the asset.
+// The lengths of an asset's arrays. The sizes of maps, textures and kernels are in the asset.
 struct AssetSizes {
     uint64_t occluderVertices = 0, occluderTriangles = 0;
     std::vector<AssetPartSizes> parts;
@@ -26,19 +26,19 @@ struct AssetSizes {
 };
 AssetSizes sizesOf(const Asset& asset, std::span<const uint64_t> setEntries);
 
-// An asset whose arrays are still empty, and how long they are.
+// An asset whose arrays are still empty, and their lengths.
 struct AssetMeta {
     Asset asset;
     AssetSizes sizes;
-    std::string visibilityKey; // of the kept visibility (visibility_chunk.h); empty: none is kept
+    std::string visibilityKey; // of the kept visibility (visibility_chunk.h); empty if none is kept
 };
 
-// Throws Error when the bytes pass kLargestMeta.
+// Returns the bytes of chunk META. Throws Error if there would be more than kLargestMeta.
 std::vector<std::byte> encodeMeta(const Asset& asset, const AssetSizes& sizes,
                                   const std::string& visibilityKey = {});
 
-// Throws Error for bytes that encodeMeta() does not make, or with numbers that do not fit their fields;
-// whether they make sense together is for checkAsset to say. `name` stands for the file in errors.
+// Reads what encodeMeta() wrote. Throws Error for other bytes and for numbers that do not fit their fields;
+// whether they are consistent is for checkAsset() to say. `name` names the file in errors.
 AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace relume

@@ -8,28 +8,31 @@
 
 namespace relume {
 
+// Reads the visibility kept in a .relume file.
 class KeptVisibility {
   public:
     // Opens a .relume file, whether it keeps visibility or not, and verifies its checksums. Holds little of
-    // it at a time. Throws Error for one that cannot be read.
+    // it in memory at a time. Throws Error if it cannot be read.
     explicit KeptVisibility(const std::filesystem::path& path);
-    // The same of bytes that `name` stands for in errors.
+    // Opens bytes instead; `name` names them in errors.
     KeptVisibility(ByteSource source, const std::string& name);
 
-    // Says of what the visibility is, and how it was found (visibility_key.h); empty: none is kept.
+    // Returns a hash of what determines visibility (precompute/bake/visibility_key.h); empty if none is kept.
     const std::string& key() const { return mMeta.visibilityKey; }
 
-    // Throws Error unless there are bits of all vertices of an asset of such parts, in its size.
+    // Throws Error unless there are bits for all vertices of an asset with such parts and visibility size.
     void verify(const Asset& asset) const;
 
-    // All of the bake but its rows, and checked so far. Throws Error.
+    // Returns the bake without its transport, checked. Throws Error.
     Asset skeleton() const;
 
-    // Once verified: bits of vertices [first, end) of a part, 6 · size² each, as Visibility::record() gave
-    // them. Quick for vertices that follow those of the last call. Throws Error when they are damaged.
+    // Returns the bits of vertices [first, end) of a part, 6 · size² each, in the order of
+    // Visibility::record(). Call verify() first. Fast for vertices that follow those of the last call. Throws
+    // Error if they are damaged.
     std::vector<uint32_t> bits(uint32_t part, uint32_t first, uint32_t end);
 
-    uint64_t storedBytes() const; // in the file
+    uint64_t storedBytes() const; // in the file, compressed
+    // Returns the side of a face of the visibility cube, in texels.
     uint32_t size() const { return uint32_t(mMeta.asset.visibilitySize); }
     const ChunkFile& file() const { return mFile; }
 
@@ -39,7 +42,7 @@ class KeptVisibility {
 
     ChunkFile mFile;
     AssetMeta mMeta;
-    uint32_t mRun;                              // vertices
+    uint32_t mRun;                              // vertices per run
     std::vector<std::vector<ChunkEntry>> mRuns; // per part
     struct Run {
         uint32_t part, run;

@@ -1,4 +1,4 @@
-// A set's transport, in whichever layout it is kept.
+// A set's transport, in any layout.
 #pragma once
 
 #include "engine/transport/bases/basis_transport.h"
@@ -13,17 +13,17 @@
 
 namespace relume {
 
-// A layout is an alternative here, a folder here and in precompute/layout, and its number below, besides what
-// the compiler asks for. What is done to transport is a function that each layout has one of, found by
-// std::visit: a layout that lacks one does not compile.
+// A new layout needs an alternative here, a folder here and in precompute/layout, and its number below; the
+// compiler asks for the rest. Whatever works on transport is a function with an overload per layout, called
+// by std::visit: a layout that lacks one does not compile.
 using Transport = std::variant<SparseTransport, BasisTransport>;
 
-// In the order of Transport's alternatives.
+// The layouts, in the order of Transport's alternatives.
 enum class TransportLayout { Rows, Bases };
 
-// Facts of a layout that hold without any transport.
+// Properties of a layout as such.
 struct LayoutFacts {
-    const char* name;        // as files and options have it
+    const char* name;        // in files and options
     std::array<char, 4> tag; // of its chunks
 };
 inline constexpr auto kLayoutFacts = []<typename... Kept>(std::type_identity<std::variant<Kept...>>) {
@@ -41,16 +41,17 @@ constexpr std::array<char, 4> layoutTag(TransportLayout layout) { return kLayout
 bool isLayoutTag(std::array<char, 4> tag);
 std::optional<TransportLayout> layoutFromName(std::string_view name);
 
-// Rows are what is baked; every other layout is made of them.
+// Returns whether a layout is made from rows, which are what is baked.
 constexpr bool isCompressed(TransportLayout layout) { return layout != TransportLayout::Rows; }
 
-// Returns the layout that a file names. `where` stands for the file in errors. Throws Error for names of no
-// layout, and for "clusters", which version 0.1 had.
+// Returns the layout that a file names; `where` names the file in errors. Throws Error for unknown names, and
+// for "clusters", which version 0.1 had.
 TransportLayout readLayoutName(std::string_view name, const std::string& where);
 
+// Returns transport of these sizes without rows or clusters.
 Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t terms);
 
-// Of a set that is known to be in rows.
+// Return the transport of a set that is known to be in rows.
 inline SparseTransport& rowsOf(Transport& transport) { return std::get<SparseTransport>(transport); }
 inline const SparseTransport& rowsOf(const Transport& transport) {
     return std::get<SparseTransport>(transport);
@@ -59,13 +60,13 @@ inline const SparseTransport& rowsOf(const Transport& transport) {
 uint32_t verticesOf(const Transport& transport);
 uint32_t termsOf(const Transport& transport);
 
-// The coefficients, `count` of them, that a row stands for: of term row % terms of vertex row / terms.
+// Returns `count` dequantized coefficients of a row: of term row % terms of vertex row / terms.
 std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count);
 
-// Returns the number of entries of rows, or of columns of bases.
+// Returns the number of row entries, or for bases the number of columns of all clusters.
 uint64_t entriesOf(const Transport& transport);
 
-// What relighting may read of it, in memory: coefficients, indices, weights and scales.
+// Returns the bytes in memory of the arrays that relighting reads.
 uint64_t bytesOf(const Transport& transport);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Buffers, asked for by intent.
+// Device buffers, allocated by intended use.
 #pragma once
 
 #include "engine/base/check.h"
@@ -9,11 +9,12 @@
 namespace relume::vk {
 
 enum class BufferUse {
-    Device,   // Lives on the device: storage, vertex, index, indirect, transfers either way
-    Upload,   // Written by the host, read by the device; mapped
-    Readback, // Written by the device, read by the host; mapped
+    Device,   // device memory: storage, vertex, index, indirect, transfers either way
+    Upload,   // written by the host, read by the device; mapped
+    Readback, // written by the device, read by the host; mapped
 };
 
+// A buffer with its own memory. Keeps a reference to the device, which must outlive it.
 class Buffer {
   public:
     Buffer() = default;
@@ -26,7 +27,7 @@ class Buffer {
     VkBuffer handle() const { return mBuffer; }
     uint64_t bytes() const { return mBytes; }
 
-    // The mapped contents of an upload or readback buffer, as whole elements.
+    // Returns the mapped contents of an upload or readback buffer, as whole elements.
     template <typename T>
     std::span<T> map() const {
         RELUME_CHECK(mMapped != nullptr);

@@ -1,4 +1,4 @@
-// The clocks of device and CPU, read at one moment.
+// Simultaneous readings of the device's and the CPU's clock.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@ namespace relume::vk {
 class Device;
 
 struct ClockReading {
-    uint64_t ticks;      // of the device's timestamps
+    uint64_t ticks;      // the device's timestamp
     int64_t cpu;         // cpuNanoseconds() at that moment
-    int64_t uncertainty; // nanoseconds it may be off either way
+    int64_t uncertainty; // nanoseconds that the pair may be off, either way
 };
 
-// CLOCK_MONOTONIC, which devices can be read together with.
+// Returns CLOCK_MONOTONIC, a clock that devices can read together with their own.
 int64_t cpuNanoseconds();
 
-// Both read together; needs Device::readClocks().
+// Reads both clocks together. Requires Device::readClocks() to be non-null.
 ClockReading readCalibrated(const Device& device);
 
-// A timestamp written between two readings of the CPU's clock. Submits and waits; needs
-// Device::timestampBits().
+// Lets the device write a timestamp between two readings of the CPU's clock. Submits and waits. Requires
+// Device::timestampBits() > 0.
 ClockReading readAnchored(const Device& device);
 
 } // namespace relume::vk

@@ -17,7 +17,7 @@ namespace relume::vk {
 class PipelineCache;
 struct ShaderReplacement;
 
-// What `relume devices` shows of a device.
+// Properties of a Vulkan device, as `relume devices` shows them.
 struct DeviceInfo {
     uint32_t index;
     std::string name;
@@ -26,76 +26,78 @@ struct DeviceInfo {
     std::string driver;
     std::string uuid; // 32 hexadecimal digits
     std::string apiVersion;
-    std::string unsuitable; // Why it cannot be used; empty if it can
+    std::string unsuitable; // why it cannot be used; empty if it can
     uint64_t largestHeap;   // bytes
     uint64_t largestAllocation, largestStorageBuffer;
     uint32_t largestLayerCount, sharedMemory, subgroupSize;
     uint32_t largestTexelBuffer;    // texels
-    bool outputsLayers;             // vertex shaders choose the layer that is drawn into
-    bool subgroupBallot;            // in compute shaders
-    bool subgroupSizeCanBeAskedFor; // by a compute program
+    bool outputsLayers;             // a vertex shader can choose the layer to draw to (shaderOutputLayer)
+    bool subgroupBallot;            // compute shaders support ballots
+    bool subgroupSizeCanBeAskedFor; // a compute pipeline can require a subgroup size
 
-    // Subgroups that standard shaders can work with: of 8 to 64 invocations, that vote.
+    // Returns whether subgroups suit the standard shaders: 8 to 64 invocations, a multiple of 8, with
+    // ballots.
     bool hasBallots() const { return subgroupBallot && subgroupSize % 8 == 0 && subgroupSize <= 64; }
-    // Programs are made of shaders that need no such subgroups, and read storage buffers instead of texel
-    // buffers.
+    // Returns whether programs are made of portable shaders, which need neither such subgroups nor large
+    // texel buffers: they read storage buffers instead.
     bool takesPortableShaders() const;
 };
 
-// All Vulkan devices of this machine, in the loader's order. Empty when there is no driver.
+// Returns all Vulkan devices of this machine, in the loader's order; none without a driver.
 std::vector<DeviceInfo> listDevices();
 
 struct DeviceOptions {
-    // Index, UUID or part of a name; empty: the first discrete GPU, else integrated, else any.
+    // The device's index, UUID or part of its name. Empty: the first discrete GPU, else integrated, else any.
     std::string select;
-    // Comma-separated checks of Khronos' validation layer: core, sync, gpu, best. Empty: none.
+    // Comma-separated checks of Khronos' validation layer: core, sync, gpu, best. Empty: no validation.
     std::string validation;
-    // What the window system's surfaces need of the instance; the device can then show images on them.
-    // Empty: it draws into images of its own alone.
+    // The instance extensions that the window system needs for its surfaces, so that the device can show
+    // images on them. Empty: it draws offscreen only.
     std::vector<std::string> surfaceExtensions;
-    // The file that keeps what the driver compiles, for savePipelineCache(). Empty: none does.
+    // The file that savePipelineCache() writes and that is read at the start. Empty: none.
     std::filesystem::path pipelineCache;
-    // As if the device had no output of layers, no ballots, and texel buffers as small as Vulkan allows: to
-    // test on one that has more what is done on those that do not.
+    // Pretends that the device has no output of layers, no ballots, and texel buffers of the least size that
+    // Vulkan permits, to test the paths for such devices on any device.
     bool leastFeatures = false;
 };
 
-// A device of a host program, which made it and keeps it for as long as anything of ours refers to it.
+// A device of a host program, which must keep it alive while anything of Relume's refers to it.
 struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE; // of Vulkan 1.3
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    // The device was made with this; only the constructor looks at it, to check the features.
+    // What the device was made with. Only the constructor reads it, to check the features.
     const VkDeviceCreateInfo* created = nullptr;
     VkQueue queue = VK_NULL_HANDLE;
-    uint32_t queueFamily = 0; // of the queue; it must do graphics and compute
+    uint32_t queueFamily = 0; // the queue's; must do graphics and compute
 };
 
-// A chain of features for a host that makes its own device. docs/engine.md lists those that are needed, which
-// every device has that listDevices() calls suitable, and two that are used where they are on. No extension
-// is needed.
+// A chain of feature structs for a host program that makes its own device. docs/engine.md lists the features
+// that are required, all of which listDevices() demands of a suitable device, and the two that are used where
+// enabled. No extension is needed.
 struct Features {
     Features();
     Features(const Features&) = delete; // it points into itself
     Features& operator=(const Features&) = delete;
 
-    // For VkDeviceCreateInfo::pNext, with no pEnabledFeatures beside it; the other two follow it.
+    // The head of the chain, for VkDeviceCreateInfo::pNext, with pEnabledFeatures null; the others follow.
     VkPhysicalDeviceFeatures2 chain;
     VkPhysicalDeviceVulkan12Features vulkan12;
     VkPhysicalDeviceVulkan13Features vulkan13;
 };
-// Turns on what is needed, and what is used where `physical` offers it.
+// Turns on the required features, and the optional ones that `physical` supports.
 void enableFeatures(VkPhysicalDevice physical, Features& features);
 
-// Owns instance, device and queue, or uses those of a host program. Everything refers to it: it stays where
-// it is.
+// Owns instance, device and queue, or uses those of a host program. Most other objects keep a reference to
+// it, so that it must outlive them and cannot be moved.
 class Device {
   public:
-    // Throws NoDeviceError when nothing suits, UsageError when options cannot be understood.
+    // Throws NoDeviceError if no device is suitable, UsageError if options cannot be understood, and Error if
+    // the validation layer is not installed.
     explicit Device(const DeviceOptions& options = {});
-    // Works on the host's device. Only functions whose comments say that they wait for the device use its
-    // queue, to upload and to read back. Throws NoDeviceError that names the missing feature, and UsageError
-    // where `host` is incomplete or its queue family cannot do both graphics and compute.
+    // Uses the host's device. Only functions whose comments say that they wait submit to its queue, to upload
+    // and to read back. Throws NoDeviceError, naming what is missing, if the device is unsuitable, and
+    // UsageError if `host` is incomplete or its queue family cannot do both graphics and compute.
     explicit Device(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
@@ -105,49 +107,49 @@ class Device {
     VkDevice handle() const { return mDevice; }
     VkPhysicalDevice physical() const { return mPhysical; }
     VkQueue queue() const { return mQueue; }
-    // To be held while something is given to the queue: threads may share it.
+    // Locks the queue, which threads may share. Hold the lock while using queue().
     std::unique_lock<std::mutex> lockQueue() const { return std::unique_lock(mQueueMutex); }
     uint32_t queueFamily() const { return mQueueFamily; }
     const VkPhysicalDeviceLimits& limits() const { return mProperties.limits; }
     const std::string& name() const { return mInfo.name; }
     const DeviceInfo& info() const { return mInfo; }
 
-    // Bytes of the largest buffer that one binding may see, and that one allocation may hold.
+    // Returns the size in bytes of the largest buffer that one binding may cover and one allocation may hold.
     uint64_t largestStorageBuffer() const { return mInfo.largestStorageBuffer; }
-    // The most texels, of so many bytes, of a Binding::texelsOf().
+    // Returns the largest number of texels, of `texelBytes` each, of a Binding::texelsOf().
     uint64_t mostTexels(uint64_t texelBytes) const {
         return mInfo.takesPortableShaders() ? largestStorageBuffer() / texelBytes : mInfo.largestTexelBuffer;
     }
 
-    // Bits of a timestamp that count, 36 to 64; 0: the queue writes none.
+    // Returns the number of valid bits of a timestamp, 36 to 64, or 0 if the queue has no timestamps.
     uint32_t timestampBits() const { return mTimestampBits; }
-    // Reads the clocks of the device and of the CPU (CLOCK_MONOTONIC) together; null where it is not offered.
+    // Returns the function that reads the device's clock and CLOCK_MONOTONIC together; null if unsupported.
     PFN_vkGetCalibratedTimestampsEXT readClocks() const { return mReadClocks; }
 
-    // Index of a memory type with these properties among `typeBits`, with `preferred` ones too if it can be;
-    // throws Error if there is none.
+    // Returns the index of a memory type among `typeBits` that has `properties`, and `preferred` too if
+    // possible. Throws Error if there is none.
     uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
                         VkMemoryPropertyFlags preferred = 0) const;
 
-    // Gives an object its name in captures and validation messages; does nothing without debug utilities.
+    // Names an object in captures and validation messages. Does nothing without debug utilities.
     void setName(VkObjectType type, uint64_t handle, std::string_view name) const;
     void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
 
-    // What every pipeline is made with; any thread may use it.
+    // Returns the cache that every pipeline is created with; any thread may use it.
     VkPipelineCache pipelineCache() const;
-    // Writes DeviceOptions::pipelineCache, whole or not at all; warns where it cannot be written.
+    // Writes DeviceOptions::pipelineCache atomically; logs a warning if it cannot be written.
     void savePipelineCache() const;
 
-    // What programs are made of where `builtIn`, an array of shaders/*.h, is given: its replacement if it has
-    // one, else what this device takes for it, mostly itself.
+    // Returns the SPIR-V from which programs are made for `builtIn`, an array of a generated shaders/*.h: its
+    // replacement if it has one, else its portable version if this device takes those, else `builtIn` itself.
     std::vector<uint32_t> shader(std::span<const uint32_t> builtIn) const;
-    // Replaces shaders in the programs that are made from now on, by any thread. Throws Error, and replaces
-    // none, when one has another interface than what it replaces. Returns how many differ from what was in
-    // use.
+    // Replaces shaders in all programs that are made from now on, by any thread. Throws Error, and replaces
+    // none, if the interface of one differs from that of the shader it replaces. Returns the number of
+    // shaders that differ from those in use before.
     size_t replaceShaders(std::span<const ShaderReplacement> replacements);
 
-    // Warnings and errors that the validation layer has reported; 0 without validation.
+    // Returns the number of warnings and errors that the validation layer has reported; 0 without validation.
     int validationMessages() const { return mValidationMessages; }
 
   private:

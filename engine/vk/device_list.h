@@ -1,4 +1,4 @@
-// Shared by device selection and `relume devices`: internal to engine/vk.
+// Helpers shared by device selection and `relume devices`: internal to engine/vk.
 #pragma once
 
 #include "engine/vk/device.h"
@@ -13,7 +13,7 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index);
 // Returns whether the device has this queue family and it does both graphics and compute.
 bool doesGraphicsAndCompute(VkPhysicalDevice physical, uint32_t family);
 
-// The first queue family that does both graphics and compute.
+// Returns the first queue family that does both graphics and compute.
 std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical);
 
 } // namespace relume::vk

@@ -1,4 +1,4 @@
-// Features that a device was made with: internal to engine/vk.
+// Queries about the features that a device was made with: internal to engine/vk.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace relume::vk {
 
-// Names the first needed feature that was not turned on, in a clause; empty where nothing is missing.
+// Returns a clause that names the first required feature that was not turned on; empty if none is missing.
 std::string missingFeature(const VkDeviceCreateInfo& created);
 
-// Returns whether a feature was turned on. `name` is one of the table in features.cpp.
+// Returns whether a feature was turned on. `name` is from the table in features.cpp.
 bool hasFeature(const VkDeviceCreateInfo& created, std::string_view name);
 
 } // namespace relume::vk

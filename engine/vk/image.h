@@ -8,23 +8,24 @@ namespace relume::vk {
 struct ImageOptions {
     VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
     uint32_t width = 1, height = 1;
-    uint32_t layers = 1;  // Always viewed as a 2D array
-    uint32_t samples = 1; // of a pixel: a power of two
+    uint32_t layers = 1;  // always viewed as a 2D array
+    uint32_t samples = 1; // per pixel: a power of two
     uint32_t mips = 1;    // levels, each half as wide and high as the one before, rounded down to 1 or more
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 };
 
-// Of a depth format.
+// Returns whether a depth format includes a stencil.
 inline bool hasStencil(VkFormat format) {
     return format == VK_FORMAT_D32_SFLOAT_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT;
 }
 
+// An image, its view and, unless the image is foreign, its memory. Keeps a reference to the device.
 class Image {
   public:
     Image() = default;
-    // Throws OutOfMemory, or Error when the device cannot make such an image.
+    // Throws OutOfMemory, or Error if the device cannot make such an image.
     Image(const Device& device, const ImageOptions& options, std::string_view name);
-    // A view of an image that someone else keeps, a swapchain.
+    // Makes a view of an image that is owned elsewhere, such as a swapchain's.
     Image(const Device& device, VkImage image, const ImageOptions& options, std::string_view name);
     ~Image() { destroy(); }
     Image(Image&& other) noexcept { *this = std::move(other); }
@@ -42,11 +43,11 @@ class Image {
     const Device* mDevice = nullptr;
     ImageOptions mOptions;
     VkImage mImage = VK_NULL_HANDLE;
-    VkDeviceMemory mMemory = VK_NULL_HANDLE; // none: the image is not ours
+    VkDeviceMemory mMemory = VK_NULL_HANDLE; // null: the image is owned elsewhere
     VkImageView mView = VK_NULL_HANDLE;
 };
 
-// Filters between mip levels where an image has several; integers cannot be filtered.
+// A sampler. It interpolates between mip levels too; images of integers need VK_FILTER_NEAREST.
 class Sampler {
   public:
     Sampler() = default;

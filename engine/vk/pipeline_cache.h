@@ -1,4 +1,4 @@
-// What the driver has compiled, kept in a file from one start to the next.
+// The driver's pipeline cache, kept in a file between runs.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace relume::vk {
 
-// The bytes of a file that keeps `data` for this driver.
+// Returns the contents of a cache file that holds `data` for this driver.
 std::vector<std::byte> packPipelineCache(const VkPhysicalDeviceProperties& driver,
                                          std::span<const std::byte> data);
 
-// What packPipelineCache() packed into `file`. Empty unless that is whole, undamaged and of this very driver:
-// drivers need not check what they are given.
+// Returns the data that packPipelineCache() put into `file`; empty unless the file is undamaged and of
+// exactly this driver, since drivers need not check what they are given.
 std::span<const std::byte> unpackPipelineCache(const VkPhysicalDeviceProperties& driver,
                                                std::span<const std::byte> file);
 
-// Owns a VkPipelineCache.
+// A VkPipelineCache and the file that it is kept in.
 class PipelineCache {
   public:
-    // Begins with what the file at `path` keeps, or empty where it keeps nothing of use. `path` may be empty.
+    // Starts with the contents of the file at `path`, or empty if they are of no use. `path` may be empty.
     PipelineCache(VkDevice device, const VkPhysicalDeviceProperties& driver, std::filesystem::path path);
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
@@ -29,7 +29,7 @@ class PipelineCache {
 
     VkPipelineCache handle() const { return mCache; }
 
-    // Writes the file, whole or not at all, and its folder; warns where it cannot be written. Does nothing
+    // Writes the file atomically, making its folder; logs a warning if it cannot be written. Does nothing
     // without a path.
     void save() const;
 

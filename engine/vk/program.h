@@ -1,4 +1,4 @@
-// Pipelines made from SPIR-V; their layouts come from the shaders themselves.
+// Pipelines made from SPIR-V. Their layouts follow from the shaders themselves.
 #pragma once
 
 #include "engine/vk/device.h"
@@ -6,7 +6,7 @@
 
 namespace relume::vk {
 
-// What compute and graphics programs share. Descriptor set 0 only.
+// The base of compute and graphics programs: pipeline and layouts. Uses descriptor set 0 only.
 class Program {
   public:
     Program() = default;
@@ -38,38 +38,39 @@ class Program {
     std::string mName;
 };
 
+// A compute pipeline.
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;
-    // Subgroups::Full: every subgroup has DeviceInfo::subgroupSize invocations, of which the group size must
-    // be a multiple.
+    // With Subgroups::Full every subgroup has DeviceInfo::subgroupSize invocations; the group size must be a
+    // multiple of that.
     enum class Subgroups { Any, Full };
     ComputeProgram(const Device& device, std::span<const uint32_t> spirv, const Constants& constants,
                    std::string_view name, Subgroups subgroups = Subgroups::Any);
 };
 
-// The use of the stencil, with Commands::setStencil()'s value: Write stores it, Equal requires it, Replace
-// requires it in `stencilCompared` bits and stores it in `stencilWritten` bits.
+// How the stencil is used with Commands::setStencil()'s value: Write stores the value, Equal requires it,
+// Replace requires it in the bits `stencilCompared` and stores it in the bits `stencilWritten`.
 enum class Stencil { None, Write, Equal, Replace };
 
-enum class Cull { None, Clockwise }; // which triangles, as they are seen, are not drawn
+enum class Cull { None, Clockwise }; // winding, on screen, of triangles that are not drawn
 
 struct GraphicsOptions {
     VkFormat colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     VkFormat depthFormat = VK_FORMAT_UNDEFINED; // none: no depth test
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
-    bool depthWrite = true; // false where all depths compare: no depth test
+    bool depthWrite = true; // false with VK_COMPARE_OP_ALWAYS: no depth test
     Cull cull = Cull::None;
-    Stencil stencil = Stencil::None;                        // else the depth format must have one
+    Stencil stencil = Stencil::None;                        // otherwise the depth format must have a stencil
     uint32_t stencilCompared = 0xff, stencilWritten = 0xff; // bits
-    bool readsPositions = false; // attribute 0 is a vec3 of Commands::setPositions()
-    uint32_t samples = 1;        // of each pixel of what is drawn on
+    bool readsPositions = false; // attribute 0 is a vec3 from Commands::setPositions()
+    uint32_t samples = 1;        // per pixel of the target
     bool writesColor = true;
-    bool addsColor = false; // to what is there; else replaces it
+    bool addsColor = false; // adds to the target's color; otherwise replaces it
 };
 
-// A vertex and a fragment shader drawing triangle lists, viewport and scissor dynamic,
-// vertices pulled from storage buffers but for positions.
+// A graphics pipeline that draws triangle lists, with dynamic viewport and scissor. Vertex shaders read
+// storage buffers by vertex number; positions alone can be a vertex attribute.
 class GraphicsProgram : public Program {
   public:
     GraphicsProgram() = default;

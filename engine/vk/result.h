@@ -1,4 +1,4 @@
-// Vulkan's return codes as errors.
+// Vulkan's result codes as errors.
 #pragma once
 
 #include "engine/base/error.h"
@@ -7,13 +7,13 @@
 
 namespace relume::vk {
 
-// Not enough memory on the device or the host: a smaller batch may do.
+// Thrown when the device or the host runs out of memory. A smaller batch may do.
 class OutOfMemory : public Error {
   public:
     using Error::Error;
 };
 
-// Throws OutOfMemory or Error, naming the call, unless `result` is VK_SUCCESS.
+// Throws OutOfMemory or Error, which names the call, unless `result` is VK_SUCCESS.
 void check(VkResult result, const char* call);
 
 } // namespace relume::vk

@@ -1,4 +1,4 @@
-// What a SPIR-V module says about itself: so that C++ never repeats a layout.
+// Reflection of SPIR-V, so that C++ never repeats a layout.
 #pragma once
 
 #include <array>
@@ -9,17 +9,18 @@
 
 namespace relume::vk {
 
+// The resources that a shader declares.
 struct ShaderInterface {
     VkShaderStageFlagBits stage;
     std::map<uint32_t, VkDescriptorType> bindings; // of descriptor set 0, by binding number
     uint32_t pushConstantBytes = 0;
-    std::array<uint32_t, 3> groupSize{1, 1,
-                                      1}; // compute only, with specialization constants at their given values
+    std::array<uint32_t, 3> groupSize{1, 1, 1}; // of compute shaders, specialized
 };
 
-// Specialization constants: element i is the value of constant_id i. Kernels number theirs from 0.
+// Values of specialization constants: element i is that of constant_id i. Shaders number theirs from 0.
 using Constants = std::vector<uint32_t>;
 
+// Returns the interface of a shader specialized with `constants`.
 ShaderInterface reflect(std::span<const uint32_t> spirv, const Constants& constants);
 
 } // namespace relume::vk

@@ -1,4 +1,4 @@
-// Images that a window shows.
+// The images that a window shows.
 #pragma once
 
 #include "engine/vk/image.h"
@@ -7,46 +7,47 @@
 
 namespace relume::vk {
 
-// A frame is acquired, drawn, waited for and presented: one after the other, without semaphores. What the
-// display shows is then what the last input asked for.
+// A swapchain used without semaphores: each frame is acquired, drawn, waited for and presented before the
+// next begins, so that the display always shows the response to the latest input.
 class Swapchain {
   public:
-    // `surface` must outlive this. `waitsForDisplay`: an image is shown when the display asks for one, else
-    // at once where the surface can. Throws NoDeviceError when the device cannot show images on it.
+    // `surface` and `device` must outlive the swapchain. With `waitsForDisplay` images are shown at the
+    // display's rate, otherwise at once if the surface permits. Throws NoDeviceError if the device cannot
+    // show images on the surface.
     Swapchain(const Device& device, VkSurfaceKHR surface, bool waitsForDisplay);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // The window system has taken the surface away: nothing can be drawn until another is set.
+    // Returns whether the window system has destroyed the surface. Nothing can be drawn until setSurface().
     bool hasLostSurface() const { return mHasLostSurface; }
-    // Another surface of the same kind, for which resize() must be called. The one before may go after this.
+    // Sets another surface of the same kind; call resize() next. The old surface may be destroyed afterwards.
     void setSurface(VkSurfaceKHR surface);
 
-    // Images anew, as large as the surface; of this size where it leaves that open. Call at first, and
-    // whenever acquire() or present() say so. False where the surface has no area, as a minimised window's:
-    // then there is nothing to draw on.
+    // Makes the images anew, as large as the surface, or of the given size where the surface leaves that
+    // open. Call at first and whenever acquire() or present() fails. Returns false if the surface is lost or
+    // has no area, as that of a minimized window: then nothing can be drawn.
     bool resize(uint32_t width, uint32_t height);
 
-    // As the constructor's. True: it is another choice than before, for which resize() must be called.
+    // Sets `waitsForDisplay` as in the constructor. Returns whether it changed; if so, call resize().
     bool setWaitsForDisplay(bool waits);
 
-    // Of 8 bits a channel, not converted: values are written as the display takes them (sRGB).
+    // Returns the format: 8 bits a channel, without conversion. Values are written as displayed, in sRGB.
     VkFormat format() const { return mFormat.format; }
     uint32_t width() const { return mExtent.width; }
     uint32_t height() const { return mExtent.height; }
-    // Color attachments and sources of transfers, in an undefined layout when acquired.
+    // Returns the images: color attachments and transfer sources, in an undefined layout when acquired.
     const std::vector<Image>& images() const { return mImages; }
 
-    // The number of the image to draw next, which nothing reads any more. None: resize() first.
+    // Returns the number of the image to draw next, once nothing reads it; none if resize() is needed.
     std::optional<uint32_t> acquire();
 
-    // Shows an image, in PRESENT_SRC, whose drawing has ended. False: resize() before the next.
+    // Shows an image, in layout PRESENT_SRC, whose drawing has ended. Returns false if resize() is needed.
     bool present(uint32_t image);
 
   private:
     void destroy();
-    // As check(), but for what another surface or size mends; then false.
+    // Returns false if another surface or size would help; otherwise behaves like check().
     bool isGood(VkResult result, const char* call);
 
     const Device& mDevice;

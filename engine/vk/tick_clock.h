@@ -1,5 +1,5 @@
-// A device's counter on the CPU's clock: turns readings of few bits, that wrap around, into times, and
-// follows what one clock gains on the other from calibration to calibration.
+// Conversion of a device's tick counter to the CPU's clock. It copes with counters of few bits that wrap
+// around, and follows the drift between the clocks from calibration to calibration.
 #pragma once
 
 #include <cstdint>
@@ -7,24 +7,26 @@
 
 namespace relume::vk {
 
-// Ticks from `start` to `end`, less than one turn of a counter of `validBits`; the bits above them are
-// anything.
+// Returns the ticks from `start` to `end`, less than one wrap of a counter of `validBits` bits. Higher bits
+// are ignored.
 uint64_t ticksBetween(uint64_t start, uint64_t end, uint32_t validBits);
 
+// Converts readings of a tick counter to nanoseconds of the CPU's clock.
 class TickClock {
   public:
-    // `validBits`, 1 to 64: as many low bits of a reading count, and wrap around.
+    // `validBits`, 1 to 64, is the number of low bits of a reading that count; they wrap around.
     TickClock(double nanosecondsPerTick, uint32_t validBits);
 
-    // The counter showed `ticks` when the CPU's clock showed `cpu` nanoseconds. Calls come in order of time.
+    // Adds a calibration: the counter showed `ticks` when the CPU's clock showed `cpu` nanoseconds. Call in
+    // order of time.
     void calibrate(uint64_t ticks, int64_t cpu);
 
-    // Ticks from the first calibration to a reading, negative before it. `near`: nanoseconds of the CPU's
-    // clock less than half a turn of the counter from the reading. Needs a calibration.
+    // Returns the ticks from the first calibration to a reading, negative before it. `near`, in nanoseconds
+    // of the CPU's clock, must be less than half a wrap of the counter from the reading. Needs a calibration.
     int64_t sinceFirst(uint64_t ticks, int64_t near) const;
 
-    // Nanoseconds of the CPU's clock at sinceFirst()'s answer: in between calibrations on the line through
-    // both, before and after them at the counter's own rate. Later ticks are never earlier times.
+    // Converts a result of sinceFirst() to nanoseconds of the CPU's clock: linear between calibrations, at
+    // the counter's nominal rate before the first and after the last. Monotonic.
     int64_t nanoseconds(int64_t ticks) const;
 
   private:

@@ -1,5 +1,5 @@
-// Records what a run of frames spends its time on: every pass of the commands that it is given to, and the
-// stretches of CPU work that its user names, on one clock. One thread.
+// Records where the time of a sequence of frames goes: every pass of the commands that it is set on, and the
+// CPU work that its user names, on one clock. Not thread-safe.
 #pragma once
 
 #include "engine/base/timing_trace.h"
@@ -11,20 +11,21 @@ namespace relume::vk {
 
 class Device;
 
+// Collects the spans of a capture.
 class TimingCapture {
   public:
-    // Time starts to count.
+    // Starts the capture's time at 0.
     TimingCapture();
 
-    // The device whose passes follow; must outlive this. Finds how its clock stands to the CPU's: with both
-    // read together where the device offers that, and `best` is not Anchored. Once.
+    // Sets the device whose passes follow, which must outlive the capture. Relates its clock to the CPU's:
+    // reads both together if the device supports that and `best` is not Anchored. Call once.
     void attach(const Device& device, ClockMatch best = ClockMatch::Calibrated);
 
-    // All spans so far; a GPU span "frame" reaches from a frame's first timestamp to its last. When no
-    // CpuSpan and no FrameSpan is open.
+    // Returns all spans so far. A GPU span "frame" reaches from a frame's first timestamp to its last. Call
+    // while no CpuSpan or FrameSpan is open.
     TimingTrace trace() const;
 
-    // Commands' report of a submission that has just ended: pass i ran from reading 2i to reading 2i + 1.
+    // Takes the report of Commands on a submission that has just ended: pass i ran from reading 2i to 2i + 1.
     void addPasses(std::span<const std::string> names, std::span<const uint64_t> readings);
 
   private:
@@ -34,7 +35,7 @@ class TimingCapture {
     struct CpuStretch {
         std::string name;
         std::optional<uint32_t> frame;
-        int64_t start, end; // of the CPU's clock
+        int64_t start, end; // on the CPU's clock
     };
     struct Pass {
         std::string name;
@@ -49,17 +50,17 @@ class TimingCapture {
     int64_t mStart;
     const Device* mDevice = nullptr;
     ClockMatch mMatch = ClockMatch::None;
-    std::optional<TickClock> mClock; // none where the device has no timestamps
-    int64_t mCalibrated = 0;         // when it was, of the CPU's clock
+    std::optional<TickClock> mClock; // none if the device has no timestamps
+    int64_t mCalibrated = 0;         // time of the last calibration, on the CPU's clock
     int64_t mUncertainty = 0;
     uint32_t mFrames = 0;
-    std::optional<uint32_t> mFrame; // the one that is open
+    std::optional<uint32_t> mFrame; // the open one
     std::vector<CpuStretch> mStretches;
     std::vector<Pass> mPasses;
 };
 
-// CPU work from construction to end() or destruction. Spans nest. `capture` may be null: then nothing
-// happens.
+// Records a span of CPU work, from construction to end() or destruction. Spans nest. Does nothing if
+// `capture` is null.
 class CpuSpan {
   public:
     CpuSpan(TimingCapture* capture, const char* name);
@@ -74,7 +75,7 @@ class CpuSpan {
     size_t mIndex = 0;
 };
 
-// A frame, the span "frame" of the CPU; everything meanwhile belongs to it. `capture` may be null.
+// Records a frame as a CPU span "frame"; everything recorded meanwhile belongs to it. `capture` may be null.
 class FrameSpan {
   public:
     explicit FrameSpan(TimingCapture* capture);

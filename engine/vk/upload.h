@@ -1,4 +1,4 @@
-// Data that stays on the device: copied there once, through staging buffers of bounded size.
+// One-time transfers to and from device memory, through staging buffers.
 #pragma once
 
 #include "engine/vk/buffer.h"
@@ -8,8 +8,8 @@
 
 namespace relume::vk {
 
-// A device buffer, of at least one texel of four floats, that holds a copy of `bytes`. Waits for the copy:
-// not for every frame. Throws OutOfMemory.
+// Returns a device buffer with a copy of `bytes`, of at least 16 bytes (one texel of four floats). Waits for
+// the copy, so it is not for use in every frame. Throws OutOfMemory.
 Buffer uploadBytes(const Device& device, std::span<const std::byte> bytes, std::string_view name);
 
 template <typename T>
@@ -17,12 +17,12 @@ Buffer upload(const Device& device, std::span<const T> values, std::string_view 
     return uploadBytes(device, std::as_bytes(values), name);
 }
 
-// An image with these texels, level after level and of each layer after layer, ready for shader reads. Waits
-// for the copy. Throws OutOfMemory.
+// Returns an image with these texels, ordered by level, then layer, ready for reading by shaders. Waits for
+// the copy. Throws OutOfMemory.
 Image uploadImage(const Device& device, const ImageOptions& options, std::span<const std::byte> texels,
                   std::string_view name);
 
-// The first `bytes` of a device buffer, back on the host. Waits.
+// Returns the first `bytes` bytes of a device buffer. Waits.
 std::vector<std::byte> downloadBytes(const Device& device, const Buffer& buffer, uint64_t bytes);
 
 template <typename T>

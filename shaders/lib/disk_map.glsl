@@ -1,4 +1,4 @@
-// Hemisphere to unit square, and bilinear lookups in maps stored over it.
+// Maps from the hemisphere to the unit square, and bilinear lookups in them.
 // C++ twins: engine/math/disk_map.h, engine/scene/factored_brdf.h.
 #ifndef RELUME_LIB_DISK_MAP_GLSL
 #define RELUME_LIB_DISK_MAP_GLSL
@@ -21,7 +21,7 @@ vec2 diskMapCoordinates(uint mapping, vec3 local) {
 const float kGrazingCosine = 1e-3;
 vec3 liftAboveHorizon(vec3 local) { return normalize(vec3(local.xy, max(local.z, kGrazingCosine))); }
 
-// The four texels around a place of a map and their weights; clamped at the border, polar maps wrap in x.
+// The four texels around a point of a map and their weights; clamped at the border, but polar maps wrap in x.
 struct MapFootprint {
     ivec4 texels; // x0, y0, x1, y1
     vec2 weight;
@@ -40,7 +40,7 @@ MapFootprint mapFootprint(uint mapping, int size, vec3 local) {
     return MapFootprint(ivec4(low, high), place - corner);
 }
 
-// Manual bilinear lookup: samplers round weights to 8 bits on many devices, and CPU twins do not.
+// Looks a map up bilinearly without the sampler: many devices round its weights to 8 bits, and CPU twins do not.
 vec3 lookupMap(sampler2DArray maps, int layer, MapFootprint at) {
     const vec3 a = texelFetch(maps, ivec3(at.texels.xy, layer), 0).rgb;
     const vec3 b = texelFetch(maps, ivec3(at.texels.zy, layer), 0).rgb;

@@ -1,29 +1,28 @@
-// How a row of coefficients is cut into blocks, two Haar levels at a time: 4×4 values become 15 details and an
-// average, a value of the next, four times coarser stage. A face of F² texels is (F / 4)² blocks, and so on to
-// its last block, of 2² values where F = 32.
+// The division of a row of coefficients into blocks, by two Haar levels at a time: 4×4 values become 15 details and
+// an average, which is a value of the next, four times coarser stage. A face of F² texels has (F / 4)² blocks, and so
+// on to its last block, of 2² values if F = 32.
 //
-// In memory a row is its blocks, each of 16 slots of three floats, r, g, b: the details of its four quads (0 to
-// 11), those of the block (12 to 14), its average (15, a coefficient in a face's last block only). Of blocks of
-// zeros nothing but the average is written, and of blocks of 2² values no details of quads. What selection
-// asks of a block before it looks inside is its summary: the largest squared magnitude of a coefficient, and
-// their sum.
-// C++ twin: haarSlot in precompute/bake/transport_pass.h.
+// In memory a row is a sequence of blocks, each of 16 slots of three floats, r, g, b: the details of its four quads
+// (0 to 11), those of the block (12 to 14), and its average (15, which is a coefficient in a face's last block only).
+// In blocks of zeros only the average is written, and in blocks of 2² values no details of quads. Each block also has
+// a summary, which selection reads first: the largest squared magnitude of a coefficient, and their sum.
+// C++ twin: haarSlot() in engine/math/haar.h.
 #ifndef RELUME_LIB_HAAR_BLOCK_GLSL
 #define RELUME_LIB_HAAR_BLOCK_GLSL
 
-// Blocks of a row are numbered stage by stage from the finest, face by face, line by line. Here, how many there
-// are of the first stage, the second, and of all three.
+// The number of blocks of a row: in the first stage, in the second, and in all three. Blocks are numbered stage by
+// stage from the finest, face by face, line by line.
 #define HAAR_FINE_BLOCKS(faceSize) (6 * ((faceSize) / 4) * ((faceSize) / 4))
 #define HAAR_COARSE_BLOCKS(faceSize) (6 * ((faceSize) / 16) * ((faceSize) / 16))
 #define HAAR_BLOCKS(faceSize) (HAAR_FINE_BLOCKS(faceSize) + HAAR_COARSE_BLOCKS(faceSize) + 6)
 
-// The slots of a block that hold coefficients, a bit each.
+// Returns the slots of a block that hold coefficients, a bit each.
 uint haarCoefficientSlots(uint block, uint faceSize) {
     const bool isLast = block >= HAAR_FINE_BLOCKS(faceSize) + HAAR_COARSE_BLOCKS(faceSize);
     return !isLast ? 0x7fff : faceSize == 32 ? 0xf000 : 0xffff;
 }
 
-// The coefficient, face · F² + y · F + x, in a slot of a block.
+// Returns the index, face · F² + y · F + x, of the coefficient in a slot of a block.
 uint haarCoefficient(uint block, uint slot, uint faceSize) {
     const uint coarse = HAAR_FINE_BLOCKS(faceSize), last = coarse + HAAR_COARSE_BLOCKS(faceSize);
     const uint width = block < coarse ? faceSize / 4 : block < last ? faceSize / 16 : 1; // blocks a side
@@ -37,7 +36,7 @@ uint haarCoefficient(uint block, uint slot, uint faceSize) {
     return (face * faceSize + place.y) * faceSize + place.x;
 }
 
-// Where a coefficient lies: 16 · block + slot.
+// Returns where a coefficient is stored: 16 · block + slot.
 uint haarSlot(uint coefficient, uint faceSize) {
     const uint face = coefficient / (faceSize * faceSize);
     const uvec2 place = uvec2(coefficient % faceSize, coefficient / faceSize % faceSize);

@@ -1,4 +1,4 @@
-// Haar steps on the values of a block: lib/haar_block.glsl says what becomes of them.
+// Haar steps on the values of a block; see lib/haar_block.glsl for the result's layout.
 #ifndef RELUME_LIB_HAAR_STEP_GLSL
 #define RELUME_LIB_HAAR_STEP_GLSL
 #include "shaders/lib/haar_block.glsl"
@@ -13,7 +13,7 @@ void addToSummary(vec3 coefficient, inout vec2 summary) {
     summary = vec2(max(summary.x, squared), summary.y + squared);
 }
 
-// One Haar step on [a b; c d]: its details, from slot `first` on, and the average, which it returns.
+// Does one Haar step on [a b; c d]: stores its details from slot `first` on, and returns the average.
 vec3 haarStep(vec3 a, vec3 b, vec3 c, vec3 d, uint first, inout vec3 slots[16], inout vec2 summary) {
     slots[first] = 0.5 * (a - b + c - d);
     slots[first + 1] = 0.5 * (a + b - c - d);
@@ -22,7 +22,7 @@ vec3 haarStep(vec3 a, vec3 b, vec3 c, vec3 d, uint first, inout vec3 slots[16], 
     return 0.5 * (a + b + c + d);
 }
 
-// 4×4 values to 16 slots; the average is not in the summary.
+// Transforms 4×4 values to 16 slots. The summary does not include the average.
 void haarBlock(vec3 values[16], out vec3 slots[16], out vec2 summary) {
     vec3 quads[4];
     summary = vec2(0);
@@ -34,7 +34,7 @@ void haarBlock(vec3 values[16], out vec3 slots[16], out vec2 summary) {
     slots[15] = haarStep(quads[0], quads[1], quads[2], quads[3], 12, slots, summary);
 }
 
-// Four floats of a block, of 12 such: stores of four are the quickest.
+// Returns four floats of a block, one of 12 such quarters: stores of four floats are the fastest.
 vec4 slotQuarter(vec3 slots[16], uint quarter) {
     const uint first = quarter / 3 * 4;
     const vec3 a = slots[first], b = slots[first + 1], c = slots[first + 2], d = slots[first + 3];

@@ -1,9 +1,9 @@
-// Which texels of a visibility cube lie above a point's horizon.
+// The texels of a visibility cube that lie above a point's horizon.
 #ifndef RELUME_LIB_HORIZON_GLSL
 #define RELUME_LIB_HORIZON_GLSL
 
-// Bit i: whether the center of texel x + i of row y, on a face of `size` texels, is above the horizon of
-// `normal`, which is in the face's coordinates.
+// Returns 32 bits; bit i says whether the center of texel x + i of row y, on a face of `size` texels, is above the
+// horizon of `normal`, which is in face coordinates.
 uint aboveHorizon(vec3 normal, uint x, uint y, uint size) {
     // The cosine is linear along a row, up to the direction's length: its sign needs no normalization.
     const float texelWidth = 2.0 / float(size);

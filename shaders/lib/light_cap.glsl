@@ -1,11 +1,11 @@
-// How much of a texel a cap covers. C++ twin: capCoverage() in engine/light/cap.h.
+// Coverage of a texel by a cap. C++ twin: capCoverage() in engine/light/cap.h.
 #ifndef RELUME_LIB_LIGHT_CAP_GLSL
 #define RELUME_LIB_LIGHT_CAP_GLSL
 #include "shaders/lib/cubemap.glsl"
 #include "shaders/shared/light.h"
 
 struct CapTexel {
-    vec2 low;    // u and v of its lower corner
+    vec2 low; // u and v of its upper left corner
     float width; // in u and v
 };
 
@@ -17,9 +17,9 @@ CapTexel capTexel(uint place, uint sideBits) {
 
 vec2 middleOf(CapTexel texel) { return texel.low + 0.5 * texel.width; }
 
-// `center`, in the frame of the texel's face, to `side`: as in LightCap.
+// Returns the share of a texel that a cap covers. `center` is in the frame of its face; the rest is as in LightCap.
 float capCoverage(CapTexel texel, vec3 center, float inner, float outer, uint side) {
-    // Nothing of a texel is further from its center than this: projection to the sphere brings points together.
+    // No point of a texel is further from its center than this: projection to the sphere brings points together.
     const float reach = 0.5 * sqrt(2.0) * texel.width;
     const float away = distance(normalize(vec3(middleOf(texel), 1)), center);
     if (away - reach >= outer) return 0;

@@ -1,4 +1,4 @@
-// Light values as tables hold them. C++ reads them back in engine/render/light_pass.cpp.
+// Packing of light entries in tables. C++ unpacks them in engine/render/light_pass.cpp.
 #ifndef RELUME_LIB_LIGHT_PACKING_GLSL
 #define RELUME_LIB_LIGHT_PACKING_GLSL
 #include "shaders/shared/render.h"
@@ -10,7 +10,7 @@ ivec3 unpackLight(PackedLight light) {
     return ivec3(bitfieldExtract(redGreen, 0, 16), redGreen >> 16, light.blue);
 }
 
-// Whether sums of the light before are to be dropped rather than changed.
+// Returns whether sums are computed anew rather than updated by the light's changes.
 bool replacesSums(LightStats light, uint mode) {
     return light.changed >= (mode == kRelightFull ? 0 : mode == kRelightAuto ? light.kept : kUnknownChange);
 }

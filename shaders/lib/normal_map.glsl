@@ -1,9 +1,9 @@
-// Normals from a normal map, in axes that follow from the triangle's texture coordinates. C++ twin:
+// Normal mapping in axes that follow from the triangle's texture coordinates. C++ twin:
 // engine/scene/surface_detail.h.
 #ifndef RELUME_LIB_NORMAL_MAP_GLSL
 #define RELUME_LIB_NORMAL_MAP_GLSL
 
-// Returns a mapped normal, turned towards the eye where it would look away from it. C++ twin:
+// Returns a mapped normal, turned towards the eye if it would face away from it. C++ twin:
 // precompute/reference/bound_asset.cpp.
 vec3 facingNormal(vec3 normal, vec3 view) {
     const float kLeastCosine = 0.05;

@@ -1,4 +1,4 @@
-// 11/11/10-bit coefficients. C++ twin: engine/transport/rows/sparse_transport.h.
+// Packing of coefficients in 11, 11 and 10 bits. C++ twin: engine/transport/rows/sparse_transport.h.
 #ifndef RELUME_LIB_PACKING_GLSL
 #define RELUME_LIB_PACKING_GLSL
 
@@ -14,7 +14,7 @@ ivec3 unpackCoefficient(uint word) {
     return ivec3(bitfieldExtract(bits, 0, 11), bitfieldExtract(bits, 11, 11), bitfieldExtract(bits, 22, 10));
 }
 
-// Rounds to nearest, halves away from zero; `scale` maps to the maxima.
+// Quantizes a coefficient, to nearest, halves away from zero; `scale` maps to the maxima.
 ivec3 quantizeCoefficient(vec3 value, float scale) {
     precise vec3 steps = value / scale * vec3(kCoefficientMaximum);
     return ivec3(sign(steps) * floor(abs(steps) + 0.5));

@@ -2,7 +2,7 @@
 #ifndef RELUME_LIB_TANGENT_FRAME_GLSL
 #define RELUME_LIB_TANGENT_FRAME_GLSL
 
-// Rows s, t, n: `frame * world` gives local coordinates.
+// Returns the frame of a normal, with rows s, t, n: `frame * world` gives local coordinates.
 mat3 tangentFrame(vec3 n) {
     const float above = n.y + 1;
     const vec3 tangent = vec3(above * above + n.z * n.z - n.x * n.x, -2 * n.x * above, -2 * n.x * n.z);
@@ -12,7 +12,8 @@ mat3 tangentFrame(vec3 n) {
     return transpose(mat3(s, cross(n, s), n));
 }
 
-// The frame whose s is the part of `tangent` that is orthogonal to the normal; where there is none, that of the normal.
+// Returns the frame whose s is the part of `tangent` orthogonal to the normal, or the normal's frame if this
+// vanishes.
 mat3 tangentFrame(vec3 n, vec3 tangent) {
     const vec3 along = tangent - dot(tangent, n) * n;
     const float squared = dot(along, along);
@@ -21,7 +22,7 @@ mat3 tangentFrame(vec3 n, vec3 tangent) {
     return transpose(mat3(s, cross(n, s), n));
 }
 
-// The mirror image of the normal's frame in the plane y = 0: smooth over the sphere but at n = (0, 1, 0).
+// Returns the mirror image of the normal's frame in the plane y = 0: smooth except at n = (0, 1, 0).
 mat3 lowerTangentFrame(vec3 n) {
     const vec3 mirror = vec3(1, -1, 1);
     return tangentFrame(n, mirror * (vec3(1, 0, 0) * tangentFrame(mirror * n)));

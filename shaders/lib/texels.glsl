@@ -1,10 +1,10 @@
-// Read-only tables, read by index: as texels through the texture unit, which some devices do faster than they load;
-// in PORTABLE shaders as storage buffers, since Vulkan promises 65,536 texels only.
+// Read-only tables, read by index: as texel buffers, which some devices read faster than storage buffers; in PORTABLE
+// shaders as storage buffers, since Vulkan guarantees texel buffers of 65,536 texels only.
 //
 //     TEXELS(2, vec4, samplerBuffer, Vertices, vertices);   // binding, type of an element, sampler, block, name
 //     texelOf(vertices, 7).xyz
 //
-// Components are those of the element's type; others must not be read.
+// A texel has the components of the element's type; do not read others.
 #ifndef RELUME_LIB_TEXELS_GLSL
 #define RELUME_LIB_TEXELS_GLSL
 

@@ -1,17 +1,18 @@
-// Means of textures over pixels. C++ twin: sampleFootprint() in engine/scene/texture.h.
+// Filtering of textures over a pixel's footprint. C++ twin: sampleFootprint() in engine/scene/texture.h.
 #ifndef RELUME_LIB_TEXTURE_FOOTPRINT_GLSL
 #define RELUME_LIB_TEXTURE_FOOTPRINT_GLSL
 
-// Where a pixel's middle lies on the surface's textures, and how far its neighbors to the right and below are away.
+// Texture coordinates of a pixel's center, and their differences to the neighbors on the right and below.
 struct Footprint {
     vec2 uv, right, down;
 };
 
-const float kMostTaps = 16, kMostFootprint = 1e6; // the latter in texels
+const float kMostTaps = 16, kMostFootprint = 1e6; // kMostFootprint is in texels
 
-// Returns the mean over the ellipse around uv with `right` and `down` as conjugate diameters: of taps along its major
-// axis, at the mip level whose texels are as wide as its minor axis, or as far apart as the taps. Not by the device's
-// own anisotropic filter, of which Vulkan says little: lavapipe takes the neighbors' coordinates for the derivatives.
+// Returns the mean over the ellipse around uv with `right` and `down` as conjugate diameters. It averages taps along
+// the major axis, at the mip level whose texels are as wide as the minor axis, or as far apart as the taps. It does
+// not use the device's own anisotropic filter, of which Vulkan specifies little: lavapipe takes derivatives from the
+// neighbors' coordinates.
 vec4 textureOver(sampler2DArray map, Footprint at) {
     if (textureQueryLevels(map) == 1) return textureLod(map, vec3(at.uv, 0), 0);
     const vec2 size = vec2(textureSize(map, 0).xy);

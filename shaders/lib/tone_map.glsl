@@ -1,12 +1,12 @@
-// From linear radiance to display values. C++ twin and sources: engine/render/tone_map.cpp.
+// Tone mapping of linear radiance to display values. C++ twin and sources: engine/render/tone_map.cpp.
 #ifndef RELUME_SHADERS_LIB_TONE_MAP_GLSL
 #define RELUME_SHADERS_LIB_TONE_MAP_GLSL
 #include "shaders/shared/render.h"
 
 vec3 aces(vec3 x) { return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14); }
 
-// Of normal floats, to 3.1e-4: exponent and mantissa taken together are off by at most 0.09, which a polynomial of
-// the mantissa mends. log2() minds what is no normal float, at twice the time on lavapipe.
+// Returns log2 of normal floats to 3.1e-4: reading exponent and mantissa as one number is off by at most 0.09, which
+// a polynomial of the mantissa corrects. log2() also handles denormal floats and NaN, in twice the time on lavapipe.
 vec3 quickLog2(vec3 x) {
     const ivec3 bits = floatBitsToInt(x);
     const vec3 m = intBitsToFloat((bits & 0x7fffff) | 0x3f800000);
@@ -14,7 +14,7 @@ vec3 quickLog2(vec3 x) {
     return vec3(bits) * (1.0 / (1 << 23)) - 127 + off;
 }
 
-// encodeSrgb(x^2.2), clamped, to 7e-5, by the square root.
+// Returns encodeSrgb(x^2.2), clamped, to 7e-5, by way of the square root.
 vec3 encodeGamma(vec3 x) {
     x = clamp(x, 0, 1);
     const vec3 r = sqrt(x);
@@ -23,7 +23,7 @@ vec3 encodeGamma(vec3 x) {
     return mix(power, linear, lessThan(x, vec3(0.0727213)));
 }
 
-// A display's values.
+// Returns display values.
 vec3 agx(vec3 x) {
     const mat3 inset = mat3(0.842479062253094, 0.0423282422610123, 0.0423756549057051, 0.0784335999999992,
                             0.878468636469772, 0.0784336, 0.0792237451477643, 0.0791661274605434, 0.879142973793104);
@@ -44,7 +44,7 @@ vec3 encodeSrgb(vec3 x) {
 }
 
 vec3 toneMap(vec3 linear, uint curve, float scale) {
-    // A comparison with what is no number is false.
+    // Comparisons with NaN are false.
     vec3 x = mix(vec3(0), min(linear * scale, vec3(1e15)), greaterThan(linear * scale, vec3(0)));
     if (curve == kToneAgx) return agx(x);
     if (curve == kToneAces) x = aces(x);

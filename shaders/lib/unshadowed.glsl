@@ -1,5 +1,5 @@
-// Unshadowed radiance from lit spheres, and the estimates of shadowed radiance that use it. Shaders have bindings 8 to
-// 10 from here. C++ twin of the estimates: precompute/residual/residual_estimate.h.
+// Unshadowed radiance from lit spheres, and the estimates of shadowed radiance that use it. Bindings 8 to 10 belong
+// to this file. C++ twin of the estimates: precompute/residual/residual_estimate.h.
 #ifndef RELUME_LIB_UNSHADOWED_GLSL
 #define RELUME_LIB_UNSHADOWED_GLSL
 #include "shaders/lib/polar_map.glsl"
@@ -8,13 +8,13 @@
 #include "shaders/lib/view_grid.glsl"
 
 layout(binding = 8) uniform sampler2DArray litSpheres;
-TEXELS(9, uint, usamplerBuffer, SphereSlots, sphereSlots); // of a layer's nodes: layers of the above
-TEXELS(10, vec4, samplerBuffer, ViewGrid, viewGrid);       // axis and side, two texels a node
+TEXELS(9, uint, usamplerBuffer, SphereSlots, sphereSlots); // layer of litSpheres, by kernel and node
+TEXELS(10, vec4, samplerBuffer, ViewGrid, viewGrid); // axis and side, two texels per node
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
-// The spheres around a view direction, with the place of a mirror direction in each, and e^(2ia) of the azimuth a of
-// the sphere's own view direction in the tangent frame.
+// The four spheres around a view direction. For each: its node, the place of the mirror direction in it, and e^(2ia)
+// for the azimuth a of its own view direction in the tangent frame.
 struct SpherePlaces {
     int nodes[4];
     vec2 places[4];
@@ -27,15 +27,15 @@ vec2 phaseOf(vec2 local) {
     return squared > 0 ? vec2(local.x * local.x - local.y * local.y, 2 * local.x * local.y) / squared : vec2(1, 0);
 }
 
-// The phase of a view direction other than the pixel's, which has the same mirror direction on another normal: in the
-// frame of that, nearest to the pixel's own.
+// Returns the phase of a view direction other than the pixel's. It has the same mirror direction at another normal;
+// the phase is that in the frame of this normal nearest to the pixel's own.
 vec2 phaseAt(mat3 frame, vec3 view, vec3 mirror) {
     const vec3 between = view + mirror, own = vec3(0, 0, 1) * frame;
     const vec3 normal = dot(between, between) > 1e-6 ? normalize(between) : own;
     return phaseOf((tangentFrame(normal, vec3(1, 0, 0) * frame) * view).xy);
 }
 
-// `frame`: of the pixel. Phases are found where spheres have harmonics.
+// Finds the spheres around a view direction. `frame` is the pixel's. Phases are for spheres with harmonics.
 SpherePlaces spherePlaces(vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics) {
     const GridCell cell = gridCell(view);
     SpherePlaces at;
@@ -51,8 +51,8 @@ SpherePlaces spherePlaces(vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics)
     return at;
 }
 
-// Returns the place of a column, in [0, 1], and a row of a map in an image of maps of `rows` rows below each other.
-// Between the maps nothing is mixed.
+// Returns the place of a column, in [0, 1], and a row of map `band` in an image of maps of `rows` rows, one below the
+// other. Maps are not interpolated with each other.
 vec2 placeInBand(sampler2DArray maps, float column, float row, uint rows, uint band) {
     return vec2(column, (float(band * rows) + clamp(row, 0.5, float(rows) - 0.5)) / float(textureSize(maps, 0).y));
 }
@@ -62,8 +62,8 @@ vec3 sphereAt(vec2 place, uint band, uint layer) {
     return textureLod(litSpheres, vec3(inBand, layer), 0).rgb;
 }
 
-// Returns the unshadowed radiance of the layer whose spheres begin at `firstSlot`: harmonic 0, then the real and the
-// imaginary part of each other.
+// Returns the unshadowed radiance of the layer whose spheres begin at `firstSlot`, from harmonic 0 and then the real
+// and imaginary part of each further one.
 vec3 unshadowedRadiance(uint firstSlot, uint harmonics, SpherePlaces at) {
     vec3 sum = vec3(0);
     for (int i = 0; i < 4; i++) {
@@ -81,24 +81,25 @@ vec3 unshadowedRadiance(uint firstSlot, uint harmonics, SpherePlaces at) {
     return max(sum, 0); // a kernel without its highest frequencies can ring below zero
 }
 
-// The share of irradiance that reaches a point; 1 of no light.
+// Returns the share of irradiance that reaches a point; 1 without light.
 float litShare(vec3 irradiance, vec3 unshadowed) {
     const float all = luminance(unshadowed);
     return all > 0 ? clamp(luminance(irradiance) / all, 0, 1) : 1;
 }
 
-// Estimates with signed terms: the control variate T + r (E - S), between a part of r E and E, or above that of bounced
-// light as much as T is above S. `shadowed` is T, `share` r; `exact` and `terms` are the unshadowed E and S.
+// Estimates radiance with signed terms, by the control variate T + r (E - S), clamped between a part of r E and E;
+// with bounced light the upper limit is higher by as much as T exceeds S. `shadowed` is T, `share` r; `exact` and
+// `terms` are the unshadowed E and S.
 const float kLeastShare = 0.25;
 vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms, bool isBounced) {
     const vec3 most = isBounced ? exact + max(shadowed - terms, 0) : exact;
     return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, most);
 }
 
-// Estimates with nonnegative terms: the ratio E T / S. Where all terms vanish in the view, the sums of the tuples give
-// the ratio. Each channel's is clamped to a range around the luminance's, and that to a part of the irradiance's:
-// errors of storage would color and blacken what little light reaches. Bounced light has colors of its own; where T is
-// above S, it is what is above.
+// Estimates radiance with nonnegative terms, by the ratio E T / S. Where all terms vanish in the view, the sums of
+// the tuples give the ratio. Each channel's ratio is clamped to a range around that of luminance, and that from below
+// by a part of the irradiance's: storage errors would color and blacken places that little light reaches. Bounced
+// light has its own colors, so that the excess of T over S is added instead.
 const float kLeastView = 1e-4, kLeastOfGray = 0.8, kMostOfGray = 1.25;
 vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples, bool isBounced) {
     const vec3 all = terms + kLeastView * unshadowedTuples, lit = shadowed + kLeastView * tuples;

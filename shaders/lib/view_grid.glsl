@@ -1,12 +1,12 @@
-// The grid of view directions that lit spheres are made for. C++ twin: engine/render/view_grid.h.
+// The grid of view directions for which lit spheres are made. C++ twin: engine/render/view_grid.h.
 #ifndef RELUME_LIB_VIEW_GRID_GLSL
 #define RELUME_LIB_VIEW_GRID_GLSL
 #include "shaders/lib/cubemap.glsl"
 #include "shaders/shared/sphere.h"
 
 struct GridCell {
-    uint first; // node at its left, upper corner
-    vec2 place; // in the cell, 0 to 1
+    uint first; // its upper left node
+    vec2 place; // within the cell, 0 to 1
 };
 
 GridCell gridCell(vec3 direction) {

@@ -5,10 +5,10 @@
 #include "shaders/lib/cubemap.glsl"
 #include "shaders/shared/bake.h"
 
-// Returns the clip position of a corner of the occluder, as `point` sees it. No depth is stored, so the planes that clip
-// it do other work: 0 ≤ z clips what lies further below the horizon than the margin, which is half of all that is in view,
-// and z ≤ w clips what is nearer than the near distance. A height in view is at most √3 w, and the scale is small, so
-// that nothing else is clipped.
+// Returns the clip-space position of a corner of the occluder, seen from `point`. No depth is stored, so the depth
+// planes clip other things: 0 ≤ z clips what lies further below the horizon than the margin, half of all that is in
+// view, and z ≤ w clips what is nearer than the near distance. A height in view is at most √3 w, and the scale is
+// small, so that nothing else is clipped.
 vec4 visibilityClip(vec3 corner, BakePoint point, uint face, VisibilityPush push) {
     const vec3 offset = corner - point.origin, local = offset * kFaceAxes[face];
     const float height = dot(point.normal, offset);

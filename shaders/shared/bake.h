@@ -5,19 +5,19 @@
 
 RELUME_SHARED_BEGIN
 
-// A vertex as the bake sees it.
+// A vertex, for the passes of the bake.
 struct BakePoint {
-    vec3 origin;  // Where visibility is taken: the position, lifted along the normal
-    vec3 normal;  // Unit length
-    vec3 tangent; // s of its frame; 0: the frame follows from the normal
+    vec3 origin;  // where visibility is taken: the position, lifted along the normal
+    vec3 normal;  // unit length
+    vec3 tangent; // s of its frame; zero if the frame follows from the normal
 };
 RELUME_SHARED_SIZE(BakePoint, 36)
 
-// A few neighboring triangles of the occluder: one indirect draw, instanced over the layers it touches.
+// A few neighboring triangles of the occluder: one indirect draw, instanced over the layers it is drawn to.
 struct TriangleCluster {
-    vec3 center, extent; // Bounding box: the middle, and half its size
-    // Normal cone: a point p where dot(normalize(apex - p), axis) ≥ cutoff sees front faces only. The cutoff
-    // is above 1 where front faces are drawn too.
+    vec3 center, extent; // bounding box: center, and half its size
+    // The cone of normals: a point p with dot(normalize(apex - p), axis) ≥ cutoff sees front faces only. The
+    // cutoff is above 1 if front faces must be drawn too.
     vec3 apex, axis;
     float cutoff;
     uint firstIndex, indexCount;
@@ -25,34 +25,34 @@ struct TriangleCluster {
 RELUME_SHARED_SIZE(TriangleCluster, 60)
 
 struct CullPush {
-    uint layers; // 6 × points of this batch
+    uint layers; // 6 × points in the batch
     uint clusters;
 };
 RELUME_SHARED_SIZE(CullPush, 8)
 
 struct VisibilityPush {
-    float horizonMargin; // height below the point's horizon down to which the occluder is drawn
-    float depthScale;    // near distance over horizonMargin
-    uint layer;          // of visibility_face.vert: 6 × point + face
+    float horizonMargin; // depth below the point's horizon down to which the occluder is drawn
+    float depthScale;    // near distance divided by horizonMargin
+    uint layer;          // for visibility_face.vert: 6 × point + face
 };
 RELUME_SHARED_SIZE(VisibilityPush, 12)
 
 struct PackVisibilityPush {
-    uint words; // of this batch: points × 6 × size² / 32
+    uint words; // in the batch: points × 6 × size² / 32
 };
 RELUME_SHARED_SIZE(PackVisibilityPush, 4)
 
 struct TracePush {
-    uint loopTest; // turns of a loop that shows whether the device still takes loops seriously
+    uint loopTest; // turns of a loop that detects devices that end loops early
 };
 RELUME_SHARED_SIZE(TracePush, 4)
 
-// One of the eight children of a node of the bounding volume hierarchy. `entry` is what traversal keeps of
-// it: a node's number, or kBvhLeaf with the number of triangles - 1 in five bits and the first of them in 26.
+// One of the eight children of a node of the bounding volume hierarchy. `entry` is what traversal pushes for
+// it: a node's number, or kBvhLeaf with the number of triangles - 1 in 5 bits and the first triangle in 26.
 struct BvhChild {
     vec3 low;
     uint entry;
-    vec3 high; // Below `low` where there is no child
+    vec3 high; // below `low` if there is no child
     uint unused;
 };
 RELUME_SHARED_SIZE(BvhChild, 32)
@@ -61,7 +61,7 @@ const uint kBvhLeaf = 0x80000000u;
 const uint kBvhCountShift = 26;
 
 struct TransportPush {
-    uint firstTerm; // of this dispatch; its rows are point-major: (point, term of the dispatch)
+    uint firstTerm; // first term of this dispatch; its rows are ordered by point, then term
     uint terms;
     uint firstPoint; // of this dispatch
 };
@@ -69,12 +69,12 @@ RELUME_SHARED_SIZE(TransportPush, 12)
 
 struct RowsPush {
     uint rows;
-    uint kept;     // N
-    uint firstRow; // whose coefficients are those of row 0
+    uint kept;     // N, row entries
+    uint firstRow; // the row that the coefficients start with
 };
 RELUME_SHARED_SIZE(RowsPush, 12)
 
-// What packing measured of a row. Sums of squares over the three channels.
+// Energies measured while packing a row: sums of squares over the three channels.
 struct RowStatistics {
     float total;     // of all coefficients
     float dropped;   // lost by keeping N

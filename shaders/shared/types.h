@@ -1,5 +1,5 @@
-// GLSL's types under C++, so that one header serves both. Structs shared with shaders use scalar layout:
-// the same offsets as in C++.
+// GLSL's types in C++, so that one header serves both. Structs shared with shaders use scalar layout, which
+// has the same offsets as C++.
 #ifndef RELUME_SHADERS_SHARED_TYPES_H
 #define RELUME_SHADERS_SHARED_TYPES_H
 

@@ -1,4 +1,5 @@
-// Relighting of bases: the light on a cluster's basis vectors, then these times its rows' weights.
+// Relighting of bases: projects the light onto each cluster's basis vectors, then combines the projections by
+// the weights of its rows.
 #pragma once
 
 #include "engine/relight/set_relighter.h"
@@ -6,9 +7,10 @@
 
 namespace relume {
 
-// The transport is divided into shards of whole clusters. Basis values are four components a word, columns
-// padded to whole words. Weights are those of eight vertices for one component after the other, 8 bytes each,
-// octet after octet of a cluster's kind, padded to whole octets.
+// Relights transport in bases. It is divided into shards of whole clusters. Basis values are packed four
+// components to a word, columns padded to whole words. Weights are stored as octets, the 8 bytes of eight
+// vertices for one component: octets component after component, then for the next eight vertices, then for
+// the next kind; incomplete octets are padded.
 class BasesRelighter : public SetRelighter {
   public:
     struct Programs {
@@ -16,7 +18,7 @@ class BasesRelighter : public SetRelighter {
         explicit Programs(const vk::Device& device);
     };
 
-    // As RowsRelighter.
+    // See RowsRelighter.
     BasesRelighter(const vk::Device& device, const Programs& programs, const BasisTransport& transport,
                    uint32_t coefficients, uint64_t largestShard, const std::string& name);
 

@@ -1,4 +1,4 @@
-// Clusters of bases as bytes that compress well: the TRBS chunks of docs/asset_format.md.
+// Coding of clusters of bases as bytes that compress well: the TRBS chunks of docs/asset_format.md.
 #pragma once
 
 #include "engine/chunk/block_chunk.h"
@@ -8,7 +8,7 @@ namespace relume {
 
 constexpr size_t kBasisHeaderBytes = 16;
 
-// Most bytes of a cluster before compression.
+// Returns the most bytes that a cluster of `terms` terms can have before compression.
 constexpr size_t largestBasisChunk(size_t terms) {
     const size_t kinds = 3 * terms, scales = kinds * kMostBasisComponents;
     return kBasisHeaderBytes + kinds * sizeof(uint16_t) + scales * sizeof(float) +
@@ -16,15 +16,15 @@ constexpr size_t largestBasisChunk(size_t terms) {
            scales * kBasisVertices;
 }
 
-// Wants a valid cluster of so many vertices, the `number`-th of its set.
+// Encodes a valid cluster of `vertices` vertices, number `number` of its set.
 std::vector<std::byte> encodeBasisCluster(const BasisCluster& cluster, uint32_t number, uint32_t vertices);
 
-// The same cluster back, which must be the `number`-th, of so many vertices and kinds. Columns must have
-// indices below `coefficients`. `where` names the chunk in errors. Throws Error.
+// Decodes what encodeBasisCluster() made. Throws Error unless it is valid and has this number, so many
+// vertices and kinds, and column indices below `coefficients`. `where` names the chunk in errors.
 BasisCluster decodeBasisCluster(std::span<const std::byte> raw, uint32_t number, uint32_t vertices,
                                 size_t kinds, uint32_t coefficients, const std::string& where);
 
-// These are the functions that layout_chunks.h lists; checkLayout() is in basis_transport.h.
+// The functions that layout_chunks.h lists; checkLayout() is in basis_transport.h.
 inline uint32_t blockVertices(const BasisTransport&, int, int) { return kBasisVertices; }
 void addTransport(ChunkWriter& file, uint32_t owner, const BasisTransport& transport, uint32_t block);
 void readTransport(const ChunkFile& file, uint32_t owner, uint64_t columns, uint32_t coefficients,

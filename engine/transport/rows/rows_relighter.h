@@ -1,4 +1,4 @@
-// Relighting of rows: every entry with its index.
+// Relighting of rows: sums the products of row entries and light entries.
 #pragma once
 
 #include "engine/relight/set_relighter.h"
@@ -6,9 +6,9 @@
 
 namespace relume {
 
-// The transport is divided into shards of whole rows. Entries come in groups of eight, 48 bytes: four words
-// of two 16-bit indices each (lower half first), then eight words of packed 11/11/10 values. Rows are padded
-// to whole groups with zeros.
+// Relights transport in rows. It is divided into shards of whole rows. Entries are packed in groups of eight,
+// 48 bytes: four words of two 16-bit indices each (lower half first), then eight words of packed 11/11/10
+// values. Rows are padded to whole groups with zeros.
 class RowsRelighter : public SetRelighter {
   public:
     struct Programs {
@@ -16,14 +16,15 @@ class RowsRelighter : public SetRelighter {
         explicit Programs(const vk::Device& device);
     };
 
-    // `coefficients`: of the light; all indices are below. `largestShard`: bytes of a shard, a row at least.
+    // `coefficients` is the light's, 6 F²; all indices must be below it. `largestShard` limits a shard's
+    // bytes; a shard has at least one row.
     RowsRelighter(const vk::Device& device, const Programs& programs, const SparseTransport& transport,
                   uint32_t coefficients, uint64_t largestShard, const std::string& name);
 
     size_t shards() const override { return mShards.size(); }
 
   private:
-    // Always in full: what changed is not to be had without reading all of the indices.
+    // Ignores the mode and relights in full: to find the changed entries it would have to read all indices.
     void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode) const override;
 
     struct Shard {
@@ -34,7 +35,7 @@ class RowsRelighter : public SetRelighter {
 
     const Programs& mPrograms;
     std::vector<Shard> mShards;
-    vk::Buffer mScales; // of rows
+    vk::Buffer mScales; // per row
 };
 
 } // namespace relume

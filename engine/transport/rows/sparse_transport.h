@@ -1,4 +1,4 @@
-// Transport as rows of sparse, quantized Haar coefficients: one row per vertex and term.
+// Transport in rows: sparse, quantized Haar coefficients, one row per vertex and term.
 #pragma once
 
 #include "engine/math/vector.h"
@@ -10,8 +10,8 @@
 
 namespace relume {
 
-// Row r = vertex · terms + term. Entry e of a row is coefficient `indices[e]` with value
-// unpackCoefficient(values[e]) · scale · kCoefficientUnit.
+// A set's transport in rows. Row r = vertex · terms + term. Entry e of a row is coefficient `indices[e]` with
+// value unpackCoefficient(values[e]) · scale · kCoefficientUnit.
 struct SparseTransport {
     static constexpr const char* kName = "rows";
     static constexpr std::array<char, 4> kTag = {'T', 'R', 'A', 'N'};
@@ -26,10 +26,11 @@ struct SparseTransport {
     size_t rows() const { return size_t(vertices) * terms; }
     size_t entries() const { return values.size(); }
     uint64_t bytes() const;
+    // Writes the dequantized entries of a row to `coefficients`; leaves the others.
     void addCoefficients(size_t row, std::span<vec3> coefficients) const;
 };
 
-// 11, 11 and 10 signed bits, red lowest. GLSL twin: shaders/lib/packing.glsl.
+// The packing of a coefficient in 11, 11 and 10 signed bits, red lowest. GLSL twin: shaders/lib/packing.glsl.
 constexpr int kRedMaximum = 1023, kGreenMaximum = 1023, kBlueMaximum = 511;
 constexpr vec3 kCoefficientUnit{1.0f / 1023, 1.0f / 1023, 1.0f / 511};
 inline uint32_t packCoefficient(ivec3 q) {
@@ -40,12 +41,12 @@ inline ivec3 unpackCoefficient(uint32_t packed) {
     return {int32_t(packed << 21) >> 21, int32_t(packed << 10) >> 21, int32_t(packed) >> 22};
 }
 
-// Rows that rise, of at most `longestRow` entries with indices below `coefficients`. `where` stands for the
-// transport in errors. Throws Error.
+// Checks that rows have at most `longestRow` entries, with rising indices below `coefficients`, and that
+// values are in range. Throws Error; `where` names the transport in it.
 void checkTransport(const SparseTransport& transport, uint32_t coefficients, uint64_t longestRow,
                     const std::string& where);
 
-// Rounds to nearest, halves away from zero; `scale` maps to the maxima. A scale of 0 gives 0.
+// Quantizes to nearest, halves away from zero; `scale` maps to the maxima. A scale of 0 gives 0.
 ivec3 quantizeCoefficient(vec3 value, float scale);
 
 } // namespace relume
