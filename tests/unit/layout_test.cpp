@@ -325,7 +325,7 @@ TEST_CASE("layout: samples that stand for twice as many find about the lambda of
     SparseTransport half = smoothRows(2048, 2, 14); // of the same patterns
     for (const LayoutOptions& options : {bases({}), bases(40)}) {
         const auto lambdaOf = [&](const SparseTransport& sample) {
-            const SetSample one{&set, {&sample}, 4096, unit};
+            const SetSample one{&set, {&sample}, 4096, norm};
             const LayoutScale scale = findScale({&one, 1}, kFace, 4096, options);
             CHECK(scale.norms == std::vector(1, norm));
             return scale.lambda;
@@ -341,11 +341,11 @@ TEST_CASE("layout: sets without a sample do not change what the others' say") {
     const Asset asset = assetOf(rows);
     const MaterialSet& set = asset.parts[0].sets[0];
     const float norm = transportNorm(rows, lightSpectrum(kFace));
-    const SetSample told{&set, {&rows}, 1024, unit}, untold{&set, {}, 3072, 7};
+    const SetSample told{&set, {&rows}, 1024, norm}, untold{&set, {}, 3072, 7};
     for (const LayoutOptions& options : {bases({}), bases(40)}) {
         const std::array both = {untold, told};
         const LayoutScale scale = findScale(both, kFace, 4096, options);
-        CHECK(scale.norms == std::vector{7.0f, unit});
+        CHECK(scale.norms == std::vector{7.0f, norm});
         CHECK(scale.lambda == findScale({&told, 1}, kFace, 1024, options).lambda);
         CHECK(scale.lambda > 0);
     }
