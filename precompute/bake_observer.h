@@ -10,7 +10,7 @@ namespace relume {
 
 struct RefinementRecord;
 
-enum class BakeStage { Occluder, Factorisation, Refinement, Bounces, Sample, Preview, Baking, Writing };
+enum class BakeStage { Occluder, Factorization, Refinement, Bounces, Sample, Preview, Baking, Writing };
 
 // The progress of a bake.
 struct BakeStatus {

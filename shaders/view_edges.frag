@@ -9,10 +9,10 @@
 layout(push_constant, scalar) uniform Push { ViewEdgesPush push; };
 TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // of the part: three corners, fourth component unused
 
-bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
+bool isOfPart(uint triangleId) { return triangleId - push.firstTriangleId < push.triangleCount; }
 
-uvec3 cornersOf(uint surface) {
-    return texelOf(triangles, int(min(surface - push.firstSurface, push.surfaces - 1))).xyz;
+uvec3 cornersOf(uint triangleId) {
+    return texelOf(triangles, int(min(triangleId - push.firstTriangleId, push.triangleCount - 1))).xyz;
 }
 
 void main() {

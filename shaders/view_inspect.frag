@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push { ViewInspectPush push; };
 #ifdef MULTISAMPLED
 #include "shaders/lib/pixel_samples.glsl"
 #else
-layout(binding = 0) uniform usampler2DArray surfaces; // as in view_shade.frag
+layout(binding = 0) uniform usampler2DArray triangleIds; // as in view_shade.frag
 #endif
 TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles);
 TEXELS(2, vec4, samplerBuffer, Vertices, vertices);
@@ -58,7 +58,7 @@ vec3 colorAt(uint triangle, vec2 place) {
     return color;
 }
 
-bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
+bool isOfPart(uint triangleId) { return triangleId - push.firstTriangleId < push.triangleCount; }
 
 void main() {
 #ifdef MULTISAMPLED
@@ -68,12 +68,12 @@ void main() {
     for (uint i = 0; i < kSamples; i++) {
         if (!isOfPart(seen[i])) continue;
         const vec2 place = floor(gl_FragCoord.xy) + samplePosition(i);
-        radiance += vec4(colorAt(seen[i] - push.firstSurface, place), 1) / kSamples;
+        radiance += vec4(colorAt(seen[i] - push.firstTriangleId, place), 1) / kSamples;
     }
     if (radiance.a == 0) discard;
 #else
-    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
-    if (!isOfPart(surface)) discard;
-    radiance = vec4(colorAt(surface - push.firstSurface, gl_FragCoord.xy), 1);
+    const uint triangleId = texelFetch(triangleIds, ivec3(gl_FragCoord.xy, 0), 0).x;
+    if (!isOfPart(triangleId)) discard;
+    radiance = vec4(colorAt(triangleId - push.firstTriangleId, gl_FragCoord.xy), 1);
 #endif
 }

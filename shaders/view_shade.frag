@@ -30,7 +30,7 @@ layout(push_constant, scalar) uniform Push { ViewShadePush push; };
 #include "shaders/lib/pixel_samples.glsl"
 layout(constant_id = 6) const bool kEdges = false; // shades pixels with several groups of samples; else the others
 #else
-layout(binding = 0) uniform usampler2DArray surfaces; // triangle ids; 0: none
+layout(binding = 0) uniform usampler2DArray triangleIds; // triangle ids; 0: none
 #endif
 TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // three corners, fourth component unused
 TEXELS(2, vec4, samplerBuffer, Vertices, vertices);     // ViewVertex: kVertexTexels
@@ -306,7 +306,7 @@ vec4 shadeAt(uint triangle, vec2 place) {
     return coverage > 0 ? coverage * vec4(shade(triangle, direction), 1) : vec4(0);
 }
 
-bool isOfPart(uint surface) { return surface - push.firstSurface < push.surfaces; }
+bool isOfPart(uint triangleId) { return triangleId - push.firstTriangleId < push.triangleCount; }
 
 #ifdef MULTISAMPLED
 
@@ -317,7 +317,7 @@ vec4 shadeEdge(uint seen[kSamples]) {
     uint left = 0;
     for (uint i = 0; i < kSamples; i++) {
         const bool isOwn = isOfPart(seen[i]);
-        corners[i] = texelOf(triangles, isOwn ? int(seen[i] - push.firstSurface) : 0).xyz;
+        corners[i] = texelOf(triangles, isOwn ? int(seen[i] - push.firstTriangleId) : 0).xyz;
         left |= uint(isOwn) << i;
     }
     if (left == 0) discard;
@@ -328,7 +328,7 @@ vec4 shadeEdge(uint seen[kSamples]) {
         for (uint i = 0; i < kSamples; i++) members |= uint(shareVertex(corners[first], corners[i])) << i;
         members &= left;
         const SampleGroup group = groupOf(members);
-        sum += group.share * shadeAt(seen[first] - push.firstSurface, floor(gl_FragCoord.xy) + group.position);
+        sum += group.share * shadeAt(seen[first] - push.firstTriangleId, floor(gl_FragCoord.xy) + group.position);
         left &= ~members;
     }
     return sum;
@@ -342,18 +342,18 @@ void main() {
         return;
     }
     // All samples are one group, whose mean position is the center.
-    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
-    if (!isOfPart(surface)) discard;
-    radiance = shadeAt(surface - push.firstSurface, gl_FragCoord.xy);
+    const uint triangleId = texelFetch(triangleIds, ivec3(gl_FragCoord.xy, 0), 0).x;
+    if (!isOfPart(triangleId)) discard;
+    radiance = shadeAt(triangleId - push.firstTriangleId, gl_FragCoord.xy);
 }
 
 #else
 
 void main() {
-    const uint surface = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), 0).x;
+    const uint triangleId = texelFetch(triangleIds, ivec3(gl_FragCoord.xy, 0), 0).x;
     // The stencil rejects most pixels of other parts before the shader runs.
-    if (!isOfPart(surface)) discard;
-    radiance = shadeAt(surface - push.firstSurface, gl_FragCoord.xy);
+    if (!isOfPart(triangleId)) discard;
+    radiance = shadeAt(triangleId - push.firstTriangleId, gl_FragCoord.xy);
 }
 
 #endif

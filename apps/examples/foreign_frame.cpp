@@ -45,7 +45,7 @@ struct Host {
             throw std::runtime_error("no Vulkan device");
 
         relume::vk::enableFeatures(physical, features);
-        features.chain.features.samplerAnisotropy = VK_FALSE; // a host's own wishes go here
+        features.chain.features.samplerAnisotropy = VK_FALSE; // a host's own requests go here
         const float priority = 1;
         VkDeviceQueueCreateInfo createQueue{};
         createQueue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;

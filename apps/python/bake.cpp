@@ -62,11 +62,12 @@ void takeLayout(GivenOptions& given, BakeOptions& options) {
 void takeVisibility(GivenOptions& given, BakeOptions& options) {
     const py::object name = given.pop("visibility");
     if (name.is_none()) return;
-    options.visibilityMethod.reset();
     for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
-        if (name.cast<std::string>() == visibilityMethodName(method)) options.visibilityMethod = method;
-    if (!options.visibilityMethod && name.cast<std::string>() != "auto")
-        throw UsageError("visibility: expected traced, raster or auto");
+        if (name.cast<std::string>() == visibilityMethodName(method)) {
+            options.visibilityMethod = method;
+            return;
+        }
+    throw UsageError("visibility: expected traced or raster");
 }
 
 void takeRefinement(GivenOptions& given, BakeOptions& options) {

@@ -49,8 +49,8 @@ py::list factored(const std::vector<std::string>& materials, int terms, const st
                                 : isPublished(method) ? DiskMapping::Orthographic
                                                       : DiskMapping::EqualArea;
     const TexelValue value = texels ? texelsFrom(*texels) : texelValueOf(method);
-    if (terms < 1 || terms > kMaxTerms)
-        throw UsageError(fmt::format("terms: expected 1 to {}, found {}", kMaxTerms, terms));
+    if (terms < 1 || terms > kMostTerms)
+        throw UsageError(fmt::format("terms: expected 1 to {}, found {}", kMostTerms, terms));
     FactoredBrdf brdf;
     std::vector<std::vector<float>> frobenius, expected;
     std::vector<RmsErrors> rms;
@@ -84,7 +84,7 @@ py::list factored(const std::vector<std::string>& materials, int terms, const st
 // (K, S, S, 3).
 std::vector<vec3> mapsOf(const py::dict& factors, const char* name, FactoredBrdf& brdf) {
     const auto maps = factors[name].cast<Array<float>>();
-    if (maps.ndim() != 4 || maps.shape(0) < 1 || maps.shape(0) > kMaxTerms || maps.shape(1) < kMinMapSize ||
+    if (maps.ndim() != 4 || maps.shape(0) < 1 || maps.shape(0) > kMostTerms || maps.shape(1) < kMinMapSize ||
         maps.shape(1) > kMaxMapSize || maps.shape(1) != maps.shape(2) || maps.shape(3) != 3)
         throw py::value_error(std::string(name) + ": expected an array of shape (K, S, S, 3)");
     if (brdf.terms != 0 && (brdf.terms != maps.shape(0) || brdf.size != maps.shape(1)))

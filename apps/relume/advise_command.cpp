@@ -77,7 +77,7 @@ void run(Arguments& arguments) {
             "an error of {} is not reached: with all coefficients and as many as {} terms it is {:.3g}; "
             "ask for a larger one, keep more of the light (--coefficients, here of the light), or take "
             "a finer mesh",
-            arguments.error, kMaxTerms, least));
+            arguments.error, kMostTerms, least));
     }
 }
 

@@ -21,11 +21,6 @@ void run(Arguments& arguments) {
     BakeJob& job = arguments.job;
     std::optional<Shard> shard;
     if (arguments.shard) shard = parseShard(*arguments.shard);
-    // Each machine would measure for itself, and might choose differently.
-    if (shard && !options.visibilityMethod)
-        throw UsageError(
-            "--shard: all shards must find visibility the same way; name it: --visibility traced "
-            "or raster, not auto");
     options.keepVisibility = job.keepVisibility;
     job.prepare();
     CommandFiles files;

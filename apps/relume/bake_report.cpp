@@ -17,8 +17,8 @@ const char* stageName(BakeStage stage) {
     switch (stage) {
     case BakeStage::Occluder:
         return "occluder";
-    case BakeStage::Factorisation:
-        return "factorisation";
+    case BakeStage::Factorization:
+        return "factorization";
     case BakeStage::Refinement:
         return "refinement";
     case BakeStage::Bounces:

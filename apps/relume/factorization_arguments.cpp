@@ -20,9 +20,9 @@ float wantedErrorFrom(const std::string& text) {
 
 int termsFrom(const std::string& text) {
     int terms;
-    if (CLI::detail::lexical_cast(text, terms) && terms >= 1 && terms <= kMaxTerms) return terms;
-    throw UsageError(
-        fmt::format("--terms: expected 1 to {}, or auto:E for an error of E; found \"{}\"", kMaxTerms, text));
+    if (CLI::detail::lexical_cast(text, terms) && terms >= 1 && terms <= kMostTerms) return terms;
+    throw UsageError(fmt::format("--terms: expected 1 to {}, or auto:E for an error of E; found \"{}\"",
+                                 kMostTerms, text));
 }
 
 // Published tables are orthographic; errors that are weighted by area do best with texels of equal area.
@@ -72,7 +72,7 @@ void FactorizationArguments::resolve(const FactorizationOptions& otherwise, Disk
     if (mMapping) mapping = *diskMappingFromName(*mMapping);
     const bool isAutomatic = mTerms && mTerms->starts_with(kAuto);
     if (mTerms) {
-        options.terms = isAutomatic ? kMaxTerms : termsFrom(*mTerms);
+        options.terms = isAutomatic ? kMostTerms : termsFrom(*mTerms);
         options.wantedError.reset();
     } else if (options.method == Factorization::Normalized) {
         options.terms = 1;

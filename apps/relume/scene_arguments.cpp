@@ -164,11 +164,11 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
     command
         .add_option(
             "--visibility", mVisibility,
-            "How visibility is found: traced (by rays; by drawing where the device cannot), raster (by "
-            "drawing) or auto (the faster here, measured; may differ from run to run)")
+            "How visibility is found: traced (by rays; by drawing where the device cannot) or raster (by "
+            "drawing)")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"raster", "traced", "auto"}))
-        ->default_str(std::string(visibilityMethodName(*defaults.visibilityMethod)));
+        ->check(CLI::IsMember({"raster", "traced"}))
+        ->default_str(std::string(visibilityMethodName(defaults.visibilityMethod)));
     addSize("--transport-samples", mTransportSamples, "COUNT", defaults.transportSamples,
             "BRDF evaluations per lighting texel: 1, 4 or 16");
     if (takesLayout) addBounces(command, mBounces, fmt::format("{}", defaults.bounces));
@@ -224,7 +224,6 @@ void BakeArguments::resolve() {
     options.transportSamples =
         mTransportSamples.value_or(std::min(options.transportSamples, options.mostTransportSamples()));
     if (mVisibility) {
-        options.visibilityMethod.reset();
         for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
             if (*mVisibility == visibilityMethodName(method)) options.visibilityMethod = method;
     }
@@ -247,7 +246,7 @@ uint64_t vertexCount(const Asset& asset) {
 
 nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices) {
     vk::PassTimes stages = times.device;
-    vk::addTime(stages, "factorisation", times.factorisation);
+    vk::addTime(stages, "factorization", times.factorization);
     vk::addTime(stages, "occluder", times.occluder);
     if (times.bounces > 0) vk::addTime(stages, "bounces", times.bounces);
     if (times.previews > 0) vk::addTime(stages, "previews", times.previews);

@@ -83,7 +83,7 @@ bool Frames::prepareSwapchain() {
     return true;
 }
 
-std::optional<PanelWishes> Frames::draw(double seconds, bool mustWrite) {
+std::optional<PanelRequests> Frames::draw(double seconds, bool mustWrite) {
     const Clock::time_point start = Clock::now();
     if (!prepareSwapchain()) return std::nullopt;
     const vk::FrameSpan frame(mOutputs.capture());
@@ -94,10 +94,11 @@ std::optional<PanelWishes> Frames::draw(double seconds, bool mustWrite) {
     }
     SceneState& state = mShown.state;
     advance(state, mOutputs.isRecording() ? 1 / Recorder::kFramesPerSecond : std::min(seconds, kLongestStep));
-    const PanelWishes wishes = drawUi();
+    const PanelRequests requests = drawUi();
 
     const vk::Image& target = mSwapchain.images()[*image];
     mCommands.clearTimes();
+    mCommands.setTimed(requests.showsTimes || mOutputs.isCapturing());
     bool isRead = submit(target, *image);
     // A new light is never shown with the exposure of the last one.
     if (mShown.view.submitted(state)) isRead = submit(target, *image);
@@ -108,7 +109,7 @@ std::optional<PanelWishes> Frames::draw(double seconds, bool mustWrite) {
     mWanted = std::max(0, mWanted - 1);
     // One frame draws all samples; a second one notices that the view is still.
     if (!state.turns && !state.light.plays && mShown.view.isDraft(state)) want(2);
-    return wishes;
+    return requests;
 }
 
 // Returns whether the window's image is to be read. Recordings have no panels.
@@ -147,7 +148,7 @@ void Frames::recordView(const vk::Image& target) {
     mCommands.render({.color = &target, .clear = {background.x, background.y, background.z, 1}}, [] {});
 }
 
-PanelWishes Frames::drawUi() {
+PanelRequests Frames::drawUi() {
     SceneState& state = mShown.state;
     mUi.setDark(state.isDark);
     mUi.begin();
@@ -157,9 +158,9 @@ PanelWishes Frames::drawUi() {
         mShown.lamps.draw(state.light, state.orbit->camera(), model->bounds, mWindow.size());
         drawOverlay(state, known, state.orbit->camera(), mWindow.size());
     }
-    const PanelWishes wishes = drawPanels(state, known);
+    const PanelRequests requests = drawPanels(state, known);
     mUi.end();
-    return wishes;
+    return requests;
 }
 
 PanelFacts Frames::facts() const {

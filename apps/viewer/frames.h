@@ -30,7 +30,7 @@ class Frames {
     // moves what plays, then writes what the outputs want of it. Returns what was pressed in the panels;
     // nothing where the window cannot be drawn on, as a minimized one. Throws Error for files that cannot be
     // written where `mustWrite`, else tells.
-    std::optional<PanelWishes> draw(double seconds, bool mustWrite);
+    std::optional<PanelRequests> draw(double seconds, bool mustWrite);
 
     // Draws at least this many frames before the window is idle.
     void want(int frames) { mWanted = std::max(mWanted, frames); }
@@ -48,7 +48,7 @@ class Frames {
     bool prepareSwapchain();
     bool submit(const vk::Image& target, uint32_t image);
     void recordView(const vk::Image& target);
-    PanelWishes drawUi();
+    PanelRequests drawUi();
     PanelFacts facts() const;
     void save(bool mustWrite);
 

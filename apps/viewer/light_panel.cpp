@@ -162,7 +162,7 @@ void drawBackground(SceneState& state) {
 
 } // namespace
 
-void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
+void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelRequests& requests) {
     LightState& light = state.light;
     if (light.file)
         drawFile(light);
@@ -175,8 +175,8 @@ void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wis
         drawBrush(light, state.brush);
         drawAddLamp(light.lamps);
         ImGui::SameLine();
-        wishes.savesLight = saveButton("Save light", "Write it as a light file, for `relume render --light`",
-                                       outputName(".light.json"));
+        requests.savesLight = saveButton(
+            "Save light", "Write it as a light file, for `relume render --light`", outputName(".light.json"));
         ImGui::SameLine();
     }
     ImGui::Checkbox("Play", &light.plays);

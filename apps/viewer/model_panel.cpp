@@ -7,17 +7,17 @@
 
 namespace relume {
 
-void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
+void drawModelPanel(const PanelFacts& facts, PanelRequests& requests) {
     const auto& models = facts.content->models();
     const auto& shown = facts.content->shown();
     for (size_t i = 0; i < models.size(); i++) {
         ImGui::PushID(int(i));
         if (ImGui::RadioButton(models[i]->file.filename().string().c_str(), models[i] == shown))
-            wishes.shows = i;
+            requests.shows = i;
         explain(models[i]->file.string().c_str());
         if (models.size() > 1) {
             ImGui::SameLine();
-            if (ImGui::SmallButton("Close")) wishes.closes = i;
+            if (ImGui::SmallButton("Close")) requests.closes = i;
         }
         ImGui::PopID();
     }
@@ -42,14 +42,14 @@ void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes) {
     if (!recent.empty() && ImGui::BeginCombo("Recent", "open again")) {
         for (const std::filesystem::path& file : recent) {
             ImGui::PushID(file.string().c_str()); // names may be the same
-            if (ImGui::Selectable(file.filename().string().c_str())) wishes.opens = file;
+            if (ImGui::Selectable(file.filename().string().c_str())) requests.opens = file;
             explain(file.string().c_str());
             ImGui::PopID();
         }
         ImGui::EndCombo();
     }
     if (shown) {
-        wishes.savesSession =
+        requests.savesSession =
             saveButton("Save session",
                        "View, light and materials in a file that this program opens and relume render draws; "
                        "Ctrl + S does so at once",

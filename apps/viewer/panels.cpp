@@ -16,23 +16,23 @@ bool beginSection(const char* name, bool& isOpen) {
     return isOpen = ImGui::CollapsingHeader(name);
 }
 
-void drawMain(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
+void drawMain(SceneState& state, const PanelFacts& facts, PanelRequests& requests) {
     const float highest = ImGui::GetIO().DisplaySize.y - line();
     ImGui::SetNextWindowPos({0.5f * line(), 0.5f * line()}, ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSizeConstraints({kPanelWidth * line(), 0}, {kPanelWidth * line(), highest});
     ImGui::Begin("Relume", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PushItemWidth(14 * line());
-    if (beginSection("Model", state.opensModel)) drawModelPanel(facts, wishes);
-    if (beginSection("Light", state.opensLight)) drawLightPanel(state, facts, wishes);
+    if (beginSection("Model", state.opensModel)) drawModelPanel(facts, requests);
+    if (beginSection("Light", state.opensLight)) drawLightPanel(state, facts, requests);
     if (!facts.materials.empty() && beginSection("Material", state.opensMaterial))
         drawMaterialPanel(state, facts);
     if (facts.content->shown() && beginSection("Compare and inspect", state.opensTrust))
         drawTrustPanel(state, facts);
-    if (beginSection("View", state.opensView)) drawViewPanel(state, facts, wishes);
-    if (ImGui::SmallButton("Undo")) wishes.undoes = true;
+    if (beginSection("View", state.opensView)) drawViewPanel(state, facts, requests);
+    if (ImGui::SmallButton("Undo")) requests.undoes = true;
     explain("Ctrl + Z: take the last change of light, material or picture back");
     ImGui::SameLine();
-    if (ImGui::SmallButton("Redo")) wishes.redoes = true;
+    if (ImGui::SmallButton("Redo")) requests.redoes = true;
     explain("Ctrl + Shift + Z");
     ImGui::SameLine();
     ImGui::TextDisabled("H: keys    Tab: hide panels");
@@ -53,7 +53,7 @@ void drawHelp(SceneState& state) {
     ImGui::End();
 }
 
-void drawTask(const Task& task, PanelWishes& wishes) {
+void drawTask(const Task& task, PanelRequests& requests) {
     text(task.title);
     if (task.fraction >= 0) {
         ImGui::SameLine();
@@ -64,12 +64,12 @@ void drawTask(const Task& task, PanelWishes& wishes) {
     }
     if (!task.canCancel) return;
     ImGui::SameLine();
-    if (ImGui::Button("Cancel")) wishes.cancelsBake = true;
+    if (ImGui::Button("Cancel")) requests.cancelsBake = true;
     explain("What is baked is kept for the next time");
 }
 
 // At the lower edge: a bake's progress, what is read, what happened.
-void drawStatus(const PanelFacts& facts, PanelWishes& wishes) {
+void drawStatus(const PanelFacts& facts, PanelRequests& requests) {
     const Task task = facts.content->task();
     if (task.title.empty() && facts.notice.empty()) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -77,7 +77,7 @@ void drawStatus(const PanelFacts& facts, PanelWishes& wishes) {
     ImGui::Begin("##status", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoFocusOnAppearing);
-    if (!task.title.empty()) drawTask(task, wishes);
+    if (!task.title.empty()) drawTask(task, requests);
     if (!facts.notice.empty()) {
         ImGui::PushTextWrapPos(0.7f * size.x);
         if (facts.isFailure)
@@ -86,24 +86,24 @@ void drawStatus(const PanelFacts& facts, PanelWishes& wishes) {
             text(facts.notice);
         ImGui::PopTextWrapPos();
         ImGui::SameLine();
-        if (ImGui::SmallButton("x")) wishes.dismissesNotice = true;
+        if (ImGui::SmallButton("x")) requests.dismissesNotice = true;
     }
     ImGui::End();
 }
 
 } // namespace
 
-PanelWishes drawPanels(SceneState& state, const PanelFacts& facts) {
-    PanelWishes wishes;
+PanelRequests drawPanels(SceneState& state, const PanelFacts& facts) {
+    PanelRequests requests;
     if (state.showsPanels) {
-        drawMain(state, facts, wishes);
-        drawTimesWindow(facts, wishes);
+        drawMain(state, facts, requests);
+        drawTimesWindow(facts, requests);
         if (state.showsLight) drawLightVectorWindow(state, facts);
         if (facts.why) drawWhyWindow(state, facts);
-        drawStatus(facts, wishes);
+        drawStatus(facts, requests);
     }
     if (state.showsHelp) drawHelp(state);
-    return wishes;
+    return requests;
 }
 
 } // namespace relume

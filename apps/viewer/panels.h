@@ -40,23 +40,24 @@ struct PanelFacts {
 };
 
 // What the user asked for in the panels.
-struct PanelWishes {
+struct PanelRequests {
     bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, togglesRecording = false,
-         resetsView = false, dismissesNotice = false, reloadsShaders = false, undoes = false, redoes = false;
+         resetsView = false, dismissesNotice = false, reloadsShaders = false, undoes = false, redoes = false,
+         showsTimes = false; // the profiler is unfolded
     std::optional<std::filesystem::path> opens, savesLight, savesSession;
     std::optional<size_t> shows, closes; // indices of models
 };
 
 // Draws all panels, between Ui::begin() and end(), and changes `state` as the user does.
-PanelWishes drawPanels(SceneState& state, const PanelFacts& facts);
+PanelRequests drawPanels(SceneState& state, const PanelFacts& facts);
 
 // The sections of the main panel, and separate windows.
-void drawModelPanel(const PanelFacts& facts, PanelWishes& wishes);
-void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes);
+void drawModelPanel(const PanelFacts& facts, PanelRequests& requests);
+void drawLightPanel(SceneState& state, const PanelFacts& facts, PanelRequests& requests);
 void drawMaterialPanel(SceneState& state, const PanelFacts& facts);
-void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes);
+void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelRequests& requests);
 void drawTrustPanel(SceneState& state, const PanelFacts& facts);
-void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes);
+void drawTimesWindow(const PanelFacts& facts, PanelRequests& requests);
 void drawLightVectorWindow(SceneState& state, const PanelFacts& facts);
 void drawWhyWindow(SceneState& state, const PanelFacts& facts);
 

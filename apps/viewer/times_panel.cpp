@@ -6,14 +6,15 @@
 
 namespace relume {
 
-void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
+void drawTimesWindow(const PanelFacts& facts, PanelRequests& requests) {
     const FrameTimes& times = *facts.times;
     ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - 0.5f * line(), 0.5f * line()}, ImGuiCond_Always,
                             {1, 0});
     ImGui::SetNextWindowCollapsed(true, ImGuiCond_FirstUseEver);
-    ImGui::Begin(
+    requests.showsTimes = ImGui::Begin(
         fmt::format("Profiler: {:.0f} frames/s###profiler", times.framesPerSecond()).c_str(), nullptr,
         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoMove);
+    if (!requests.showsTimes) return ImGui::End();
     text("Time of each frame");
     explain("From input to image. Where nothing changes, no frame is drawn");
     const std::vector<float> milliseconds = times.milliseconds();
@@ -38,10 +39,10 @@ void drawTimesWindow(const PanelFacts& facts, PanelWishes& wishes) {
     ImGui::PushTextWrapPos(17 * line());
     ImGui::TextDisabled("%s", facts.device.c_str());
     ImGui::PopTextWrapPos();
-    if (ImGui::SmallButton(facts.isCapturing ? "Stop capture" : "Capture")) wishes.togglesCapture = true;
+    if (ImGui::SmallButton(facts.isCapturing ? "Stop capture" : "Capture")) requests.togglesCapture = true;
     explain("F9: write what every frame spends its time on, for trace viewers");
     ImGui::SameLine();
-    if (ImGui::SmallButton("Rebuild shaders")) wishes.reloadsShaders = true;
+    if (ImGui::SmallButton("Rebuild shaders")) requests.reloadsShaders = true;
     explain("F5: build the shaders anew from their sources");
     ImGui::End();
 }

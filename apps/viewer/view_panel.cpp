@@ -5,7 +5,7 @@
 
 namespace relume {
 
-void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wishes) {
+void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelRequests& requests) {
     if (slider("Exposure", state.exposure, -8, 8, "%.2f stops")) state.exposesItself = false;
     ImGui::SameLine();
     if (ImGui::Checkbox("Auto", &state.exposesItself)) state.wantsExposure = state.exposesItself;
@@ -22,13 +22,13 @@ void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelWishes& wish
     ImGui::Checkbox("Turntable", &state.turns);
     explain("T");
     ImGui::SameLine();
-    if (ImGui::Button("Reset")) wishes.resetsView = true;
+    if (ImGui::Button("Reset")) requests.resetsView = true;
     explain("Enter: the default view");
     ImGui::SameLine();
-    if (ImGui::Button("Screenshot")) wishes.takesScreenshot = true;
+    if (ImGui::Button("Screenshot")) requests.takesScreenshot = true;
     explain("F12: .png as it is seen, .exr of linear radiance, in the folder this was started in");
     ImGui::SameLine();
-    if (ImGui::Button(facts.isRecording ? "Stop recording" : "Record")) wishes.togglesRecording = true;
+    if (ImGui::Button(facts.isRecording ? "Stop recording" : "Record")) requests.togglesRecording = true;
     explain("Ctrl + F12: write every frame without panels, thirty to a second of the scene's time; as a "
             "video, too, where "
             "ffmpeg is installed");

@@ -3,9 +3,9 @@
 #include "apps/viewer/controls.h"
 #include "apps/viewer/files.h"
 #include "apps/viewer/frames.h"
-#include "apps/viewer/habits.h"
 #include "apps/viewer/history.h"
 #include "apps/viewer/opened_file.h"
+#include "apps/viewer/preferences.h"
 #include "apps/viewer/script.h"
 #include "apps/viewer/settings.h"
 #include "apps/viewer/shader_compiler.h"
@@ -38,10 +38,10 @@ vk::DeviceOptions deviceOptions(const ViewerOptions& options, const Window& wind
 }
 
 // Sessions that nobody watches are the same whatever was done before.
-bool hasHabits(const ViewerOptions& options) { return options.script.empty() && !options.exitFrame; }
+bool hasPreferences(const ViewerOptions& options) { return options.script.empty() && !options.exitFrame; }
 
-ivec2 firstSize(const ViewerOptions& options, const Habits& habits) {
-    return options.size.value_or(habits.size.value_or(ivec2(1280, 720)));
+ivec2 firstSize(const ViewerOptions& options, const Preferences& preferences) {
+    return options.size.value_or(preferences.size.value_or(ivec2(1280, 720)));
 }
 
 // The loop: takes input, lets time pass, and draws frames where something has changed.
@@ -64,8 +64,8 @@ class Viewer : public ScriptTarget {
     void takeEvents();
     void take(const InputEvent& event, UiWants wants);
     void open(const std::filesystem::path& file);
-    void obey(Command command);
-    void obey(const PanelWishes& wishes);
+    void execute(Command command);
+    void execute(const PanelRequests& requests);
     std::optional<RayHit> hitUnderCursor() const;
     void pickPart();
     void focus();
@@ -89,7 +89,7 @@ class Viewer : public ScriptTarget {
     bool hasView() const { return model() && mState.orbit; }
 
     ViewerOptions mOptions;
-    Habits mHabits;
+    Preferences mPreferences;
     Window mWindow;
     vk::Device mDevice;
     Notice mNotice;
@@ -109,8 +109,8 @@ class Viewer : public ScriptTarget {
 };
 
 Viewer::Viewer(const ViewerOptions& options)
-    : mOptions(options), mHabits(hasHabits(options) ? readHabits() : Habits{}),
-      mWindow("Relume", firstSize(options, mHabits)), mDevice(deviceOptions(options, mWindow)),
+    : mOptions(options), mPreferences(hasPreferences(options) ? readPreferences() : Preferences{}),
+      mWindow("Relume", firstSize(options, mPreferences)), mDevice(deviceOptions(options, mWindow)),
       mContent(
           mDevice, options.device.select, mState.light,
           [this](const std::string& words, bool isFailure) { mNotice.tell(words, isFailure); }, Window::wake),
@@ -119,9 +119,9 @@ Viewer::Viewer(const ViewerOptions& options)
             [this](const std::string& words, bool isFailure) { mNotice.tell(words, isFailure); }),
       mFrames(mWindow, mDevice, {mState, mContent, mView, mLamps, mNotice}, options.waitsForDisplay) {
     mFrames.want(kFramesAfterInput);
-    for (const auto& [name, value] : mHabits.settings.items()) {
+    for (const auto& [name, value] : mPreferences.settings.items()) {
         // Versions without backgrounds stored the exposure even if the user had never set it.
-        if (name == "exposure" && !mHabits.settings.contains("background")) continue;
+        if (name == "exposure" && !mPreferences.settings.contains("background")) continue;
         try {
             applySetting(mState, name, value, nullptr);
         } catch (const std::exception& why) {
@@ -129,8 +129,8 @@ Viewer::Viewer(const ViewerOptions& options)
         }
     }
     mState.waitsForDisplay &= options.waitsForDisplay;
-    mContent.setRecent(mHabits.recent);
-    for (const std::filesystem::path& file : mHabits.environments) addEnvironment(mState.light, file);
+    mContent.setRecent(mPreferences.recent);
+    for (const std::filesystem::path& file : mPreferences.environments) addEnvironment(mState.light, file);
     if (!options.script.empty()) mScript.emplace(options.script);
     if (!options.timings.empty()) mFrames.outputs().beginCapture(options.timings);
     bool hasModel = false;
@@ -146,21 +146,21 @@ Viewer::Viewer(const ViewerOptions& options)
 
 Viewer::~Viewer() {
     mDevice.savePipelineCache();
-    if (!hasHabits(mOptions)) return;
+    if (!hasPreferences(mOptions)) return;
     // A window is made as large as this times its scale.
-    if (!mWindow.isFullScreen()) mHabits.size = ivec2(vec2(mWindow.size()) / mWindow.scale());
-    mHabits.recent = mContent.recent();
-    mHabits.environments.clear();
+    if (!mWindow.isFullScreen()) mPreferences.size = ivec2(vec2(mWindow.size()) / mWindow.scale());
+    mPreferences.recent = mContent.recent();
+    mPreferences.environments.clear();
     for (const EnvironmentChoice& choice : mState.light.environments)
         if (choice.kind == EnvironmentChoice::Kind::File && choice.map)
-            mHabits.environments.push_back(choice.file);
+            mPreferences.environments.push_back(choice.file);
     nlohmann::json kept = keptSettings(mState);
     if (!mOptions.waitsForDisplay) { // for this time only
-        const auto before = mHabits.settings.find("vsync");
-        kept["vsync"] = before != mHabits.settings.end() ? *before : nlohmann::json(true);
+        const auto before = mPreferences.settings.find("vsync");
+        kept["vsync"] = before != mPreferences.settings.end() ? *before : nlohmann::json(true);
     }
-    mHabits.settings = std::move(kept);
-    writeHabits(mHabits);
+    mPreferences.settings = std::move(kept);
+    writePreferences(mPreferences);
 }
 
 // Input
@@ -199,14 +199,14 @@ void Viewer::take(const InputEvent& event, UiWants wants) {
     if (hasView() && isOfMouse && (mState.showsPanels || mLamps.isDragging()) &&
         mLamps.take(event, mState.light, mState.orbit->camera(), model()->bounds, mWindow.size()))
         return;
-    obey(mControls.take(event, mState, mWindow.size(), model() ? &model()->bounds : nullptr));
+    execute(mControls.take(event, mState, mWindow.size(), model() ? &model()->bounds : nullptr));
 }
 
 void Viewer::open(const std::filesystem::path& file) {
     attempt(mNotice, [&] { mFiles.open(file); });
 }
 
-void Viewer::obey(Command command) {
+void Viewer::execute(Command command) {
     switch (command) {
     case Command::None:
         return;
@@ -260,21 +260,21 @@ void Viewer::obey(Command command) {
     }
 }
 
-void Viewer::obey(const PanelWishes& wishes) {
-    if (wishes.cancelsBake) mContent.cancelBake();
-    if (wishes.takesScreenshot) obey(Command::Screenshot);
-    if (wishes.togglesCapture) toggleCapture();
-    if (wishes.togglesRecording) toggleRecording();
-    if (wishes.resetsView) mState.orbit.reset();
-    if (wishes.dismissesNotice) mNotice.clear();
-    if (wishes.reloadsShaders) reloadShaders();
-    if (wishes.undoes) obey(Command::Undo);
-    if (wishes.redoes) obey(Command::Redo);
-    if (wishes.savesLight) saveLight(*wishes.savesLight);
-    if (wishes.savesSession) saveSession(*wishes.savesSession);
-    if (wishes.opens) open(*wishes.opens);
-    if (wishes.shows) mContent.show(*wishes.shows);
-    if (wishes.closes) mContent.close(*wishes.closes);
+void Viewer::execute(const PanelRequests& requests) {
+    if (requests.cancelsBake) mContent.cancelBake();
+    if (requests.takesScreenshot) execute(Command::Screenshot);
+    if (requests.togglesCapture) toggleCapture();
+    if (requests.togglesRecording) toggleRecording();
+    if (requests.resetsView) mState.orbit.reset();
+    if (requests.dismissesNotice) mNotice.clear();
+    if (requests.reloadsShaders) reloadShaders();
+    if (requests.undoes) execute(Command::Undo);
+    if (requests.redoes) execute(Command::Redo);
+    if (requests.savesLight) saveLight(*requests.savesLight);
+    if (requests.savesSession) saveSession(*requests.savesSession);
+    if (requests.opens) open(*requests.opens);
+    if (requests.shows) mContent.show(*requests.shows);
+    if (requests.closes) mContent.close(*requests.closes);
     if (!mState.showsWhy) mFrames.pictures().stopAsking();
 }
 
@@ -386,7 +386,7 @@ void Viewer::run() {
         const Clock::time_point now = Clock::now();
         const double seconds = std::chrono::duration<double>(now - std::exchange(mLastFrame, now)).count();
         // Nobody sees what is told where the window ends by itself.
-        if (const auto wishes = mFrames.draw(seconds, mOptions.exitFrame.has_value())) obey(*wishes);
+        if (const auto requests = mFrames.draw(seconds, mOptions.exitFrame.has_value())) execute(*requests);
         if (mOptions.exitFrame && mSettledFrames >= *mOptions.exitFrame) break;
     }
     Outputs& outputs = mFrames.outputs();

@@ -5,8 +5,6 @@
 
 namespace relume {
 
-constexpr int kLargestTerms = 32; // K of a set
-
 // The place of a block in its set: its range of vertices and the run of its chunk.
 struct BlockPlace {
     uint32_t first, vertices, run;

@@ -53,8 +53,8 @@ std::vector<uint32_t> triangleCorners(const std::vector<uint32_t>& order, int mo
 
 class SceneReader {
   public:
-    SceneReader(const tinygltf::Model& model, const GltfWishes& wishes, const std::string& name)
-        : mModel(model), mWishes(wishes), mName(name), mVisited(model.nodes.size(), false) {}
+    SceneReader(const tinygltf::Model& model, const GltfWishes& requests, const std::string& name)
+        : mModel(model), mWishes(requests), mName(name), mVisited(model.nodes.size(), false) {}
 
     std::map<int, Mesh> read() {
         if (mModel.scenes.empty()) {
@@ -242,9 +242,9 @@ class SceneReader {
 
 } // namespace
 
-std::map<int, Mesh> readGltfGeometry(const tinygltf::Model& model, const GltfWishes& wishes,
+std::map<int, Mesh> readGltfGeometry(const tinygltf::Model& model, const GltfWishes& requests,
                                      const std::string& name) {
-    return SceneReader(model, wishes, name).read();
+    return SceneReader(model, requests, name).read();
 }
 
 } // namespace relume

@@ -25,7 +25,7 @@ using GltfWishes = std::function<GltfWish(int material)>;
 // but for indices. A mesh has a normal or tangent of length zero where the file has none, and fewer uvs or
 // colors than vertices where a primitive lacks what is wished for. Throws Error, in which `name` stands for
 // the file.
-std::map<int, Mesh> readGltfGeometry(const tinygltf::Model& model, const GltfWishes& wishes,
+std::map<int, Mesh> readGltfGeometry(const tinygltf::Model& model, const GltfWishes& requests,
                                      const std::string& name);
 
 } // namespace relume

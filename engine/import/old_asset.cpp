@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/chunk/byte_stream.h"
 #include "engine/import/json_object.h"
+#include "engine/scene/factored_brdf.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
@@ -101,16 +102,16 @@ void readKinds(const Reader&, SparseTransport&) {}
 
 void readKinds(const Reader& in, BasisTransport& bases) {
     const Json& kinds = in.array("kinds");
-    for (size_t i = 0; i < kinds.size() && i <= 3 * kLargestTerms; i++) {
+    for (size_t i = 0; i < kinds.size() && i <= 3 * kMostTerms; i++) {
         const Reader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
-        bases.kinds.push_back({uint32_t(kind.integer("term", 0, kLargestTerms - 1)),
+        bases.kinds.push_back({uint32_t(kind.integer("term", 0, kMostTerms - 1)),
                                {kind.real("red"), kind.real("green"), kind.real("blue")}});
     }
 }
 
 void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     MaterialSet set;
-    set.brdf.terms = in.integer("terms", 1, kLargestTerms);
+    set.brdf.terms = in.integer("terms", 1, kMostTerms);
     set.brdf.layers = in.integer("layers", 1, kLargestLayers);
     set.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
     const std::string mapping = in.text("mapping");

@@ -5,10 +5,10 @@
 
 namespace relume {
 
-// A rectangle in normalized device coordinates. If part of the box is nearer than the near plane, `isWhole`
-// is false and the rectangle is the whole screen.
+// A rectangle in normalized device coordinates. If part of the box is nearer than the near plane,
+// `isBeyondNear` is false and the rectangle is the whole screen.
 struct Footprint {
-    bool isWhole = true; // whether the whole box is beyond the near plane
+    bool isBeyondNear = true; // whether the whole box is beyond the near plane
     vec2 low = vec2(1), high = vec2(-1);
 };
 

@@ -38,7 +38,7 @@ int supportedViewSamples(const vk::Device& device, VkFormat depthFormat, int wan
         featuresOf(device, kViewColorFormat) & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
     if (!device.limits().standardSampleLocations || !addsColors) return 1;
     const VkSampleCountFlags counts =
-        sampleCounts(device, kViewSurfaceFormat,
+        sampleCounts(device, kTriangleIdFormat,
                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
         sampleCounts(device, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     for (int samples = wanted; samples > 1; samples /= 2)

@@ -6,7 +6,7 @@
 namespace relume {
 
 constexpr VkFormat kViewColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kViewSurfaceFormat = VK_FORMAT_R32_UINT; // triangle ids
+constexpr VkFormat kTriangleIdFormat = VK_FORMAT_R32_UINT; // triangle ids
 
 // Returns a format with depth and stencil. Prefers D24_S8: half the memory of D32_S8, and as precise beyond
 // twice the near distance. Every device has one of the two.

@@ -15,8 +15,8 @@
 #include "shaders/view_shade_frag.h"
 #include "shaders/view_shade_samples_frag.h"
 #include "shaders/view_shade_vert.h"
-#include "shaders/view_surface_frag.h"
-#include "shaders/view_surface_vert.h"
+#include "shaders/view_triangle_id_frag.h"
+#include "shaders/view_triangle_id_vert.h"
 
 #include <algorithm>
 #include <array>
@@ -124,15 +124,15 @@ ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptio
     : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(viewDepthFormat(device)),
       mIsUnshadowed(options.isUnshadowed) {
     constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    mPixelSampler = {device, kClamp, kClamp, "view surfaces", VK_FILTER_NEAREST};
+    mPixelSampler = {device, kClamp, kClamp, "triangle ids", VK_FILTER_NEAREST};
     mDiskSampler = {device, kClamp, kClamp, "view maps"};
     mPolarSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, kClamp, "polar view maps"};
     mSurfaceSampler = {device, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                        "surface textures"};
-    uint32_t firstSurface = 1;
+    uint32_t firstTriangleId = 1;
     for (const AssetPart& part : asset.parts) {
-        mParts.push_back(makePart(part, firstSurface));
-        firstSurface += mParts.back().surfaces;
+        mParts.push_back(makePart(part, firstTriangleId));
+        firstTriangleId += mParts.back().triangleCount;
     }
     setAppearance(defaultAppearance(asset));
     mSamples = supportedViewSamples(device, mDepthFormat, options.samples);
@@ -151,15 +151,16 @@ void ViewPass::setSamples(int samples) {
 
 void ViewPass::makePrograms() {
     SamplePrograms& programs = mPrograms[mSamples];
-    if (programs.surfaces.pipeline()) return;
-    vk::GraphicsOptions surfaces{.colorFormat = kViewSurfaceFormat, .depthFormat = mDepthFormat};
-    surfaces.stencil = vk::Stencil::Write;
-    surfaces.readsPositions = true;
-    surfaces.samples = uint32_t(mSamples);
-    programs.surfaces = {mDevice, view_surface_vert_spirv, view_surface_frag_spirv, {}, surfaces, "surfaces"};
-    surfaces.cull = vk::Cull::Clockwise;
-    programs.closedSurfaces = {mDevice,  view_surface_vert_spirv, view_surface_frag_spirv, {},
-                               surfaces, "closed surfaces"};
+    if (programs.triangleIds.pipeline()) return;
+    vk::GraphicsOptions options{.colorFormat = kTriangleIdFormat, .depthFormat = mDepthFormat};
+    options.stencil = vk::Stencil::Write;
+    options.readsPositions = true;
+    options.samples = uint32_t(mSamples);
+    programs.triangleIds = {
+        mDevice, view_triangle_id_vert_spirv, view_triangle_id_frag_spirv, {}, options, "triangle ids"};
+    options.cull = vk::Cull::Clockwise;
+    programs.closedTriangleIds = {mDevice, view_triangle_id_vert_spirv, view_triangle_id_frag_spirv, {},
+                                  options, "closed triangle ids"};
     if (mSamples == 1) return;
     vk::GraphicsOptions edges = shadeOptions(mDepthFormat, kEdgeBit - 1);
     edges.stencil = vk::Stencil::Replace;
@@ -188,7 +189,7 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
         }
 }
 
-ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface) {
+ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstTriangleId) {
     Part part;
     part.bounds = boundsOf(source.mesh);
     part.isClosed = isClosed(source.mesh);
@@ -206,8 +207,8 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstSurface
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
     part.triangles = vk::upload<glm::u32vec4>(mDevice, cornersOf(source.mesh), source.name + " triangles");
     part.clusters = TriangleClusters(source.mesh);
-    part.firstSurface = firstSurface;
-    part.surfaces = uint32_t(source.mesh.triangleCount());
+    part.firstTriangleId = firstTriangleId;
+    part.triangleCount = uint32_t(source.mesh.triangleCount());
     part.paint = source.paintedByColors ? shared::kPaintedByColors
                  : source.materialMap   ? shared::kPaintedByMap
                                         : shared::kUnpainted;
@@ -305,9 +306,9 @@ void ViewPass::makeImages(int width, int height) {
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     mColor = vk::Image(mDevice, options, "view color");
     options.samples = uint32_t(mSamples);
-    options.format = kViewSurfaceFormat;
+    options.format = kTriangleIdFormat;
     options.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    mSurfaces = vk::Image(mDevice, options, "view surfaces");
+    mTriangleIds = vk::Image(mDevice, options, "triangle ids");
     options.format = mDepthFormat;
     options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     mDepth = vk::Image(mDevice, options, "view depth");
@@ -335,12 +336,12 @@ ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
     return frame;
 }
 
-void ViewPass::drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const {
-    if (part.surfaces == 0) return;
-    const bool showsNoBack = part.isClosed && footprintOf(part.bounds, frame.clipFromWorld).isWhole;
+void ViewPass::drawTriangleIds(vk::Commands& commands, const Frame& frame, const Part& part) const {
+    if (part.triangleCount == 0) return;
+    const bool showsNoBack = part.isClosed && footprintOf(part.bounds, frame.clipFromWorld).isBeyondNear;
     const SamplePrograms& programs = mPrograms.at(mSamples);
-    commands.bind(showsNoBack ? programs.closedSurfaces : programs.surfaces, {},
-                  shared::ViewSurfacePush{frame.clipFromWorld, part.firstSurface});
+    commands.bind(showsNoBack ? programs.closedTriangleIds : programs.triangleIds, {},
+                  shared::ViewTriangleIdPush{frame.clipFromWorld, part.firstTriangleId});
     commands.setPositions(part.drawnPositions);
     commands.setStencil(stencilOf(part));
     const float focalLength = 1 / glm::length(frame.right);
@@ -363,7 +364,7 @@ void ViewPass::inspect(vk::Commands& commands, const Frame& frame, const Part& p
                   uint32_t(Inspect::Normals) == shared::kInspectNormals &&
                   uint32_t(Inspect::Density) == shared::kInspectDensity);
     const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
-    if (!rays || part.surfaces == 0) return;
+    if (!rays || part.triangleCount == 0) return;
     vk::GraphicsProgram& program = mPrograms.at(mSamples).inspect;
     if (!program.pipeline()) {
         vk::GraphicsOptions options = shadeOptions(mDepthFormat);
@@ -379,12 +380,12 @@ void ViewPass::inspect(vk::Commands& commands, const Frame& frame, const Part& p
             program = {mDevice, view_shade_vert_spirv, view_inspect_frag_spirv, {}, options, "inspect"};
         mMedianArea = medianAreaOf(mAsset);
     }
-    commands.bind(
-        program,
-        {{mSurfaces, mPixelSampler},
-         vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
-         vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT)},
-        shared::ViewInspectPush{*rays, part.firstSurface, part.surfaces, uint32_t(mInspect), mMedianArea});
+    commands.bind(program,
+                  {{mTriangleIds, mPixelSampler},
+                   vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
+                   vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT)},
+                  shared::ViewInspectPush{*rays, part.firstTriangleId, part.triangleCount, uint32_t(mInspect),
+                                          mMedianArea});
     if (mSamples == 1) commands.setStencil(stencilOf(part));
     commands.draw(6);
 }
@@ -394,17 +395,17 @@ void ViewPass::markEdges(vk::Commands& commands, const Frame& frame) const {
     // Marks edges among the pixels whose first sample has this stencil value.
     const auto mark = [&](const Part& part, const Bounds& bounds, uint32_t stencil) {
         const std::optional<shared::ViewRays> rays = raysOf(frame, bounds);
-        if (!rays || part.surfaces == 0) return;
-        commands.bind(
-            program,
-            {{mSurfaces, mPixelSampler}, vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT)},
-            shared::ViewEdgesPush{*rays, part.firstSurface, part.surfaces});
+        if (!rays || part.triangleCount == 0) return;
+        commands.bind(program,
+                      {{mTriangleIds, mPixelSampler},
+                       vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT)},
+                      shared::ViewEdgesPush{*rays, part.firstTriangleId, part.triangleCount});
         commands.setStencil(stencil | kEdgeBit);
         commands.draw(6);
     };
     for (const Part& part : mParts) mark(part, part.bounds, stencilOf(part));
     // Pixels whose first sample is empty are tested once, with the data of any part.
-    const auto any = std::ranges::find_if(mParts, [](const Part& part) { return part.surfaces > 0; });
+    const auto any = std::ranges::find_if(mParts, [](const Part& part) { return part.triangleCount > 0; });
     if (any != mParts.end()) mark(*any, mBounds, 0);
 }
 
@@ -425,7 +426,7 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
         Part& part = mParts[i];
         const ResidualSet* residual = residualOf(i, part.bound.set, relighter);
         const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
-        if (!residual || !rays || part.surfaces == 0 || part.boundLayers.empty()) continue;
+        if (!residual || !rays || part.triangleCount == 0 || part.boundLayers.empty()) continue;
         const vec2 size(float(mColor.options().width), float(mColor.options().height));
         const vec4 rectangle = 0.5f * (rays->rectangle + 1.0f) * vec4(size, size);
         addGridNodes(nodes, rays->corner, rays->right, rays->down, vec2(rectangle),
@@ -451,13 +452,13 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
     const ResidualSet* residual = residualOf(number, part.bound.set, relighter);
     const vk::Buffer& tuples = relighter.tuples(number, part.bound.set);
     const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
-    if (!rays || part.surfaces == 0) return;
+    if (!rays || part.triangleCount == 0) return;
     const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
     const bool isSingle = part.look == shared::kSingleLook;
     const bool fades = mGroundFade && mGroundFade->part == number;
     const shared::ViewShadePush push{*rays,
-                                     part.firstSurface,
-                                     part.surfaces,
+                                     part.firstTriangleId,
+                                     part.triangleCount,
                                      uint32_t(set.mapping),
                                      isSingle ? part.boundLayers[0].firstMap : 0,
                                      isSingle ? part.boundLayers[0].weight : 0,
@@ -472,7 +473,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                                            : vec4(0)};
     const uint32_t harmonics = isSingle && residual ? part.boundLayers[0].harmonics : mostHarmonics(residual);
     commands.bind(shadeProgram(set, {part.look, usesAll, estimateOf(residual), harmonics, pixels}),
-                  {{mSurfaces, mPixelSampler},
+                  {{mTriangleIds, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
                    vk::Binding::texelsOf(tuples, set.floatsPerTexel() == 4 ? VK_FORMAT_R32G32B32A32_SFLOAT
@@ -493,18 +494,18 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
     commands.draw(6);
 }
 
-void ViewPass::recordSurfaces(vk::Commands& commands, const Frame& frame) const {
-    commands.transition(mSurfaces, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+void ViewPass::recordTriangleIds(vk::Commands& commands, const Frame& frame) const {
+    commands.transition(mTriangleIds, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         Stage::Draw, Stage::Color);
     const vk::Image* const firstSamples = mSamples > 1 ? &mPixelDepth : nullptr;
     for (const vk::Image* depth : {&mDepth, firstSamples})
         if (depth)
             commands.transition(*depth, VK_IMAGE_LAYOUT_UNDEFINED,
                                 VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, Stage::Color, Stage::Color);
-    commands.render({.color = &mSurfaces, .depth = &mDepth, .firstSamples = firstSamples}, [&] {
-        for (const Part& part : mParts) drawSurfaces(commands, frame, part);
+    commands.render({.color = &mTriangleIds, .depth = &mDepth, .firstSamples = firstSamples}, [&] {
+        for (const Part& part : mParts) drawTriangleIds(commands, frame, part);
     });
-    commands.transition(mSurfaces, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+    commands.transition(mTriangleIds, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Color, Stage::Draw);
 }
 
@@ -526,7 +527,7 @@ void ViewPass::record(vk::Commands& commands, const Camera& camera, const Religh
     commands.barrier(Stage::Transfer, Stage::Draw);
     commands.pass("view", [&] {
         if (mDrawn != frame) {
-            recordSurfaces(commands, frame);
+            recordTriangleIds(commands, frame);
             mDrawn = frame;
             mHasMarkedEdges = false;
         }

@@ -89,8 +89,9 @@ class ViewPass {
         vk::Buffer drawnPositions, drawnTriangles; // NumberedTriangles
         vk::Buffer vertices, triangles;            // shared::ViewVertex and corners, looked up by pixels
         TriangleClusters clusters;
-        uint32_t firstSurface = 0, surfaces = 0; // first triangle id, from 1 over all parts; triangles
-        uint32_t paint = 0;                      // shared::kPaintedByMap and so on, if it is painted
+        uint32_t firstTriangleId = 0,
+                 triangleCount = 0; // first triangle id, from 1 over all parts; triangles
+        uint32_t paint = 0;         // shared::kPaintedByMap and so on, if it is painted
         vk::Image baseColor, materialMap, normalMap, emissionMap;
         shared::ViewDetail detail;
         bool isDetailed; // whether `detail` has anything to draw
@@ -109,7 +110,7 @@ class ViewPass {
         bool operator==(const Frame&) const = default;
     };
 
-    Part makePart(const AssetPart& source, uint32_t firstSurface);
+    Part makePart(const AssetPart& source, uint32_t firstTriangleId);
     Set makeSet(const MaterialSet& source, const std::string& name);
     static const Set& boundSet(const Part& part) { return part.sets[part.bound.set]; }
     // The pixels that a program shades: All with one sample per pixel; with several, Inner ones are shaded
@@ -131,8 +132,8 @@ class ViewPass {
     void makeImages(int width, int height);
     void makePrograms();
     Frame frameOf(const Camera& camera) const;
-    void drawSurfaces(vk::Commands& commands, const Frame& frame, const Part& part) const;
-    void recordSurfaces(vk::Commands& commands, const Frame& frame) const;
+    void drawTriangleIds(vk::Commands& commands, const Frame& frame, const Part& part) const;
+    void recordTriangleIds(vk::Commands& commands, const Frame& frame) const;
     // Marks the pixels that are shaded more than once in the stencil.
     void markEdges(vk::Commands& commands, const Frame& frame) const;
     void shade(vk::Commands& commands, const Frame& frame, size_t part, const Relighter& relighter,
@@ -156,7 +157,7 @@ class ViewPass {
     VkFormat mDepthFormat;
     int mSamples = 1;
     struct SamplePrograms {
-        vk::GraphicsProgram surfaces, closedSurfaces;
+        vk::GraphicsProgram triangleIds, closedTriangleIds;
         vk::GraphicsProgram edges;   // with several samples only
         vk::GraphicsProgram inspect; // made when first needed
     };
@@ -172,7 +173,7 @@ class ViewPass {
     std::optional<GroundFade> mGroundFade;
     Inspect mInspect = Inspect::Off;
     float mMedianArea = 0;
-    vk::Image mColor, mSurfaces, mDepth;
+    vk::Image mColor, mTriangleIds, mDepth;
     vk::Image mPixelDepth; // with several samples: the depth of the first ones
     // The frame whose visibility buffer and depth the images hold; none until one is recorded.
     std::optional<Frame> mDrawn;

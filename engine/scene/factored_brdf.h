@@ -8,7 +8,7 @@
 
 namespace relume {
 
-constexpr int kMaxTerms = 32; // K
+constexpr int kMostTerms = 32; // K
 
 // Light and view maps of one or more BRDFs f_j: f_j(ωi, ωo) ≈ Σk lightMap_k(ωi) viewMap_jk(ωo), per color
 // channel, with ωi and ωo in the local frame. The layers j are BRDFs, or parts of one, that share light maps

@@ -69,7 +69,7 @@ struct Provenance {
 
 // How transport was compressed from rows: the bytes or the error that was asked for, one of both, and the
 // error that resulted. Errors are root mean squares, weighted by the spectrum of light, relative to the
-// deviation of a set's vertices from their mean (precompute/transport/unit_sum.h).
+// deviation of a set's vertices from their mean (precompute/transport/norm_sum.h).
 struct LayoutRecord {
     std::optional<double> wantedBytes; // per vertex, in memory
     std::optional<double> wantedError;

@@ -1,6 +1,7 @@
 #include "engine/transport/asset_check.h"
 
 #include "engine/chunk/expect.h"
+#include "engine/scene/factored_brdf.h"
 
 #include <algorithm>
 #include <bit>
@@ -76,7 +77,7 @@ void checkMesh(const Mesh& mesh, const std::string& where) {
 }
 
 void checkBrdf(const FactoredBrdf& brdf, const std::string& where) {
-    expectRange(brdf.terms, 1, kLargestTerms, where, "BRDF terms");
+    expectRange(brdf.terms, 1, kMostTerms, where, "BRDF terms");
     expectRange(brdf.size, kSmallestMap, kLargestMap, where, "a map size");
     expectRange(brdf.layers, 1, kLargestLayers, where, "layers of view maps");
     expect(brdf.mapping <= DiskMapping::Polar, where, "the orthographic, the polar or the equal-area map");

@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/chunk/byte_stream.h"
+#include "engine/scene/factored_brdf.h"
 #include "engine/transport/asset_check.h"
 
 #include <algorithm>
@@ -117,9 +118,9 @@ void writeLayout(FieldWriter& out, const BasisTransport& bases) {
 }
 
 void readLayout(FieldReader& in, BasisTransport& bases) {
-    const uint64_t kinds = in.whole("kinds", 0, 3 * kLargestTerms);
+    const uint64_t kinds = in.whole("kinds", 0, 3 * kMostTerms);
     for (uint64_t i = 0; i < kinds; i++) {
-        const auto term = uint32_t(in.integer("term", 0, kLargestTerms - 1));
+        const auto term = uint32_t(in.integer("term", 0, kMostTerms - 1));
         const float red = in.real("red"), green = in.real("green"), blue = in.real("blue");
         bases.kinds.push_back({term, {red, green, blue}});
     }
@@ -230,7 +231,7 @@ MaterialSet readSet(FieldReader& in, uint64_t vertices, std::vector<uint64_t>& s
         material.layer = in.integer("layer", 0, kLargestLayers);
         material.hasBase = in.flag("base");
     }
-    set.brdf.terms = in.integer("terms", 1, kLargestTerms);
+    set.brdf.terms = in.integer("terms", 1, kMostTerms);
     set.brdf.layers = in.integer("layers", 1, kLargestLayers);
     set.brdf.size = in.integer("mapSize", kSmallestMap, kLargestMap);
     const auto mapping = diskMappingFromName(in.text());

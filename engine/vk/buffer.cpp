@@ -29,7 +29,6 @@ Buffer::Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_
                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     try {
         RELUME_VK(vkCreateBuffer(device.handle(), &create, nullptr, &mBuffer));
         VkMemoryRequirements requirements;
@@ -37,18 +36,15 @@ Buffer::Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_
         if (requirements.size > device.info().largestAllocation)
             throw OutOfMemory(fmt::format("{}: {} bytes asked for, {} allows {} at once", name,
                                           requirements.size, device.name(), device.info().largestAllocation));
-        allocate.allocationSize = requirements.size;
-        allocate.memoryTypeIndex = memoryTypeFor(device, requirements.memoryTypeBits, use);
-        RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));
-        RELUME_VK(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0));
-        if (use != BufferUse::Device)
-            RELUME_VK(vkMapMemory(device.handle(), mMemory, 0, VK_WHOLE_SIZE, 0, &mMapped));
+        mMemory = device.memory().allocate(
+            requirements, memoryTypeFor(device, requirements.memoryTypeBits, use),
+            use == BufferUse::Device ? MemoryKind::Buffer : MemoryKind::MappedBuffer);
+        RELUME_VK(vkBindBufferMemory(device.handle(), mBuffer, mMemory.memory(), mMemory.offset()));
     } catch (...) {
         destroy();
         throw;
     }
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
-    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(mMemory), name);
 }
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
@@ -56,14 +52,13 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(mBuffer, other.mBuffer);
     std::swap(mMemory, other.mMemory);
     std::swap(mBytes, other.mBytes);
-    std::swap(mMapped, other.mMapped);
     return *this;
 }
 
 void Buffer::destroy() {
     if (!mDevice) return;
     vkDestroyBuffer(mDevice->handle(), mBuffer, nullptr);
-    vkFreeMemory(mDevice->handle(), mMemory, nullptr);
+    mMemory = {};
     mDevice = nullptr;
 }
 

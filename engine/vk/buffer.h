@@ -14,7 +14,7 @@ enum class BufferUse {
     Readback, // written by the device, read by the host; mapped
 };
 
-// A buffer with its own memory. Keeps a reference to the device, which must outlive it.
+// A buffer and its memory. Keeps a reference to the device, which must outlive it.
 class Buffer {
   public:
     Buffer() = default;
@@ -30,8 +30,9 @@ class Buffer {
     // Returns the mapped contents of an upload or readback buffer, as whole elements.
     template <typename T>
     std::span<T> map() const {
-        RELUME_CHECK(mMapped != nullptr);
-        return {static_cast<T*>(mMapped), mBytes / sizeof(T)};
+        void* const mapped = mMemory.mapped();
+        RELUME_CHECK(mapped != nullptr);
+        return {static_cast<T*>(mapped), mBytes / sizeof(T)};
     }
 
   private:
@@ -39,9 +40,8 @@ class Buffer {
 
     const Device* mDevice = nullptr;
     VkBuffer mBuffer = VK_NULL_HANDLE;
-    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    MemoryPool::Range mMemory;
     uint64_t mBytes = 0;
-    void* mMapped = nullptr;
 };
 
 } // namespace relume::vk

@@ -6,6 +6,7 @@
 #include "engine/vk/timing_capture.h"
 
 #include <algorithm>
+#include <array>
 
 namespace relume::vk {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr uint32_t kSetsPerPool = 256;
 constexpr uint32_t kMaxTimedPasses = 512;
+constexpr size_t kMostBindings = 32; // of a program
 
 // Of a texel of a buffer.
 uint64_t texelBytes(VkFormat format) {
@@ -109,18 +111,19 @@ void Commands::begin() {
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     RELUME_VK(vkBeginCommandBuffer(mCommands, &begin));
-    vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxTimedPasses);
+    mIsRecordingTimed = mIsTimed && mDevice.timestampBits() > 0;
+    if (mIsRecordingTimed) vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxTimedPasses);
 }
 
 void Commands::begin(VkCommandBuffer hosts) {
     reset();
     mCommands = hosts;
-    vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxTimedPasses);
+    mIsRecordingTimed = false;
 }
 
 void Commands::pass(const char* name, const std::function<void()>& work) {
     const uint32_t query = 2 * uint32_t(mTimedPasses.size());
-    const bool timed = mTimedPasses.size() < kMaxTimedPasses && mDevice.timestampBits() > 0;
+    const bool timed = mIsRecordingTimed && mTimedPasses.size() < kMaxTimedPasses;
     mDevice.beginLabel(mCommands, name);
     if (timed) {
         mTimedPasses.emplace_back(name);
@@ -167,14 +170,15 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
     if (bindings.size() == 0) return;
 
     const VkDescriptorSet set = allocateSet(program.setLayout());
-    std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
-    std::vector<VkDescriptorImageInfo> images(bindings.size());
-    std::vector<VkBufferView> views(bindings.size());
-    std::vector<VkWriteDescriptorSet> writes;
+    RELUME_CHECK_LE(bindings.size(), kMostBindings);
+    std::array<VkDescriptorBufferInfo, kMostBindings> buffers;
+    std::array<VkDescriptorImageInfo, kMostBindings> images;
+    std::array<VkBufferView, kMostBindings> views;
+    std::array<VkWriteDescriptorSet, kMostBindings> writes;
+    size_t i = 0;
     auto expected = program.bindings().begin();
     for (const Binding& binding : bindings) {
-        const size_t i = writes.size();
-        VkWriteDescriptorSet& write = writes.emplace_back();
+        VkWriteDescriptorSet& write = writes[i];
         write = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
         write.dstBinding = expected->first;
@@ -195,9 +199,9 @@ void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
             write.pImageInfo = &images[i];
         }
-        ++expected;
+        ++expected, ++i;
     }
-    vkUpdateDescriptorSets(mDevice.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(mDevice.handle(), uint32_t(i), writes.data(), 0, nullptr);
     vkCmdBindDescriptorSets(mCommands, point, program.layout(), 0, 1, &set, 0, nullptr);
 }
 

@@ -65,15 +65,19 @@ class Commands {
     // nowhere. The capture must outlive its use here.
     void setCapture(TimingCapture* capture) { mCapture = capture; }
 
+    // Turns timestamps of the passes of later recordings on or off; they are on at first. A timed pass waits
+    // for all work before it, so leave them off where nobody reads times().
+    void setTimed(bool isTimed) { mIsTimed = isTimed; }
+
     // Starts a new recording; discards the one before.
     void begin();
     // Starts recording into a command buffer of the host program, which is in the recording state and outside
     // of rendering; the host submits it. The device must have finished what these Commands recorded before,
-    // so a host needs one Commands per frame in flight.
+    // so a host needs one Commands per frame in flight. Its passes are not timed.
     void begin(VkCommandBuffer hosts);
 
-    // Records `work` under a debug label. The first 512 passes of a submission are also timed, by two
-    // timestamps each, if the device has timestamps.
+    // Records `work` under a debug label. Where passes are timed and the device has timestamps, the first 512
+    // passes of a submission are between two timestamps each.
     void pass(const char* name, const std::function<void()>& work);
 
     // Runs a compute program over at least `items` invocations, rounded up to its group size.
@@ -147,6 +151,7 @@ class Commands {
     VkCommandBuffer mCommands = VK_NULL_HANDLE; // the own one, or a host's
     VkFence mFence = VK_NULL_HANDLE;
     VkQueryPool mQueries = VK_NULL_HANDLE;
+    bool mIsTimed = true, mIsRecordingTimed = false; // as asked for; this recording
     std::vector<VkDescriptorPool> mDescriptorPools;
     size_t mActivePool = 0;
     std::vector<VkBufferView> mTexelViews; // made for this recording

@@ -145,17 +145,20 @@ Device::Device(const HostDevice& host) : mIsHosts(true), mInstance(host.instance
         mProperties.limits.maxDrawIndexedIndexValue = (1u << 24) - 1;
     mQueue = host.queue;
     loadDebugUtils();
+    mMemoryPool = std::make_unique<MemoryPool>(mDevice);
     mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, std::filesystem::path());
 }
 
 void Device::destroy() {
     if (mIsHosts) {
         mPipelineCache.reset();
+        mMemoryPool.reset();
         return;
     }
     if (mDevice) {
         vkDeviceWaitIdle(mDevice);
         mPipelineCache.reset();
+        mMemoryPool.reset();
         vkDestroyDevice(mDevice, nullptr);
     }
     if (mMessenger) {
@@ -288,6 +291,7 @@ void Device::createDevice(bool showsImages) {
     create.enabledExtensionCount = uint32_t(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     RELUME_VK(vkCreateDevice(mPhysical, &create, nullptr, &mDevice));
+    mMemoryPool = std::make_unique<MemoryPool>(mDevice);
     vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
     setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(mQueue), "queue");
     if (hasClocks)

@@ -1,6 +1,8 @@
 // A Vulkan 1.3 device with one queue for everything.
 #pragma once
 
+#include "engine/vk/memory.h"
+
 #include <atomic>
 #include <filesystem>
 #include <map>
@@ -126,6 +128,8 @@ class Device {
     // Returns the function that reads the device's clock and CLOCK_MONOTONIC together; null if unsupported.
     PFN_vkGetCalibratedTimestampsEXT readClocks() const { return mReadClocks; }
 
+    MemoryPool& memory() const { return *mMemoryPool; }
+
     // Returns the index of a memory type among `typeBits` that has `properties`, and `preferred` too if
     // possible. Throws Error if there is none.
     uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
@@ -176,6 +180,7 @@ class Device {
     VkPhysicalDeviceProperties mProperties{};
     VkPhysicalDeviceMemoryProperties mMemory{};
     DeviceInfo mInfo{};
+    std::unique_ptr<MemoryPool> mMemoryPool;
     std::unique_ptr<PipelineCache> mPipelineCache;
     mutable std::mutex mShaderMutex;
     std::map<const uint32_t*, std::vector<uint32_t>> mReplacedShaders; // by the built-in array

@@ -18,7 +18,6 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
     create.samples = VkSampleCountFlagBits(options.samples);
     create.tiling = VK_IMAGE_TILING_OPTIMAL;
     create.usage = options.usage;
-    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     try {
         const uint32_t side = device.limits().maxImageDimension2D;
         if (options.width > side || options.height > side ||
@@ -34,11 +33,10 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
                 fmt::format("{}: {} x {} x {} texels take {} bytes, {} allows {} at once; ask for fewer",
                             name, options.width, options.height, options.layers, requirements.size,
                             device.name(), device.info().largestAllocation));
-        allocate.allocationSize = requirements.size;
-        allocate.memoryTypeIndex =
-            device.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        RELUME_VK(vkAllocateMemory(device.handle(), &allocate, nullptr, &mMemory));
-        RELUME_VK(vkBindImageMemory(device.handle(), mImage, mMemory, 0));
+        mMemory = device.memory().allocate(
+            requirements, device.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT),
+            MemoryKind::Image);
+        RELUME_VK(vkBindImageMemory(device.handle(), mImage, mMemory.memory(), mMemory.offset()));
         createView();
     } catch (...) {
         destroy();
@@ -46,7 +44,6 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
     }
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(mImage), name);
     device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(mView), name);
-    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(mMemory), name);
 }
 
 Image::Image(const Device& device, VkImage image, const ImageOptions& options, std::string_view name)
@@ -83,7 +80,7 @@ void Image::destroy() {
     if (!mDevice) return;
     vkDestroyImageView(mDevice->handle(), mView, nullptr);
     if (mMemory) vkDestroyImage(mDevice->handle(), mImage, nullptr);
-    vkFreeMemory(mDevice->handle(), mMemory, nullptr);
+    mMemory = {};
     mDevice = nullptr;
 }
 

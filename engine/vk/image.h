@@ -43,7 +43,7 @@ class Image {
     const Device* mDevice = nullptr;
     ImageOptions mOptions;
     VkImage mImage = VK_NULL_HANDLE;
-    VkDeviceMemory mMemory = VK_NULL_HANDLE; // null: the image is owned elsewhere
+    MemoryPool::Range mMemory; // none: the image is owned elsewhere
     VkImageView mView = VK_NULL_HANDLE;
 };
 

@@ -10,7 +10,6 @@
 #include "precompute/bake/preview.h"
 #include "precompute/bake/shard_file.h"
 #include "precompute/bake/storing_sink.h"
-#include "precompute/visibility/faster_visibility.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -24,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 BakeTimes timesOf(const BakePlan& plan) {
     BakeTimes times;
-    times.factorisation = plan.factorisationSeconds;
+    times.factorization = plan.factorizationSeconds;
     times.occluder = plan.occluderSeconds;
     return times;
 }
@@ -53,21 +52,6 @@ void dropUnfit(std::unique_ptr<KeptVisibility>& kept, const BakePlan& plan) {
         log(LogLevel::Warning, fmt::format("{}; visibility is found anew", damage.what()));
         kept.reset();
     }
-}
-
-// Sets the method with which the checkpoint was begun, else that of kept visibility, else the faster one.
-void chooseVisibility(const vk::Device& device, const Checkpoint& checkpoint, const KeptVisibility* kept,
-                      BakePlan& plan) {
-    constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Traced, VisibilityMethod::Raster};
-    for (const VisibilityMethod method : kMethods) {
-        setVisibility(plan, method);
-        if (checkpoint.matches(plan)) return;
-    }
-    for (const VisibilityMethod method : kMethods) {
-        setVisibility(plan, method);
-        if (kept && kept->key() == plan.visibilityKey) return;
-    }
-    setVisibility(plan, fasterVisibility(device, plan.asset));
 }
 
 // Bakes all blocks of a plan, or those of a shard, and writes the file.
@@ -164,7 +148,6 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     BakeOptions inMemory = options;
     inMemory.keepVisibility = false;
     BakePlan plan = planBake(device, std::move(scene), inMemory, observer);
-    if (!options.visibilityMethod) setVisibility(plan, fasterVisibility(device, plan.asset));
     BakeTimes times = timesOf(plan);
     std::vector<uint32_t> all(plan.blocks.size());
     std::iota(all.begin(), all.end(), 0u);
@@ -213,7 +196,6 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     BakePlan plan = planBake(device, std::move(scene), options, observer);
     std::unique_ptr<KeptVisibility> kept =
         findKept(outputOptions.visibility.empty() ? output : outputOptions.visibility);
-    if (!options.visibilityMethod) chooseVisibility(device, checkpoint, kept.get(), plan);
     dropUnfit(kept, plan);
     BakeSummary summary =
         bakePlanned(device, plan, kept.get(), outputOptions, checkpoint, output, limits, observer);

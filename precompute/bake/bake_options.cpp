@@ -30,7 +30,7 @@ int BakeOptions::mostTransportSamples() const {
 }
 
 void BakeOptions::validate() const {
-    expectRange("--terms", factorization.terms, 1, kMaxTerms);
+    expectRange("--terms", factorization.terms, 1, kMostTerms);
     if (factorization.method == Factorization::Normalized && factorization.terms != 1)
         throw UsageError(
             fmt::format("--terms: factorization \"normalized\" has one term, not {}", factorization.terms));

@@ -26,8 +26,7 @@ struct BakeOptions {
     DiskMapping mapping = DiskMapping::EqualArea;
     int faceSize = 64;        // F: 32 or 64
     int visibilitySize = 256; // 64, 128 or 256
-    // None: whichever fasterVisibility() measures to be faster on the device.
-    std::optional<VisibilityMethod> visibilityMethod = VisibilityMethod::Traced;
+    VisibilityMethod visibilityMethod = VisibilityMethod::Traced;
     int transportSamples = 1; // light-map evaluations per lighting texel: 1, 4 or 16
     // Reflections between surfaces before the last one towards the eye, 0 (direct light only) to
     // kMostBounces.

@@ -178,7 +178,7 @@ std::string identityOf(const BakePlan& plan) {
     return hash.text();
 }
 
-// Sets sizes and provenance, except for the inputs and what setVisibility() sets.
+// Sets sizes and provenance, except for the inputs and what finish() sets.
 void describeTo(const vk::Device& device, const BakeOptions& options, Asset& asset) {
     asset.faceSize = options.faceSize;
     asset.visibilitySize = options.visibilitySize;
@@ -206,11 +206,13 @@ void leaveOutBounces(BakePlan& plan) {
 }
 
 void finish(BakePlan& plan) {
-    if (!plan.options.layout.error) plan.options.layout.error = standardError(plan.asset);
+    if (!plan.options.layout.error) plan.options.layout.error = defaultLayoutError(plan.asset);
     prepareTransport(plan);
     checkSkeleton(plan.asset, "the bake");
     cutBlocks(plan);
-    setVisibility(plan, plan.options.visibilityMethod.value_or(VisibilityMethod::Traced));
+    plan.asset.provenance.options = describeOptions(plan.options);
+    plan.visibilityKey = visibilityKey(plan.asset, plan.options.visibilityMethod);
+    plan.identity = identityOf(plan);
 }
 
 } // namespace
@@ -240,20 +242,12 @@ void prepareTransport(BakePlan& plan) {
         }
 }
 
-void setVisibility(BakePlan& plan, VisibilityMethod method) {
-    plan.options.visibilityMethod = method;
-    plan.asset.provenance.options = describeOptions(plan.options);
-    plan.visibilityKey = visibilityKey(plan.asset, method);
-    plan.identity = identityOf(plan);
-}
-
 BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer) {
-    sumAlikeEverywhere();
+    makeSumsDeterministic();
     options.validate();
     RELUME_CHECK(!scene.parts.empty());
     BakePlan plan{options};
-    if (options.visibilityMethod)
-        plan.options.visibilityMethod = usableMethod(device, *options.visibilityMethod);
+    plan.options.visibilityMethod = usableMethod(device, options.visibilityMethod);
     for (Part& part : scene.parts) orderVertices(part.mesh);
 
     Asset& asset = plan.asset;
@@ -273,9 +267,9 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
         plan.options.refinement.reset(); // nothing is coarse
 
     stage = Clock::now();
-    observer.stage(BakeStage::Factorisation, "");
+    observer.stage(BakeStage::Factorization, "");
     makeParts(std::move(scene.parts), plan, observer);
-    plan.factorisationSeconds = secondsSince(stage);
+    plan.factorizationSeconds = secondsSince(stage);
     if (plan.options.areBouncesAuto && sharesTerms(asset)) leaveOutBounces(plan);
 
     if (plan.options.refinement) refineMeshes(goal, plan, observer);
@@ -285,7 +279,7 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
 
 BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<std::string>& materials,
                     const BakeOptions& options, BakeObserver& observer) {
-    sumAlikeEverywhere();
+    makeSumsDeterministic();
     options.validate();
     RELUME_CHECK_EQ(materials.size(), skeleton.parts.size());
     const BakeOptions own = optionsOf(skeleton);
@@ -298,7 +292,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     const bool didShareTerms = sharesTerms(plan.asset); // any bounces were then asked for explicitly
 
     const Clock::time_point stage = Clock::now();
-    observer.stage(BakeStage::Factorisation, "");
+    observer.stage(BakeStage::Factorization, "");
     MaterialFactory factory(options.factorization, options.mapSize, options.mapping);
     BrushedParts brushed;
     for (size_t number = 0; number < plan.asset.parts.size(); number++) {
@@ -310,7 +304,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
         if (part.mesh.tangents.empty() || !brushed.has(part)) setTangents(part, 0, brushed, observer);
     }
     makeResiduals(plan.asset);
-    plan.factorisationSeconds = secondsSince(stage);
+    plan.factorizationSeconds = secondsSince(stage);
     if (options.areBouncesAuto && !didShareTerms && sharesTerms(plan.asset)) leaveOutBounces(plan);
     finish(plan);
     return plan;

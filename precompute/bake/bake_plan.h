@@ -34,7 +34,7 @@ struct BakePlan {
     // Hash of everything that determines the file's bytes: program and kernels, device and driver, options,
     // and the asset. Blocks baked from plans of equal identity can be combined.
     std::string identity;
-    double factorisationSeconds = 0, occluderSeconds = 0;
+    double factorizationSeconds = 0, occluderSeconds = 0;
 
     uint64_t vertices() const;
 };
@@ -58,8 +58,5 @@ BakePlan planOf(Asset asset, const std::string& visibilityKey = {});
 
 // Replaces the transport of every set by an empty one in the layout of the plan's options.
 void prepareTransport(BakePlan& plan);
-
-// Sets the visibility method and updates what depends on it: recorded options, visibility key and identity.
-void setVisibility(BakePlan& plan, VisibilityMethod method);
 
 } // namespace relume

@@ -125,7 +125,7 @@ std::string describeOptions(const BakeOptions& options) {
         {"visibility_size", options.visibilitySize},
         {"transport_samples", options.transportSamples},
         {"occluder_triangles", options.occluderTriangles},
-        {"visibility", visibilityMethodName(*options.visibilityMethod)},
+        {"visibility", visibilityMethodName(options.visibilityMethod)},
         {"vertex_order", kVertexOrder}};
     if (const auto& refinement = options.refinement) {
         description["refinement"] = {{"wanted_error", refinement->wanted},

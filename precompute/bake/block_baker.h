@@ -14,7 +14,7 @@ namespace relume {
 // The times of a bake, in seconds.
 struct BakeTimes {
     double total = 0; // wall clock
-    double factorisation = 0;
+    double factorization = 0;
     double occluder = 0;  // merging and simplifying the occluder
     double bounces = 0;   // gathering bounced light on the host
     double previews = 0;  // making and writing previews

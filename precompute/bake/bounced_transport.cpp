@@ -212,7 +212,7 @@ std::shared_ptr<const BouncedTransport> bouncedTransportOf(const vk::Device& dev
                                                            std::vector<SparseTransport>* lastSources) {
     BakePlan plan = planOf(asset);
     plan.options = optionsOf(asset);
-    plan.options.visibilityMethod = usableMethod(device, *plan.options.visibilityMethod);
+    plan.options.visibilityMethod = usableMethod(device, plan.options.visibilityMethod);
     BakeTimes times;
     return bounceTransport(device, plan, {}, observer, times, lastSources);
 }

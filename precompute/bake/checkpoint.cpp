@@ -225,12 +225,12 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
 bool Checkpoint::readScale(const BakePlan& plan, std::span<const std::byte> body) {
     ByteReader in(body, "");
     LayoutScale scale;
-    scale.price = std::bit_cast<double>(in.get<uint64_t>());
+    scale.lambda = std::bit_cast<double>(in.get<uint64_t>());
     for (size_t set = 0; set < setsOf(plan); set++)
-        scale.units.push_back(std::bit_cast<float>(in.get<uint32_t>()));
-    const auto isPositive = [](float unit) { return std::isfinite(unit) && unit > 0; };
-    if (mScale || !std::isfinite(scale.price) || scale.price < 0 ||
-        !std::ranges::all_of(scale.units, isPositive))
+        scale.norms.push_back(std::bit_cast<float>(in.get<uint32_t>()));
+    const auto isPositive = [](float norm) { return std::isfinite(norm) && norm > 0; };
+    if (mScale || !std::isfinite(scale.lambda) || scale.lambda < 0 ||
+        !std::ranges::all_of(scale.norms, isPositive))
         return false;
     mScale = std::move(scale);
     return true;
@@ -239,8 +239,8 @@ bool Checkpoint::readScale(const BakePlan& plan, std::span<const std::byte> body
 void Checkpoint::append(const LayoutScale& scale) {
     RELUME_CHECK(!mScale);
     ByteWriter body;
-    body.put(std::bit_cast<uint64_t>(scale.price));
-    for (const float unit : scale.units) body.put(std::bit_cast<uint32_t>(unit));
+    body.put(std::bit_cast<uint64_t>(scale.lambda));
+    for (const float norm : scale.norms) body.put(std::bit_cast<uint32_t>(norm));
     writeRecord(kScale, 0, body.bytes());
     mScale = scale;
 }

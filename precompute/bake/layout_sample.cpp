@@ -5,7 +5,7 @@
 #include "precompute/bake/vertex_rows.h"
 #include "precompute/transport/layout_work.h"
 #include "precompute/transport/light_spectrum.h"
-#include "precompute/transport/unit_sum.h"
+#include "precompute/transport/norm_sum.h"
 
 #include <algorithm>
 
@@ -19,8 +19,8 @@ constexpr uint64_t kSampleVertices = 8192, kSampleShare = 4, kLeastOfPart = 1024
 constexpr uint64_t kMostSampled = 32768, kSampleBytes = uint64_t(256) << 20;
 // Vertices of a part from which its sets' normalization is computed: a share, within bounds; the lower bound
 // decreases with many parts.
-constexpr uint64_t kUnitShare = 64, kLeastForUnit = 512, kMostForUnit = 4096;
-constexpr uint64_t kLeastForUnits = 16384, kLeastOfManyForUnit = 64; // of all parts, of each
+constexpr uint64_t kNormShare = 64, kLeastForNorm = 512, kMostForNorm = 4096;
+constexpr uint64_t kLeastForNorms = 16384, kLeastOfManyForNorm = 64; // of all parts, of each
 
 // Returns the middle of one of `count` stretches into which `all` is divided.
 uint64_t middleOf(uint64_t stretch, uint64_t count, uint64_t all) {
@@ -63,20 +63,20 @@ std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeL
                            BakeObserver& observer, BakeTimes& times) {
     std::vector<std::vector<uint32_t>> chosen;
     const uint64_t least =
-        std::clamp(kLeastForUnits / plan.asset.parts.size(), kLeastOfManyForUnit, kLeastForUnit);
+        std::clamp(kLeastForNorms / plan.asset.parts.size(), kLeastOfManyForNorm, kLeastForNorm);
     for (const AssetPart& part : plan.asset.parts) {
         const uint64_t all = part.mesh.vertexCount();
-        const uint64_t count = std::min(all, std::clamp(all / kUnitShare, least, kMostForUnit));
+        const uint64_t count = std::min(all, std::clamp(all / kNormShare, least, kMostForNorm));
         std::vector<uint32_t>& own = chosen.emplace_back();
         for (uint64_t i = 0; i < count; i++) own.push_back(uint32_t(middleOf(i, count, all)));
     }
     const std::vector<float> spectrum = lightSpectrum(plan.asset.faceSize);
-    std::vector<float> units;
-    std::vector<UnitSum> sums; // of the sets of one part at a time, so that rows need not be held
+    std::vector<float> norms;
+    std::vector<NormSum> sums; // of the sets of one part at a time, so that rows need not be held
     uint32_t summed = 0;       // that part
     size_t taken = 0;          // of the vertices of that part
     const auto endPart = [&] {
-        for (const UnitSum& sum : sums) units.push_back(sum.unit());
+        for (const NormSum& sum : sums) norms.push_back(sum.norm());
         sums.clear();
         taken = 0;
     };
@@ -93,16 +93,16 @@ std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeL
     };
     bakeVertices(device, plan, chosen, limits, take, observer, times);
     endPart();
-    return units;
+    return norms;
 }
 
 LayoutScale scaleOf(const BakePlan& plan, std::span<const SampledBlock> blocks,
-                    const std::vector<float>& units) {
+                    const std::vector<float>& norms) {
     std::vector<SetSample> samples; // over all parts
     for (const AssetPart& part : plan.asset.parts)
         for (const MaterialSet& set : part.sets)
             samples.push_back(
-                {&set, {}, uint32_t(part.mesh.vertexCount()), units[samples.size()], plan.asset.bounces > 0});
+                {&set, {}, uint32_t(part.mesh.vertexCount()), norms[samples.size()], plan.asset.bounces > 0});
     for (const SampledBlock& sampled : blocks) {
         const uint32_t firstSet = plan.firstSet[plan.blocks[sampled.block].part];
         for (size_t set = 0; set < sampled.baked.sets.size(); set++)

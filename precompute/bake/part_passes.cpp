@@ -53,7 +53,7 @@ void PartPasses::create() {
     mFoundBits = {};
     const uint64_t bitBytes = mBatch * visibilityBytes(size);
     if (mSource == VisibilitySource::Found)
-        mVisibility = makeVisibility(mDevice, *mOptions.visibilityMethod, mAsset.occluder, size, mBatch,
+        mVisibility = makeVisibility(mDevice, mOptions.visibilityMethod, mAsset.occluder, size, mBatch,
                                      visibilityNearDistance(mAsset.visibilityOffset));
     else
         mGivenBits = {mDevice, bitBytes, vk::BufferUse::Upload, "given visibility bits"};

@@ -68,8 +68,8 @@ StoredBlock storeBlock(const BakePlan& plan, uint32_t block, BakedBlock baked) {
         const BlockCoding coding{place.first,
                                  chunk.run,
                                  plan.asset.faceSize,
-                                 plan.scale ? plan.scale->units[chunk.owner] : 1,
-                                 plan.scale ? plan.scale->price : 0,
+                                 plan.scale ? plan.scale->norms[chunk.owner] : 1,
+                                 plan.scale ? plan.scale->lambda : 0,
                                  where};
         const EncodedBlock encoded =
             std::visit([&](const auto& layout) { return encodeBlock(layout, transport, coding); },

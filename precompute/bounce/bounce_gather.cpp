@@ -83,7 +83,7 @@ std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance&
 struct BounceGather::Hit {
     size_t part;
     uint32_t vertex;
-    std::array<vec3, kMaxTerms> views;
+    std::array<vec3, kMostTerms> views;
 };
 
 // What a thread needs, for one vertex after another.

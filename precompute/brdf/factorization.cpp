@@ -267,8 +267,8 @@ TexelValue texelValueOf(Factorization method) {
 }
 
 FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {
-    if (options.terms < 1 || options.terms > kMaxTerms)
-        throw UsageError(fmt::format("{} BRDF terms: choose from 1 to {}", options.terms, kMaxTerms));
+    if (options.terms < 1 || options.terms > kMostTerms)
+        throw UsageError(fmt::format("{} BRDF terms: choose from 1 to {}", options.terms, kMostTerms));
     if (options.wantedError && options.method == Factorization::NonNegative)
         throw UsageError(
             "terms chosen by error need terms that are good one by one, which those of factorization "

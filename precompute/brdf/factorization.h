@@ -40,7 +40,7 @@ bool isPublished(Factorization method);
 TexelValue texelValueOf(Factorization method);
 
 struct FactorizationOptions {
-    int terms = 4; // K, 1 to kMaxTerms; 1 for Normalized
+    int terms = 4; // K, 1 to kMostTerms; 1 for Normalized
     Factorization method = Factorization::Environment;
     // If set, uses the least number of terms, up to `terms`, with which expectedErrors() of every layer are
     // at most this; if there is none, all `terms`, and the log says so. Not for NonNegative, whose terms are

@@ -141,7 +141,7 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
                       const StudiedLight& light, double secondsBefore, BakeObserver& observer,
                       const Report& report) {
     BakeOptions options = request.options;
-    options.factorization.terms = kMaxTerms;
+    options.factorization.terms = kMostTerms;
     options.bounces = 0; // errors are those of direct light
     const BakePlan plan = planBake(device, scene, options, observer);
     const Appearance appearance = defaultAppearance(plan.asset);

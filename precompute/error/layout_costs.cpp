@@ -83,7 +83,7 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
                         BakeObserver& observer, const std::function<void(double)>& progress) {
     RELUME_CHECK(plan.options.layout.layout == TransportLayout::Bases);
     LayoutCosts costs;
-    costs.bakeSeconds = plan.factorisationSeconds + plan.occluderSeconds;
+    costs.bakeSeconds = plan.factorizationSeconds + plan.occluderSeconds;
     if (plan.options.bounces > 0) {
         const auto start = std::chrono::steady_clock::now();
         BakeTimes times;

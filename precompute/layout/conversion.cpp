@@ -4,7 +4,7 @@
 #include "precompute/layout/layout_scale.h"
 #include "precompute/layout/layouts.h"
 #include "precompute/transport/light_spectrum.h"
-#include "precompute/transport/unit_sum.h"
+#include "precompute/transport/norm_sum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ double compress(const Asset& asset, const std::vector<MaterialSet*>& sets, const
     RowSource source{sets, lightSpectrum(asset.faceSize), {}, asset.bounces > 0};
     uint64_t vertices = 0;
     for (const MaterialSet* set : sets) {
-        source.units.push_back(transportUnit(rowsOf(set->transport), source.spectrum));
+        source.norms.push_back(transportNorm(rowsOf(set->transport), source.spectrum));
         vertices += rowsOf(set->transport).vertices;
     }
     LayoutTarget target{{}, *options.error * *options.error * double(vertices)};
@@ -54,9 +54,9 @@ uint64_t verticesOf(const Asset& asset) {
 
 Conversion convertLayout(Asset& asset, const LayoutOptions& given, const ConversionReport& progress,
                          std::optional<int> coefficients) {
-    sumAlikeEverywhere();
+    makeSumsDeterministic();
     LayoutOptions options = given;
-    if (!options.error) options.error = standardError(asset);
+    if (!options.error) options.error = defaultLayoutError(asset);
     const std::vector<MaterialSet*> sets = setsOf(asset);
     const bool areRows = std::ranges::all_of(
         sets, [](const MaterialSet* set) { return layoutOf(set->transport) == TransportLayout::Rows; });

@@ -22,7 +22,7 @@ struct LayoutOptions {
     // Budget of bases: bytes of transport in memory per vertex of the asset. None: `error` decides.
     std::optional<double> bytesPerVertex;
     // Error that bases may have: RMS over transport, weighted by the mean spectrum of light, relative to each
-    // set's normalization (transportUnit() in unit_sum.h). None: standardError() of the asset.
+    // set's normalization (transportNorm() in norm_sum.h). None: defaultLayoutError() of the asset.
     std::optional<double> error;
 
     bool operator==(const LayoutOptions&) const = default;

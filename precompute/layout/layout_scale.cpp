@@ -7,7 +7,7 @@
 
 namespace relume {
 
-void sumAlikeEverywhere() {
+void makeSumsDeterministic() {
     constexpr std::ptrdiff_t kFirstCache = 32 << 10, kSecondCache = 256 << 10, kThirdCache = 2 << 20; // bytes
     static std::once_flag once;
     std::call_once(once, [] { Eigen::setCpuCacheSizes(kFirstCache, kSecondCache, kThirdCache); });
@@ -15,12 +15,12 @@ void sumAlikeEverywhere() {
 
 LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t vertices,
                       const LayoutOptions& options) {
-    sumAlikeEverywhere();
+    makeSumsDeterministic();
     LayoutScale scale;
     LayoutTarget target{{}, 0};
     double allRows = 0, toldRows = 0; // toldRows: of sets with samples
     for (const SetSample& sample : samples) {
-        scale.units.push_back(sample.unit);
+        scale.norms.push_back(sample.norm);
         const double rows = double(sample.vertices) * sample.set->brdf.terms;
         allRows += rows;
         if (sample.sampledVertices() == 0) continue;
@@ -29,12 +29,13 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
     }
     const double share = allRows > 0 ? toldRows / allRows : 1;
     if (options.bytesPerVertex) target.bytes = share * *options.bytesPerVertex * double(vertices);
-    scale.price = std::visit([&](const auto& layout) { return findPrice(layout, samples, faceSize, target); },
-                             emptyTransport(options.layout, 0, 0));
+    scale.lambda =
+        std::visit([&](const auto& layout) { return findLambda(layout, samples, faceSize, target); },
+                   emptyTransport(options.layout, 0, 0));
     return scale;
 }
 
-double standardError(const Asset& asset) {
+double defaultLayoutError(const Asset& asset) {
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             if (set.brdf.terms > 1) return kDefaultLayoutError;

@@ -15,8 +15,8 @@ namespace relume {
 constexpr uint32_t kLayoutEncoderVersion = 2;
 
 struct LayoutScale {
-    std::vector<float> units; // per set, over all parts: normalization by transportUnit()
-    double price = 0;         // Lagrange multiplier: error per byte (basis_analysis.h)
+    std::vector<float> norms; // per set, over all parts: normalization by transportNorm()
+    double lambda = 0;        // Lagrange multiplier: error per byte (basis_analysis.h)
 
     bool operator==(const LayoutScale&) const = default;
 };
@@ -31,10 +31,10 @@ LayoutScale findScale(std::span<const SetSample> samples, int faceSize, uint64_t
 
 // Makes Eigen's sums independent of the machine, whose cache sizes decide how it blocks products. Affects all
 // later products of the process; must not be called during one.
-void sumAlikeEverywhere();
+void makeSumsDeterministic();
 
 // Returns the default error of an asset in bases, for options that name none.
-double standardError(const Asset& asset);
+double defaultLayoutError(const Asset& asset);
 
 // Returns the record of a layout that an asset keeps.
 LayoutRecord recordOf(const LayoutOptions& options, double error);

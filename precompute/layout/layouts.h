@@ -3,7 +3,7 @@
 // - prepareLayout: sets what follows from a set's BRDF, and from whether light bounces, before anything is
 //   baked;
 // - encodeBlock: encodes the rows of a block as its chunk;
-// - findPrice: returns the Lagrange multiplier for encoding blocks, found from a sample of all rows
+// - findLambda: returns the Lagrange multiplier for encoding blocks, found from a sample of all rows
 //   (layout_scale.h);
 // - convertRows: converts the rows of all sets, in kConversionPasses passes; returns the squared error
 //   relative to the sets' normalization.

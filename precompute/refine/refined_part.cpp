@@ -15,13 +15,13 @@ namespace {
 constexpr uint32_t kUnknown = std::numeric_limits<uint32_t>::max();
 constexpr size_t kProbesAtOnce = 512;
 
-double squaredLength(const ProbeAnswers& answers) {
+double squaredLength(const ProbeResponses& responses) {
     double sum = 0;
-    for (const float answer : answers) sum += double(answer) * double(answer);
+    for (const float response : responses) sum += double(response) * double(response);
     return sum;
 }
 
-double squaredError(const ProbeAnswers& first, const ProbeAnswers& second, const ProbeAnswers& middle) {
+double squaredError(const ProbeResponses& first, const ProbeResponses& second, const ProbeResponses& middle) {
     double sum = 0;
     for (size_t i = 0; i < middle.size(); i++) {
         const double error = 0.5 * (double(first[i]) + double(second[i])) - double(middle[i]);
@@ -54,7 +54,7 @@ void RefinedPart::probe(const std::function<void(size_t, size_t)>& report) {
         mOfVertices.resize(mesh.vertexCount());
         std::iota(mOfVertices.begin(), mOfVertices.end(), 0u);
     }
-    auto number = uint32_t(mAnswers.size() + points.size());
+    auto number = uint32_t(mResponses.size() + points.size());
     std::vector<ProbedEdge*> fresh;
     for (ProbedEdge& edge : mEdges) {
         if (edge.middle != kUnknown) continue;
@@ -64,10 +64,10 @@ void RefinedPart::probe(const std::function<void(size_t, size_t)>& report) {
     }
     probe(points, report);
     for (ProbedEdge* edge : fresh) {
-        const ProbeAnswers& middle = mAnswers[edge->middle];
-        edge->squaredAnswer = squaredLength(middle);
-        edge->squaredError = squaredError(mAnswers[mOfVertices[edge->edge.first]],
-                                          mAnswers[mOfVertices[edge->edge.second]], middle);
+        const ProbeResponses& middle = mResponses[edge->middle];
+        edge->squaredResponse = squaredLength(middle);
+        edge->squaredError = squaredError(mResponses[mOfVertices[edge->edge.first]],
+                                          mResponses[mOfVertices[edge->edge.second]], middle);
     }
 }
 
@@ -75,13 +75,13 @@ void RefinedPart::probe(std::span<const EdgeMiddle> points,
                         const std::function<void(size_t, size_t)>& report) {
     tbb::enumerable_thread_specific<TransportProbe::Workspace> workspaces(
         [this] { return mProbe.makeWorkspace(); });
-    const size_t start = mAnswers.size();
-    mAnswers.resize(start + points.size());
+    const size_t start = mResponses.size();
+    mResponses.resize(start + points.size());
     for (size_t first = 0; first < points.size(); first += kProbesAtOnce) {
         report(first, points.size());
         tbb::parallel_for(first, std::min(points.size(), first + kProbesAtOnce), [&](size_t i) {
             const vec3 lifted = points[i].position + mOffset * points[i].normal;
-            mAnswers[start + i] = mProbe.answers(lifted, points[i].frame(), workspaces.local());
+            mResponses[start + i] = mProbe.responses(lifted, points[i].frame(), workspaces.local());
         });
     }
     report(points.size(), points.size());

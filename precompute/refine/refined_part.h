@@ -13,7 +13,7 @@ struct ProbedEdge {
     Edge edge;
     double area = 0; // a third of the area of its triangles, which the midpoints of their edges represent
     double squaredError = 0; // of the mean of the ends' projections against the midpoint's
-    double squaredAnswer = 0;
+    double squaredResponse = 0;
     uint32_t middle; // index of its projection
 };
 
@@ -41,7 +41,7 @@ class RefinedPart {
     AssetPart& mPart;
     TransportProbe mProbe;
     float mOffset;
-    std::vector<ProbeAnswers> mAnswers;
+    std::vector<ProbeResponses> mResponses;
     std::vector<uint32_t> mOfVertices; // per vertex: index of its projection
     std::vector<ProbedEdge> mEdges;
 };

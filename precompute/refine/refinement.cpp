@@ -143,7 +143,7 @@ class Refiner {
         for (size_t part = 0; part < mParts.size(); part++)
             for (const ProbedEdge& edge : mParts[part].edges()) {
                 mError += edge.area * edge.squaredError;
-                mEnergy += edge.area * edge.squaredAnswer;
+                mEnergy += edge.area * edge.squaredResponse;
                 if (!isSplittable(part, edge.edge)) continue;
                 const Edge places = placesOf(part, edge.edge);
                 EdgeGain& gain = gains.try_emplace(places, EdgeGain{places}).first->second;

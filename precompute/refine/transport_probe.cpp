@@ -72,13 +72,13 @@ TransportProbe::Workspace TransportProbe::makeWorkspace() const {
     return workspace;
 }
 
-ProbeAnswers TransportProbe::answers(vec3 origin, const TangentFrame& frame, Workspace& workspace) const {
+ProbeResponses TransportProbe::responses(vec3 origin, const TangentFrame& frame, Workspace& workspace) const {
     constexpr size_t kBlock = CpuCoefficients::kBlock;
     mVisibility.trace(origin, frame.n, workspace.bits);
     CpuCoefficients& texels = workspace.texels;
     mTransport.evaluate(frame, workspace.bits, texels);
     const auto stride = size_t(texels.stride);
-    ProbeAnswers answers{};
+    ProbeResponses responses{};
     std::mt19937_64 random; // a sign for every term and channel of every light: they must not add up
     for (int group = 0; group < texels.groups; group++) {
         std::ranges::fill(workspace.sums, 0.0f);
@@ -96,10 +96,10 @@ ProbeAnswers TransportProbe::answers(vec3 origin, const TangentFrame& frame, Wor
             const uint64_t signs = random();
             const float* sums = &workspace.sums[lane * kProbeLights];
             for (size_t j = 0; j < kProbeLights; j++)
-                answers[j] += (signs >> j & 1) != 0 ? sums[j] : -sums[j];
+                responses[j] += (signs >> j & 1) != 0 ? sums[j] : -sums[j];
         }
     }
-    return answers;
+    return responses;
 }
 
 } // namespace relume

@@ -13,7 +13,7 @@ namespace relume {
 // them are a random projection of its weighted transport: the mean squared difference of two vertices'
 // responses is, within a fifth, the sum of the squared differences of all their weighted coefficients.
 constexpr int kProbeLights = 64;
-using ProbeAnswers = std::array<float, kProbeLights>;
+using ProbeResponses = std::array<float, kProbeLights>;
 
 // The lights, at the resolution of the probes: kProbeLights floats per texel, texels in Morton order.
 class ProbeLights {
@@ -47,7 +47,7 @@ class TransportProbe {
 
     // Returns the random projection of the transport at a point already lifted off the surface. Thread-safe
     // and deterministic.
-    ProbeAnswers answers(vec3 origin, const TangentFrame& frame, Workspace& workspace) const;
+    ProbeResponses responses(vec3 origin, const TangentFrame& frame, Workspace& workspace) const;
 
   private:
     const CpuVisibility& mVisibility;

@@ -18,7 +18,7 @@ struct SetSample {
     const MaterialSet* set;
     std::vector<const SparseTransport*> blocks; // rows of whole clusters, except that the last may be partial
     uint32_t vertices;                          // of the whole set
-    float unit;                                 // normalization: transportUnit() of the set
+    float norm;                                 // normalization: transportNorm() of the set
     bool isBounced = false;                     // whether the rows include light of other surfaces
 
     uint64_t sampledVertices() const {
@@ -38,8 +38,8 @@ struct LayoutTarget {
 struct BlockCoding {
     uint32_t first, run; // first vertex in the set, and run of the chunk
     int faceSize;
-    float unit; // transportUnit() of the set
-    double price;
+    float norm; // transportNorm() of the set
+    double lambda;
     std::string where; // names the block in errors
 };
 
@@ -53,7 +53,7 @@ struct EncodedBlock {
 struct RowSource {
     std::vector<MaterialSet*> sets;
     std::vector<float> spectrum; // lightSpectrum()
-    std::vector<float> units;    // per set: transportUnit()
+    std::vector<float> norms;    // per set: transportNorm()
     bool isBounced = false;
 };
 

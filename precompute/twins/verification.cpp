@@ -53,7 +53,7 @@ class DeviceStages {
         options.faceSize = asset.faceSize;
         options.visibilitySize = asset.visibilitySize;
         options.transportSamples = asset.transportSamples;
-        const VisibilityMethod method = usableMethod(device, *optionsOf(asset).visibilityMethod);
+        const VisibilityMethod method = usableMethod(device, optionsOf(asset).visibilityMethod);
         options.visibilityMethod = method;
         const uint32_t together = TransportPass::largestBatch(device, options) / mTerms;
         const uint32_t batch = std::max(1u, std::min(planBatch(device, options, mTerms), together));

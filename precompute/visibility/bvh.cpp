@@ -67,19 +67,19 @@ std::array<int, shared::kBvhWidth> assignSlots(const TreeNode& node) {
         float cost;
         unsigned child, slot;
     };
-    std::vector<Wish> wishes;
+    std::vector<Wish> requests;
     for (unsigned child = 0; child < node.childCount; child++) {
         const vec3 towards = 0.5f * (lowOf(node.bounds[child]) + highOf(node.bounds[child])) - all.center();
         for (unsigned slot = 0; slot < shared::kBvhWidth; slot++) {
             const vec3 octant = vec3(slot & 1, slot >> 1 & 1, slot >> 2 & 1) * 2.0f - 1.0f;
-            wishes.push_back({-glm::dot(towards, octant), child, slot});
+            requests.push_back({-glm::dot(towards, octant), child, slot});
         }
     }
-    std::ranges::stable_sort(wishes, {}, &Wish::cost);
+    std::ranges::stable_sort(requests, {}, &Wish::cost);
     std::array<int, shared::kBvhWidth> childOfSlot;
     childOfSlot.fill(-1);
     std::array<bool, shared::kBvhWidth> placed{};
-    for (const Wish& wish : wishes)
+    for (const Wish& wish : requests)
         if (!placed[wish.child] && childOfSlot[wish.slot] < 0) {
             childOfSlot[wish.slot] = int(wish.child);
             placed[wish.child] = true;

@@ -5,11 +5,11 @@
 #include "shaders/shared/render.h"
 
 layout(constant_id = 5) const uint kSamples = 4;
-layout(binding = 0) uniform usampler2DMSArray surfaces; // triangle ids; 0: none
+layout(binding = 0) uniform usampler2DMSArray triangleIds; // triangle ids; 0: none
 
 // Reads the triangle ids of this fragment's pixel.
 void readSamples(out uint seen[kSamples]) {
-    for (int i = 0; i < kSamples; i++) seen[i] = texelFetch(surfaces, ivec3(gl_FragCoord.xy, 0), i).x;
+    for (int i = 0; i < kSamples; i++) seen[i] = texelFetch(triangleIds, ivec3(gl_FragCoord.xy, 0), i).x;
 }
 
 // Returns the position of a sample, in pixels from the pixel's upper left corner.

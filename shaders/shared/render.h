@@ -149,11 +149,11 @@ const uint kUnshadowed = 8; // alone: shows the unshadowed radiance
 // The source of a part's paint.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
 
-struct ViewSurfacePush {
+struct ViewTriangleIdPush {
     mat4 clipFromWorld;
-    uint firstSurface; // triangle id of the part's first triangle
+    uint firstTriangleId; // triangle id of the part's first triangle
 };
-RELUME_SHARED_SIZE(ViewSurfacePush, 68)
+RELUME_SHARED_SIZE(ViewTriangleIdPush, 68)
 
 // Positions of a pixel's samples, Vulkan's standard ones, in sixteenths of the pixel: four bits per sample.
 const uint kSampleX2 = 0x4cu, kSampleY2 = 0x4cu;
@@ -170,7 +170,7 @@ RELUME_SHARED_SIZE(ViewRays, 64)
 
 struct ViewShadePush {
     ViewRays rays;
-    uint firstSurface, surfaces;
+    uint firstTriangleId, triangleCount;
     uint mapping;   // of the view maps: DiskMapping
     uint firstMap;  // kSingleLook: ViewLayer::firstMap of the layer
     float weight;   // kSingleLook: weight of the layer
@@ -188,7 +188,7 @@ RELUME_SHARED_SIZE(ViewShadePush, 128)
 
 struct ViewEdgesPush {
     ViewRays rays;
-    uint firstSurface, surfaces; // at least one
+    uint firstTriangleId, triangleCount; // at least one
 };
 RELUME_SHARED_SIZE(ViewEdgesPush, 72)
 
@@ -197,7 +197,7 @@ const uint kInspectWireframe = 1, kInspectNormals = 2, kInspectDensity = 3;
 
 struct ViewInspectPush {
     ViewRays rays;
-    uint firstSurface, surfaces;
+    uint firstTriangleId, triangleCount;
     uint mode;        // kInspectWireframe and so on
     float medianArea; // of the asset's triangles
 };

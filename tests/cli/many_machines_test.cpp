@@ -214,7 +214,6 @@ TEST_CASE("many machines: options that cannot be") {
     CHECK(says(usage(shardOf(4, 4)), "the first of 4 is 0/4, the last 3/4"));
     CHECK(says(usage(kBake + "--shard /4 -o part.relume"), "expected I/N"));
     CHECK(says(usage(kBake + "--shard '' -o part.relume"), "--shard: expected a value"));
-    CHECK(says(usage(shardOf(0, 2) + "--visibility auto"), "--visibility traced"));
     CHECK(says(usage("merge part.relume -o merged.png"), "expected a name ending in .relume"));
     folder.put("part.relume", "x");
     CHECK(says(usage("merge part.relume -o ./part.relume"), "would be written over"));

@@ -136,7 +136,7 @@ TEST_CASE("refine: its event") {
         CHECK(event["error"] <= 0.1);
         CHECK_EQ(event["start_vertices"], 292);
     }
-    const std::vector<std::string> expected = {"occluder", "factorisation", "refinement", "refined", "start"};
+    const std::vector<std::string> expected = {"occluder", "factorization", "refinement", "refined", "start"};
     REQUIRE(order.size() > expected.size());
     order.resize(expected.size());
     CHECK(order == expected);

@@ -1,6 +1,6 @@
 // What the viewer reads. The first byte of an input chooses: 0: the rest is a script; 1: settings, as an
 // object; 2: what it remembers from one time to the next.
-#include "apps/viewer/habits.h"
+#include "apps/viewer/preferences.h"
 #include "apps/viewer/script.h"
 #include "apps/viewer/settings.h"
 #include "engine/base/check.h"
@@ -74,9 +74,9 @@ void run(std::span<const std::byte> input) {
             setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
             std::filesystem::create_directories(folder.path() / "relume");
             write(folder.path() / "relume/viewer.json", text);
-            const Habits habits = readHabits();
+            const Preferences preferences = readPreferences();
             unsetenv("XDG_STATE_HOME");
-            applyAll(target, habits.settings);
+            applyAll(target, preferences.settings);
         }
     } catch (const Error&) {
     }

@@ -74,7 +74,7 @@ TEST_CASE("shader reload: interfaces are told as C++ and the other stage see the
     const auto lamps = vk::describeInterface(builtIn("light_lamps.comp"));
     CHECK_EQ(lamps.at("binding 2"), "storage buffer {float3[] @0}");
     CHECK_EQ(vk::describeInterface(builtIn("light_haar.comp")).at("constant 0"), "uint");
-    CHECK_EQ(vk::describeInterface(builtIn("view_surface.vert")).at("output 0"), "uint");
+    CHECK_EQ(vk::describeInterface(builtIn("view_triangle_id.vert")).at("output 0"), "uint");
     CHECK_THROWS_AS(vk::describeInterface(std::vector<uint32_t>{1, 2, 3}), Error);
     const auto vertex = builtIn("display.vert");
     CHECK_NE(complaint("display.frag", {vertex.begin(), vertex.end()}), "");
@@ -152,10 +152,10 @@ TEST_CASE("shader reload: errors are told with file and line, and change nothing
     const Sources sources;
     sources.edit("display.frag", kShowBackground, kShowInverse); // comes before what fails
     const size_t line =
-        sources.edit("view_surface.frag", "void main() {", "void main() {\n    seen = nothing;\n") + 1;
+        sources.edit("view_triangle_id.frag", "void main() {", "void main() {\n    seen = nothing;\n") + 1;
     const std::string failure = sources.failure(device);
-    CHECK(contains(failure,
-                   fmt::format("{}:{}: 'nothing'", (sources.folder() / "view_surface.frag").string(), line)));
+    CHECK(contains(failure, fmt::format("{}:{}: 'nothing'",
+                                        (sources.folder() / "view_triangle_id.frag").string(), line)));
     CHECK_FALSE(contains(failure, "ERROR"));
     CHECK(isUnchanged(device));
 
@@ -209,9 +209,9 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
     CHECK(contains(edited("light_sky.comp", "local_size_x", "local_size_y"), "group size"));
     CHECK(contains(edited("light_haar.comp", "layout(constant_id = 0) const uint", "const uint"),
                    "constant 0"));
-    CHECK(contains(
-        edited("view_surface.frag", "in uint surface;", "in float surface;\n#define surface uint(surface)"),
-        "input 0"));
+    CHECK(contains(edited("view_triangle_id.frag", "in uint surface;",
+                          "in float surface;\n#define surface uint(surface)"),
+                   "input 0"));
     CHECK_EQ(edited("display.frag", kShowBackground, kShowInverse), "");
 }
 

@@ -5,7 +5,7 @@
 #include "precompute/layout/layout_scale.h"
 #include "precompute/transport/layout_work.h"
 #include "precompute/transport/light_spectrum.h"
-#include "precompute/transport/unit_sum.h"
+#include "precompute/transport/norm_sum.h"
 #include "tests/support/asset_sample.h"
 
 #include <Eigen/SVD>
@@ -98,7 +98,7 @@ double errorOf(const Transport& kept, const Transport& rows) {
             lost += double(glm::dot(away, away));
         }
     }
-    return std::sqrt(lost / verticesOf(rows)) / double(transportUnit(rowsOf(rows), spectrum));
+    return std::sqrt(lost / verticesOf(rows)) / double(transportNorm(rowsOf(rows), spectrum));
 }
 
 double bytesPerVertex(const Asset& asset) {
@@ -150,7 +150,7 @@ TEST_CASE("layout: errors are relative to what tells a set's vertices apart") {
         .vertices = 2, .terms = 1, .rowStarts = {0, 1, 2}, .scales = {3, 3}, .indices = {0, 0}, .values = {}};
     const auto unitOf = [&](ivec3 first, ivec3 second) {
         rows.values = {packCoefficient(first), packCoefficient(second)};
-        return transportUnit(rows, spectrum);
+        return transportNorm(rows, spectrum);
     };
     CHECK(unitOf({1023, 0, 0}, {-1023, 0, 0}) == doctest::Approx(3));  // no mean
     CHECK(unitOf({1023, 0, 0}, {0, 0, 0}) == doctest::Approx(1.5));    // half of it is mean
@@ -161,7 +161,7 @@ TEST_CASE("layout: errors are relative to what tells a set's vertices apart") {
 TEST_CASE("layout: a unit is the same of vertices that come a few at a time") {
     const std::vector<float> spectrum = lightSpectrum(kFace);
     const SparseTransport rows = smoothRows(2, 2, 4);
-    UnitSum sum(2, spectrum);
+    NormSum sum(2, spectrum);
     for (uint64_t vertex = 0; vertex < 2; vertex++) {
         const uint64_t row = 2 * vertex, first = rows.rowStarts[row], end = rows.rowStarts[row + 2];
         SparseTransport one{
@@ -170,31 +170,31 @@ TEST_CASE("layout: a unit is the same of vertices that come a few at a time") {
         one.scales = {rows.scales[row], rows.scales[row + 1]};
         one.indices.assign(rows.indices.begin() + ptrdiff_t(first), rows.indices.begin() + ptrdiff_t(end));
         one.values.assign(rows.values.begin() + ptrdiff_t(first), rows.values.begin() + ptrdiff_t(end));
-        CHECK(sum.unit() != transportUnit(rows, spectrum));
+        CHECK(sum.norm() != transportNorm(rows, spectrum));
         sum.add(one);
     }
-    CHECK(sum.unit() == transportUnit(rows, spectrum));
+    CHECK(sum.norm() == transportNorm(rows, spectrum));
 }
 
 TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
     const SparseTransport rows = smoothRows(256, 2, 3);
     const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
     const std::vector<float> spectrum = lightSpectrum(kFace);
-    const ClusterMatrix matrix = clusterMatrix(rows, 0, 256, kinds, spectrum, transportUnit(rows, spectrum));
+    const ClusterMatrix matrix = clusterMatrix(rows, 0, 256, kinds, spectrum, transportNorm(rows, spectrum));
     CHECK(matrix.energy.sum() >= 256); // what varies, and the mean
     CHECK(matrix.values.squaredNorm() == doctest::Approx(matrix.energy.sum()));
     const BasisAnalysis analysis = analyze(matrix);
     const Eigen::VectorXf sigma = Eigen::BDCSVD<Eigen::MatrixXf>(matrix.values).singularValues();
-    for (const double price : {1e-3, 1e-4, 1e-5}) {
-        const BasisCut cut = cutFor(analysis, price);
+    for (const double lambda : {1e-3, 1e-4, 1e-5}) {
+        const BasisCut cut = cutFor(analysis, lambda);
         const EncodedCluster encoded = encodeBases(matrix, analysis, cut, kinds, spectrum);
         const Eigen::Index rank = Eigen::Index(cut.components) - 2;
         REQUIRE(rank > 1);
         const double best = double(sigma.tail(sigma.size() - rank).squaredNorm());
         // Columns and weights that do not pay are left out besides; bytes are not exact.
-        CHECK(encoded.error < 2 * (best + price * cut.bytes));
+        CHECK(encoded.error < 2 * (best + lambda * cut.bytes));
         CHECK(encoded.error < 1.5 * cut.error + 1e-4 * 256);
-        CHECK(cut.error < 2 * (best + price * cut.bytes));
+        CHECK(cut.error < 2 * (best + lambda * cut.bytes));
     }
 }
 
@@ -246,13 +246,13 @@ TEST_CASE("layout: errors of a diffuse set matter more") {
     CHECK(matrix.importance == kDiffuseImportance);
     CHECK(clusterMatrix(several, 0, 256, basisKinds(factors(2, true)), spectrum, 1).importance == 1);
     BasisAnalysis analysis = analyze(matrix);
-    const double price = analysis.energy.sum() * 1e-5;
-    const BasisCut diffuse = cutFor(analysis, price);
+    const double lambda = analysis.energy.sum() * 1e-5;
+    const BasisCut diffuse = cutFor(analysis, lambda);
     analysis.importance = 1;
-    CHECK(diffuse.error < cutFor(analysis, price).error);
+    CHECK(diffuse.error < cutFor(analysis, lambda).error);
 }
 
-TEST_CASE("layout: bytes fall and error rises with the price") {
+TEST_CASE("layout: bytes fall and error rises with the lambda") {
     const SparseTransport rows = smoothRows(512, 2, 8);
     const std::vector<BasisKind> kinds = basisKinds(factors(2, true));
     const std::vector<float> spectrum = lightSpectrum(kFace);
@@ -260,17 +260,17 @@ TEST_CASE("layout: bytes fall and error rises with the price") {
     for (uint32_t first : {0u, 256u})
         analyses.push_back(analyze(clusterMatrix(rows, first, 256, kinds, spectrum, 1)));
     CutTotals before = totalsAt(analyses, 1e-9);
-    for (double price = 1e-8; price < 1; price *= 2) {
-        const CutTotals now = totalsAt(analyses, price);
+    for (double lambda = 1e-8; lambda < 1; lambda *= 2) {
+        const CutTotals now = totalsAt(analyses, lambda);
         CHECK(now.bytes <= before.bytes);
         CHECK(now.error >= before.error);
         before = now;
     }
-    const double price = priceForBytes(analyses, 8000);
-    CHECK(totalsAt(analyses, price).bytes <= 8000);
-    CHECK(totalsAt(analyses, price * 0.99).bytes > 7400);
+    const double lambda = lambdaForBytes(analyses, 8000);
+    CHECK(totalsAt(analyses, lambda).bytes <= 8000);
+    CHECK(totalsAt(analyses, lambda * 0.99).bytes > 7400);
     const double wanted = 0.5 * (analyses[0].energy.sum() + analyses[1].energy.sum());
-    CHECK(totalsAt(analyses, priceForError(analyses, wanted)).error <= wanted);
+    CHECK(totalsAt(analyses, lambdaForError(analyses, wanted)).error <= wanted);
 }
 
 TEST_CASE("layout: nothing to keep, little to keep, one term, many") {
@@ -317,22 +317,22 @@ TEST_CASE("layout: rows of any finite scale") {
     }
 }
 
-TEST_CASE("layout: samples that stand for twice as many find about the price of all") {
+TEST_CASE("layout: samples that stand for twice as many find about the lambda of all") {
     const SparseTransport rows = smoothRows(4096, 2, 14);
     const Asset asset = assetOf(rows);
     const MaterialSet& set = asset.parts[0].sets[0];
-    const float unit = transportUnit(rows, lightSpectrum(kFace));
+    const float norm = transportNorm(rows, lightSpectrum(kFace));
     SparseTransport half = smoothRows(2048, 2, 14); // of the same patterns
     for (const LayoutOptions& options : {bases({}), bases(40)}) {
-        const auto priceOf = [&](const SparseTransport& sample) {
+        const auto lambdaOf = [&](const SparseTransport& sample) {
             const SetSample one{&set, {&sample}, 4096, unit};
             const LayoutScale scale = findScale({&one, 1}, kFace, 4096, options);
-            CHECK(scale.units == std::vector(1, unit));
-            return scale.price;
+            CHECK(scale.norms == std::vector(1, norm));
+            return scale.lambda;
         };
-        const double all = priceOf(rows);
+        const double all = lambdaOf(rows);
         CHECK(all > 0);
-        CHECK(std::abs(std::log2(priceOf(half) / all)) < 0.5);
+        CHECK(std::abs(std::log2(lambdaOf(half) / all)) < 0.5);
     }
 }
 
@@ -340,14 +340,14 @@ TEST_CASE("layout: sets without a sample do not change what the others' say") {
     const SparseTransport rows = smoothRows(1024, 2, 15);
     const Asset asset = assetOf(rows);
     const MaterialSet& set = asset.parts[0].sets[0];
-    const float unit = transportUnit(rows, lightSpectrum(kFace));
+    const float norm = transportNorm(rows, lightSpectrum(kFace));
     const SetSample told{&set, {&rows}, 1024, unit}, untold{&set, {}, 3072, 7};
     for (const LayoutOptions& options : {bases({}), bases(40)}) {
         const std::array both = {untold, told};
         const LayoutScale scale = findScale(both, kFace, 4096, options);
-        CHECK(scale.units == std::vector{7.0f, unit});
-        CHECK(scale.price == findScale({&told, 1}, kFace, 1024, options).price);
-        CHECK(scale.price > 0);
+        CHECK(scale.norms == std::vector{7.0f, unit});
+        CHECK(scale.lambda == findScale({&told, 1}, kFace, 1024, options).lambda);
+        CHECK(scale.lambda > 0);
     }
 }
 
@@ -415,7 +415,7 @@ TEST_CASE("layout: where all is diffuse, the standard error is less") {
     for (const auto& [terms, wanted] :
          {std::pair(1u, kDiffuseLayoutError), std::pair(2u, kDefaultLayoutError)}) {
         Asset asset = assetOf(smoothRows(2048, terms, 16));
-        CHECK_EQ(standardError(asset), wanted);
+        CHECK_EQ(defaultLayoutError(asset), wanted);
         convertLayout(asset, {});
         CHECK_EQ(asset.layout->wantedError, std::optional(wanted));
         CHECK_LE(asset.layout->error, 1.05 * wanted);

@@ -73,18 +73,18 @@ struct RoofedPlane {
     Mesh occluder;
 };
 
-// Root mean square error of interpolated answers over points of the plane, which lie anywhere.
+// Root mean square error of interpolated responses over points of the plane, which lie anywhere.
 double interpolationError(const RoofedPlane& scene) {
     const CpuVisibility visibility(scene.occluder, TransportProbe::kVisibilitySize);
     const ProbeLights lights;
     const TransportProbe probe(scene.parts[0], visibility, lights);
     TransportProbe::Workspace workspace = probe.makeWorkspace();
-    const auto answersAt = [&](vec3 position) {
-        return probe.answers(position + vec3(0, 1e-3f, 0), tangentFrame({0, 1, 0}), workspace);
+    const auto responsesAt = [&](vec3 position) {
+        return probe.responses(position + vec3(0, 1e-3f, 0), tangentFrame({0, 1, 0}), workspace);
     };
     const Mesh& plane = scene.parts[0].mesh;
-    std::vector<ProbeAnswers> answers;
-    for (const vec3& position : plane.positions) answers.push_back(answersAt(position));
+    std::vector<ProbeResponses> responses;
+    for (const vec3& position : plane.positions) responses.push_back(responsesAt(position));
     const RayTracer tracer(std::array<const Mesh*, 1>{&plane});
     std::mt19937 random(5);
     std::uniform_real_distribution<float> place(-1.99f, 1.99f);
@@ -94,10 +94,10 @@ double interpolationError(const RoofedPlane& scene) {
         const auto hit = tracer.intersect(position + vec3(0, 1, 0), vec3(0, -1, 0));
         REQUIRE(hit);
         const uvec3 t = plane.triangles[hit->triangle];
-        const ProbeAnswers there = answersAt(position);
+        const ProbeResponses there = responsesAt(position);
         for (size_t j = 0; j < there.size(); j++) {
-            const float mean = hit->weights.x * answers[t.x][j] + hit->weights.y * answers[t.y][j] +
-                               hit->weights.z * answers[t.z][j];
+            const float mean = hit->weights.x * responses[t.x][j] + hit->weights.y * responses[t.y][j] +
+                               hit->weights.z * responses[t.z][j];
             sum += double(mean - there[j]) * double(mean - there[j]);
         }
     }
@@ -167,7 +167,7 @@ TEST_CASE("edge split: normals that point apart leave a unit normal") {
     CHECK(mesh.normals[3] == vec3(0, 0, 1));
 }
 
-TEST_CASE("transport probe: answers differ as transport does that light weighs") {
+TEST_CASE("transport probe: responses differ as transport does that light weighs") {
     const RoofedPlane scene;
     constexpr int kSize = TransportProbe::kVisibilitySize, kFace = ProbeLights::kFaceSize;
     const CpuVisibility visibility(scene.occluder, kSize);
@@ -188,8 +188,8 @@ TEST_CASE("transport probe: answers differ as transport does that light weighs")
     for (const float x : {0.1f, 0.4f, 0.6f, 1.2f})
         for (const float step : {0.05f, 0.3f}) {
             const vec3 first(x, 1e-3f, 0.1f), other(x + step, 1e-3f, 0.2f);
-            const ProbeAnswers a = probe.answers(first, tangentFrame(up), workspace),
-                               b = probe.answers(other, tangentFrame(up), workspace);
+            const ProbeResponses a = probe.responses(first, tangentFrame(up), workspace),
+                                 b = probe.responses(other, tangentFrame(up), workspace);
             double between = 0, weighted = 0;
             for (size_t i = 0; i < a.size(); i++) between += double(a[i] - b[i]) * double(a[i] - b[i]);
             const std::vector<vec3> one = coefficients(first), two = coefficients(other);

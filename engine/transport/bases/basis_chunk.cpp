@@ -2,6 +2,7 @@
 
 #include "engine/chunk/byte_stream.h"
 #include "engine/chunk/rising_indices.h"
+#include "engine/scene/factored_brdf.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -10,7 +11,7 @@ namespace relume {
 
 namespace {
 
-static_assert(largestBasisChunk(kLargestTerms) <= kLargestChunk);
+static_assert(largestBasisChunk(kMostTerms) <= kLargestChunk);
 
 // Rows of `columns` values each, column after column.
 std::vector<std::byte> transposed(std::span<const std::byte> values, size_t rows, size_t columns) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/chunk/block_chunk.h"
+#include "engine/scene/factored_brdf.h"
 #include "engine/transport/rows/sparse_transport.h"
 
 namespace relume {
@@ -9,7 +10,7 @@ namespace relume {
 // The most entries and rows of a run that is written.
 constexpr size_t kRunEntries = size_t(1) << 20;
 constexpr uint32_t kMostBlockVertices = 64;
-constexpr size_t kRunRows = kMostBlockVertices * size_t(kLargestTerms);
+constexpr size_t kRunRows = kMostBlockVertices * size_t(kMostTerms);
 
 // Returns the vertices of a block, which is baked, stored in a checkpoint and written as one run: the largest
 // power of two up to kMostBlockVertices for which `terms` rows of `coefficients` entries each stay within

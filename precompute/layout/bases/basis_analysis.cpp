@@ -69,15 +69,15 @@ LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Ind
     return leading;
 }
 
-// Neighboring prices.
-struct Prices {
+// Neighboring lambdas.
+struct Lambdas {
     double low, high;
 };
 
-// Returns the prices between which `isHigh` becomes true, by bisection of a range beyond which nothing
+// Returns the lambdas between which `isHigh` becomes true, by bisection of a range beyond which nothing
 // changes.
 template <typename IsHigh>
-Prices pricesAround(const IsHigh& isHigh) {
+Lambdas lambdasAround(const IsHigh& isHigh) {
     double low = -80, high = 20;
     for (int i = 0; i < 36; i++) {
         const double middle = 0.5 * (low + high);
@@ -122,10 +122,10 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
     return analysis;
 }
 
-BasisCut cutFor(const BasisAnalysis& analysis, double price) {
+BasisCut cutFor(const BasisAnalysis& analysis, double lambda) {
     const Eigen::Index kinds = analysis.energy.size(), columns = Eigen::Index(analysis.columns.size());
     const uint32_t components = analysis.components();
-    price /= analysis.importance;
+    lambda /= analysis.importance;
     const double weightBytes = double(analysis.vertices) + sizeof(float); // of one component of one kind
     const double countBytes = sizeof(uint16_t) * double(kinds);
     const auto columnBytes = [](uint32_t count) { return double(count + sizeof(uint16_t)); };
@@ -134,11 +134,11 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price) {
     best.counts.assign(size_t(kinds), 0);
     best.error = analysis.energy.sum();
     best.bytes = countBytes;
-    double least = best.error; // error + price · bytes, without countBytes
+    double least = best.error; // error + lambda · bytes, without countBytes
 
     std::vector<uint16_t> counts(size_t(kinds), 0);
     Eigen::VectorXd tail = analysis.energy,
-                    cost = tail; // per kind: error by all so far, error + price of counts
+                    cost = tail; // per kind: error by all so far, error + lambda of counts
     Eigen::VectorXd gain = Eigen::VectorXd::Zero(columns); // reduction of the error by a column
     std::vector<double> bestGain;
     for (uint32_t count = 0; count < components;) {
@@ -150,7 +150,7 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price) {
                 tail -= analysis.vectorEnergy.col(vector);
         count = next;
         for (Eigen::Index kind = 0; kind < kinds; kind++) {
-            const double paid = tail[kind] + price * weightBytes * count;
+            const double paid = tail[kind] + lambda * weightBytes * count;
             if (paid < cost[kind]) {
                 hasJumped |= counts[size_t(kind)] != last;
                 cost[kind] = paid;
@@ -171,11 +171,11 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price) {
         double taken = 0;
         size_t kept = 0;
         for (Eigen::Index column = 0; column < columns; column++)
-            if (gain[column] > price * columnBytes(count)) taken += gain[column], kept++;
+            if (gain[column] > lambda * columnBytes(count)) taken += gain[column], kept++;
         error = std::max(0.0, analysis.energy.sum() - taken);
         const double bytes = weights * weightBytes + double(kept) * columnBytes(count);
-        if (error + price * bytes < least) {
-            least = error + price * bytes;
+        if (error + lambda * bytes < least) {
+            least = error + lambda * bytes;
             best.components = count;
             best.counts = counts;
             best.bytes = bytes + countBytes;
@@ -184,14 +184,15 @@ BasisCut cutFor(const BasisAnalysis& analysis, double price) {
         }
     }
     for (size_t column = 0; column < bestGain.size(); column++)
-        if (bestGain[column] > price * columnBytes(best.components)) best.columns.push_back(uint32_t(column));
+        if (bestGain[column] > lambda * columnBytes(best.components))
+            best.columns.push_back(uint32_t(column));
     return best;
 }
 
-CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price) {
+CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double lambda) {
     std::vector<CutTotals> each(clusters.size());
     tbb::parallel_for(size_t(0), clusters.size(), [&](size_t i) {
-        const BasisCut cut = cutFor(clusters[i], price);
+        const BasisCut cut = cutFor(clusters[i], lambda);
         each[i] = {clusters[i].weight * cut.bytes, clusters[i].weight * cut.error};
     });
     CutTotals sum;
@@ -199,12 +200,12 @@ CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price) {
     return sum;
 }
 
-double priceForBytes(std::span<const BasisAnalysis> clusters, double bytes) {
-    return pricesAround([&](double price) { return totalsAt(clusters, price).bytes <= bytes; }).high;
+double lambdaForBytes(std::span<const BasisAnalysis> clusters, double bytes) {
+    return lambdasAround([&](double lambda) { return totalsAt(clusters, lambda).bytes <= bytes; }).high;
 }
 
-double priceForError(std::span<const BasisAnalysis> clusters, double error) {
-    return pricesAround([&](double price) { return totalsAt(clusters, price).error > error; }).low;
+double lambdaForError(std::span<const BasisAnalysis> clusters, double error) {
+    return lambdasAround([&](double lambda) { return totalsAt(clusters, lambda).error > error; }).low;
 }
 
 } // namespace relume

@@ -35,24 +35,24 @@ struct BasisCut {
     double error = 0;             // squared, without quantization
 };
 
-// Returns the cut that minimizes importance · error + price · bytes.
-BasisCut cutFor(const BasisAnalysis& analysis, double price);
+// Returns the cut that minimizes importance · error + lambda · bytes.
+BasisCut cutFor(const BasisAnalysis& analysis, double lambda);
 
-// Totals over all clusters. All are cut with one Lagrange multiplier, the price, which gives the least total
+// Totals over all clusters. All are cut with one Lagrange multiplier, lambda, which gives the least total
 // error for the bytes (Shoham and Gersho 1988). Clusters count with their weight.
 struct CutTotals {
     double bytes = 0;
     double error = 0; // squared, relative to the matrices' normalization; without quantization
 };
 
-// Returns the totals of all clusters' cuts at a price: the error that a byte must save.
-CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double price);
+// Returns the totals of all clusters' cuts at a lambda: the error that a byte must save.
+CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double lambda);
 
-// Returns the price at which all cuts take `bytes`, or as many below as possible.
-double priceForBytes(std::span<const BasisAnalysis> clusters, double bytes);
+// Returns the lambda at which all cuts take `bytes`, or as many below as possible.
+double lambdaForBytes(std::span<const BasisAnalysis> clusters, double bytes);
 
-// Returns the highest price at which the squared error is at most `error`, or a price of least error if there
-// is none.
-double priceForError(std::span<const BasisAnalysis> clusters, double error);
+// Returns the highest lambda at which the squared error is at most `error`, or a lambda of least error if
+// there is none.
+double lambdaForError(std::span<const BasisAnalysis> clusters, double error);
 
 } // namespace relume

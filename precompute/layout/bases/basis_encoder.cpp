@@ -61,8 +61,8 @@ QuantizedBasis quantizeBasis(const Eigen::MatrixXf& vectors, const Eigen::Vector
     return basis;
 }
 
-double priceFor(std::span<const BasisAnalysis> analyses, const LayoutTarget& target) {
-    return target.bytes ? priceForBytes(analyses, *target.bytes) : priceForError(analyses, target.error);
+double lambdaFor(std::span<const BasisAnalysis> analyses, const LayoutTarget& target) {
+    return target.bytes ? lambdaForBytes(analyses, *target.bytes) : lambdaForError(analyses, target.error);
 }
 
 } // namespace
@@ -102,12 +102,12 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
 
         const size_t start = cluster.weights.size();
         cluster.weights.resize(start + size_t(count) * matrix.vertices);
-        const float unit = matrix.unit / glm::length(kinds[kind].color);
+        const float norm = matrix.norm / glm::length(kinds[kind].color);
         const auto steps = [&](uint32_t component) {
             return std::span(cluster.weights).subspan(start + component);
         };
         const auto scale = [&](uint32_t component, float step) {
-            cluster.scales.push_back(step * basis.steps[component] * unit);
+            cluster.scales.push_back(step * basis.steps[component] * norm);
         };
         const float first = quantize(lost.col(0), steps(0), count);
         scale(0, first);
@@ -136,17 +136,17 @@ void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf, bool isBoun
 EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding) {
     const std::vector<float> spectrum = lightSpectrum(coding.faceSize);
-    const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, layout.kinds, spectrum, coding.unit);
+    const ClusterMatrix matrix = clusterMatrix(rows, 0, rows.vertices, layout.kinds, spectrum, coding.norm);
     const BasisAnalysis analysis = analyze(matrix);
     const EncodedCluster encoded =
-        encodeBases(matrix, analysis, cutFor(analysis, coding.price), layout.kinds, spectrum);
+        encodeBases(matrix, analysis, cutFor(analysis, coding.lambda), layout.kinds, spectrum);
     checkCluster(encoded.cluster, rows.vertices, layout.kinds.size(), uint32_t(spectrum.size()),
                  coding.where);
     return {encodeBasisCluster(encoded.cluster, coding.run, rows.vertices), encoded.error};
 }
 
-double findPrice(const BasisTransport&, std::span<const SetSample> samples, int faceSize,
-                 const LayoutTarget& target) {
+double findLambda(const BasisTransport&, std::span<const SetSample> samples, int faceSize,
+                  const LayoutTarget& target) {
     struct Place {
         const SetSample* sample;
         const SparseTransport* rows;
@@ -163,10 +163,10 @@ double findPrice(const BasisTransport&, std::span<const SetSample> samples, int 
         const auto& [sample, rows, first] = places[i];
         const uint32_t count = std::min(kBasisVertices, rows->vertices - first);
         analyses[i] = analyze(clusterMatrix(
-            *rows, first, count, basisKinds(sample->set->brdf, sample->isBounced), spectrum, sample->unit));
+            *rows, first, count, basisKinds(sample->set->brdf, sample->isBounced), spectrum, sample->norm));
         analyses[i].weight = double(sample->vertices) / double(sample->sampledVertices());
     });
-    return priceFor(analyses, target);
+    return lambdaFor(analyses, target);
 }
 
 double convertRows(const BasisTransport&, const RowSource& source, const LayoutTarget& target,
@@ -180,17 +180,17 @@ double convertRows(const BasisTransport&, const RowSource& source, const LayoutT
     const std::vector<SetPlace> places = placesOf(source.sets, kBasisVertices);
     const auto matrixOf = [&](const SetPlace& place) {
         return clusterMatrix(rowsOf(source.sets[place.set]->transport), place.first, place.count,
-                             made[place.set].kinds, source.spectrum, source.units[place.set]);
+                             made[place.set].kinds, source.spectrum, source.norms[place.set]);
     };
 
     // Two passes over the rows (kConversionPasses): analysis of all clusters, then encoding.
     std::vector<BasisAnalysis> analyses(places.size());
     passes.run(places, [&](size_t i) { analyses[i] = analyze(matrixOf(places[i])); });
-    const double price = priceFor(analyses, target);
+    const double lambda = lambdaFor(analyses, target);
     std::vector<double> errors(places.size());
     passes.run(places, [&](size_t i) {
         const SetPlace& place = places[i];
-        EncodedCluster encoded = encodeBases(matrixOf(place), analyses[i], cutFor(analyses[i], price),
+        EncodedCluster encoded = encodeBases(matrixOf(place), analyses[i], cutFor(analyses[i], lambda),
                                              made[place.set].kinds, source.spectrum);
         made[place.set].clusters[place.first / kBasisVertices] = std::move(encoded.cluster);
         errors[i] = encoded.error;

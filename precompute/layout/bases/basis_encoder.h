@@ -19,8 +19,8 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
 void prepareLayout(BasisTransport& layout, const FactoredBrdf& brdf, bool isBounced);
 EncodedBlock encodeBlock(const BasisTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding);
-double findPrice(const BasisTransport& layout, std::span<const SetSample> samples, int faceSize,
-                 const LayoutTarget& target);
+double findLambda(const BasisTransport& layout, std::span<const SetSample> samples, int faceSize,
+                  const LayoutTarget& target);
 double convertRows(const BasisTransport& layout, const RowSource& source, const LayoutTarget& target,
                    ConversionPasses& passes);
 

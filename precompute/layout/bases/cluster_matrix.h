@@ -20,11 +20,11 @@ std::vector<BasisKind> basisKinds(const FactoredBrdf& brdf, bool isBounced = fal
 inline vec3 kindDual(const BasisKind& kind) { return kind.color / glm::dot(kind.color, kind.color); }
 
 // Values are amounts of kinds, times the length of their color, times the light's spectrum
-// (light_spectrum.h), divided by `unit`, so that errors of the matrix are errors of relighting. Row kind ·
+// (light_spectrum.h), divided by `norm`, so that errors of the matrix are errors of relighting. Row kind ·
 // vertices + v is that of vertex v.
 struct ClusterMatrix {
     uint32_t vertices = 0;
-    float unit = 1;                // transportUnit() of the set
+    float norm = 1;                // transportNorm() of the set
     double importance = 1;         // weight of its squared error against bytes
     std::vector<uint16_t> columns; // coefficient indices, ascending: those of most energy
     Eigen::MatrixXf values;
@@ -36,7 +36,7 @@ struct ClusterMatrix {
 // Greatest shorter side of an analyzed matrix, since time grows with its square. With few kinds, all columns
 // that a file can have fit, which the sharp shadows on a ground need; with many kinds, more columns gain
 // little.
-constexpr size_t kAnalysedSide = 512;
+constexpr size_t kAnalyzedSide = 512;
 
 // Weight of squared errors in sets of one term. These are diffuse, most often a ground, on which shadows are
 // all that is seen and no highlight masks errors.
@@ -44,6 +44,6 @@ constexpr double kDiffuseImportance = 40;
 
 // Returns the matrix of vertices [first, first + count) of a set's rows.
 ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_t count,
-                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float unit);
+                            std::span<const BasisKind> kinds, std::span<const float> spectrum, float norm);
 
 } // namespace relume

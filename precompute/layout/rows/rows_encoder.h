@@ -12,7 +12,7 @@ void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, Conversion
 inline void prepareLayout(SparseTransport&, const FactoredBrdf&, bool) {}
 EncodedBlock encodeBlock(const SparseTransport& layout, const SparseTransport& rows,
                          const BlockCoding& coding);
-inline double findPrice(const SparseTransport&, std::span<const SetSample>, int, const LayoutTarget&) {
+inline double findLambda(const SparseTransport&, std::span<const SetSample>, int, const LayoutTarget&) {
     return 0;
 }
 inline double convertRows(const SparseTransport&, const RowSource&, const LayoutTarget&, ConversionPasses&) {

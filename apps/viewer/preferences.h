@@ -10,7 +10,7 @@
 
 namespace relume {
 
-struct Habits {
+struct Preferences {
     std::optional<ivec2> size;                       // of the window
     std::vector<std::filesystem::path> recent;       // that were opened, newest first
     std::vector<std::filesystem::path> environments; // that can be chosen
@@ -18,9 +18,9 @@ struct Habits {
 };
 
 // Returns what was remembered, without missing or invalid values.
-Habits readHabits();
+Preferences readPreferences();
 
 // Saves it; failure is logged as a warning.
-void writeHabits(const Habits& habits);
+void writePreferences(const Preferences& preferences);
 
 } // namespace relume

@@ -5,11 +5,11 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/render.h"
 
-layout(push_constant, scalar) uniform Push { ViewSurfacePush push; };
+layout(push_constant, scalar) uniform Push { ViewTriangleIdPush push; };
 layout(location = 0) in vec3 position;
-layout(location = 0) flat out uint surface;
+layout(location = 0) flat out uint triangleId;
 
 void main() {
-    surface = push.firstSurface + gl_VertexIndex;
+    triangleId = push.firstTriangleId + gl_VertexIndex;
     gl_Position = push.clipFromWorld * vec4(position, 1);
 }

@@ -11,18 +11,18 @@ namespace relume {
 // or a tenth of the RMS of their transport if that is more; 1 if there is none. Errors are thus relative to
 // what distinguishes vertices: a dark part is not starved beside a bright one, nor a shadow on an otherwise
 // even ground.
-float transportUnit(const SparseTransport& rows, std::span<const float> spectrum);
+float transportNorm(const SparseTransport& rows, std::span<const float> spectrum);
 
 // Computes the same for vertices that come a few at a time.
-class UnitSum {
+class NormSum {
   public:
     // Keeps a reference to `spectrum`, a weight per coefficient.
-    UnitSum(uint32_t terms, std::span<const float> spectrum);
+    NormSum(uint32_t terms, std::span<const float> spectrum);
 
     void add(const SparseTransport& rows); // with the same number of terms
 
     // Returns the normalization of all vertices so far.
-    float unit() const;
+    float norm() const;
 
   private:
     std::span<const float> mSpectrum;

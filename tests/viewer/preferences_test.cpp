@@ -1,5 +1,5 @@
 // What is remembered from one time to the next.
-#include "apps/viewer/habits.h"
+#include "apps/viewer/preferences.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -20,44 +20,44 @@ struct StateFolder {
     StateFolder() { setenv("XDG_STATE_HOME", folder.path().c_str(), 1); }
     ~StateFolder() { unsetenv("XDG_STATE_HOME"); }
 
-    Habits read(const std::string& text) const {
+    Preferences read(const std::string& text) const {
         std::filesystem::create_directories(file.parent_path());
         writeFileAtomically(file, text);
-        return readHabits();
+        return readPreferences();
     }
 };
 
-void checkIsEmpty(const Habits& habits) {
-    CHECK_FALSE(habits.size);
-    CHECK(habits.recent.empty());
-    CHECK(habits.environments.empty());
-    CHECK_EQ(habits.settings, json::object());
+void checkIsEmpty(const Preferences& preferences) {
+    CHECK_FALSE(preferences.size);
+    CHECK(preferences.recent.empty());
+    CHECK(preferences.environments.empty());
+    CHECK_EQ(preferences.settings, json::object());
 }
 
 } // namespace
 
-TEST_CASE("habits: are the same the next time") {
+TEST_CASE("preferences: are the same the next time") {
     const StateFolder state;
-    checkIsEmpty(readHabits());
+    checkIsEmpty(readPreferences());
     const auto bake = state.folder.write("a b.relume", "x"), map = state.folder.write("map.exr", "x");
-    writeHabits({ivec2(800, 600), {bake, map}, {map}, {{"exposure", 1.5}, {"tone", "aces"}}});
-    const Habits habits = readHabits();
-    CHECK_EQ(habits.size, ivec2(800, 600));
-    CHECK_EQ(habits.recent, std::vector<std::filesystem::path>{bake, map});
-    CHECK_EQ(habits.environments, std::vector<std::filesystem::path>{map});
-    CHECK_EQ(habits.settings, json{{"exposure", 1.5}, {"tone", "aces"}});
+    writePreferences({ivec2(800, 600), {bake, map}, {map}, {{"exposure", 1.5}, {"tone", "aces"}}});
+    const Preferences preferences = readPreferences();
+    CHECK_EQ(preferences.size, ivec2(800, 600));
+    CHECK_EQ(preferences.recent, std::vector<std::filesystem::path>{bake, map});
+    CHECK_EQ(preferences.environments, std::vector<std::filesystem::path>{map});
+    CHECK_EQ(preferences.settings, json{{"exposure", 1.5}, {"tone", "aces"}});
 
-    writeHabits({std::nullopt, {bake}, {}, {{"dark", false}}}); // a session in full screen
-    const Habits unsized = readHabits();
+    writePreferences({std::nullopt, {bake}, {}, {{"dark", false}}}); // a session in full screen
+    const Preferences unsized = readPreferences();
     CHECK_FALSE(unsized.size);
     CHECK_EQ(unsized.recent.size(), 1u);
     CHECK_EQ(unsized.settings, json{{"dark", false}});
 
     std::filesystem::remove(bake);
-    CHECK(readHabits().recent.empty()); // what is gone is left out
+    CHECK(readPreferences().recent.empty()); // what is gone is left out
 }
 
-TEST_CASE("habits: what makes no sense is left out, and the rest is not") {
+TEST_CASE("preferences: what makes no sense is left out, and the rest is not") {
     const StateFolder state;
     for (const char* text : {"", "{", "[]", "3", "null", "\"x\"", "{\"width\": 800", "\xff\xfe"}) {
         CAPTURE(text);
@@ -81,11 +81,11 @@ TEST_CASE("habits: what makes no sense is left out, and the rest is not") {
             json damaged = whole;
             damaged[name] = wrong;
             CAPTURE(damaged.dump().substr(0, 300));
-            const Habits habits = state.read(damaged.dump());
-            CHECK_EQ(habits.size.has_value(), name != "width" && name != "height");
-            CHECK_EQ(habits.recent.size(), name == "recent" ? 0u : 1u);
-            CHECK_EQ(habits.environments.size(), name == "environments" ? 0u : 1u);
-            CHECK_EQ(habits.settings.size(), name == "settings" ? 0u : 1u);
+            const Preferences preferences = state.read(damaged.dump());
+            CHECK_EQ(preferences.size.has_value(), name != "width" && name != "height");
+            CHECK_EQ(preferences.recent.size(), name == "recent" ? 0u : 1u);
+            CHECK_EQ(preferences.environments.size(), name == "environments" ? 0u : 1u);
+            CHECK_EQ(preferences.settings.size(), name == "settings" ? 0u : 1u);
         }
     json many = whole;
     many["recent"] = std::vector<std::string>(500, there);

@@ -1,4 +1,4 @@
-#include "precompute/transport/unit_sum.h"
+#include "precompute/transport/norm_sum.h"
 
 #include "engine/base/check.h"
 
@@ -10,10 +10,10 @@ namespace relume {
 // Of a set whose vertices are all alike, relative to what they hold: errors stay far below what is seen.
 static constexpr double kLeastVariation = 0.1;
 
-UnitSum::UnitSum(uint32_t terms, std::span<const float> spectrum)
+NormSum::NormSum(uint32_t terms, std::span<const float> spectrum)
     : mSpectrum(spectrum), mTerms(terms), mSums(terms * spectrum.size(), glm::dvec3(0)) {}
 
-void UnitSum::add(const SparseTransport& rows) {
+void NormSum::add(const SparseTransport& rows) {
     RELUME_CHECK_EQ(rows.terms, mTerms);
     for (size_t row = 0; row < rows.rows(); row++)
         for (uint64_t i = rows.rowStarts[row]; i < rows.rowStarts[row + 1]; i++) {
@@ -25,19 +25,19 @@ void UnitSum::add(const SparseTransport& rows) {
     mVertices += rows.vertices;
 }
 
-float UnitSum::unit() const {
+float NormSum::norm() const {
     const double vertices = double(std::max<uint64_t>(1, mVertices));
     double common = 0;
     for (const glm::dvec3& sum : mSums) common += glm::dot(sum, sum) / vertices;
     const double varying = std::max(mEnergy - common, kLeastVariation * kLeastVariation * mEnergy);
-    const auto unit = float(std::sqrt(varying / vertices));
-    return unit > 0 && std::isfinite(unit) ? unit : 1;
+    const auto norm = float(std::sqrt(varying / vertices));
+    return norm > 0 && std::isfinite(norm) ? norm : 1;
 }
 
-float transportUnit(const SparseTransport& rows, std::span<const float> spectrum) {
-    UnitSum sum(rows.terms, spectrum);
+float transportNorm(const SparseTransport& rows, std::span<const float> spectrum) {
+    NormSum sum(rows.terms, spectrum);
     sum.add(rows);
-    return sum.unit();
+    return sum.norm();
 }
 
 } // namespace relume

@@ -1,4 +1,4 @@
-#include "apps/viewer/habits.h"
+#include "apps/viewer/preferences.h"
 
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
@@ -46,30 +46,30 @@ json listOf(const std::vector<std::filesystem::path>& files) {
 
 } // namespace
 
-Habits readHabits() {
-    Habits habits;
+Preferences readPreferences() {
+    Preferences preferences;
     try {
         const std::filesystem::path file = habitsFile();
-        if (!std::filesystem::exists(file)) return habits;
+        if (!std::filesystem::exists(file)) return preferences;
         const std::vector<std::byte> bytes = readFile(file, kMostBytes);
         const json object =
             parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
-        habits.size = sizeOf(memberOf(object, "width"), memberOf(object, "height"));
-        habits.recent = filesOf(memberOf(object, "recent"));
-        habits.environments = filesOf(memberOf(object, "environments"));
+        preferences.size = sizeOf(memberOf(object, "width"), memberOf(object, "height"));
+        preferences.recent = filesOf(memberOf(object, "recent"));
+        preferences.environments = filesOf(memberOf(object, "environments"));
         if (const json settings = memberOf(object, "settings"); settings.is_object())
-            habits.settings = settings;
+            preferences.settings = settings;
     } catch (const std::exception& why) {
         spdlog::debug("what was remembered is left out: {}", why.what());
     }
-    return habits;
+    return preferences;
 }
 
-void writeHabits(const Habits& habits) {
-    json object = {{"recent", listOf(habits.recent)},
-                   {"environments", listOf(habits.environments)},
-                   {"settings", habits.settings}};
-    if (habits.size) object.update({{"width", habits.size->x}, {"height", habits.size->y}});
+void writePreferences(const Preferences& preferences) {
+    json object = {{"recent", listOf(preferences.recent)},
+                   {"environments", listOf(preferences.environments)},
+                   {"settings", preferences.settings}};
+    if (preferences.size) object.update({{"width", preferences.size->x}, {"height", preferences.size->y}});
     try {
         writeFileAtomically(habitsFile(), object.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
     } catch (const std::exception& why) {
