@@ -8,7 +8,6 @@
 #include <random>
 
 using namespace relume;
-using namespace relume::test;
 
 TEST_CASE(
     "memory: thousands of buffers share few allocations, keep their contents, and give all of it back") {

@@ -293,26 +293,6 @@ TEST_CASE("visibility: a device that gives up tracing says so") {
     }
 }
 
-TEST_CASE("visibility: the faster way is one of them, and says so in the asset") {
-    const TestDevice device;
-    Scene scene;
-    scene.parts.push_back({"knot", makeKnot(200), "clay", "built-in knot", ""});
-    BakeOptions options;
-    options.visibilitySize = 64;
-    options.coefficients = 8;
-    options.factorization.terms = 1;
-    const auto bakeBy = [&](std::optional<VisibilityMethod> method) {
-        options.visibilityMethod = method;
-        return bake(device, scene, options);
-    };
-    const Asset automatic = bakeBy(std::nullopt);
-    const Asset raster = bakeBy(VisibilityMethod::Raster), traced = bakeBy(VisibilityMethod::Traced);
-    CHECK_EQ(raster.provenance.options != traced.provenance.options,
-             canUse(device, VisibilityMethod::Traced));
-    const bool isRaster = automatic.provenance.options == raster.provenance.options;
-    CHECK(encodeAsset(automatic) == encodeAsset(isRaster ? raster : traced));
-}
-
 TEST_CASE("visibility: an empty occluder blocks nothing") {
     const TestDevice device;
     for (const VisibilityMethod method : methodsOf(device)) {
