@@ -12,7 +12,8 @@ struct ThreadLimit::Control {
 
 ThreadLimit::ThreadLimit(int threads)
     : mControl(new Control{{tbb::global_control::max_allowed_parallelism, size_t(threads)}}) {
-    // Mesa counts its threads beside the one that submits, which waits for them: 0 lets that one do the work.
+    // Mesa does not count the submitting thread, which waits for the others; with 0, that thread does the
+    // work.
     setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 1);
 }
 

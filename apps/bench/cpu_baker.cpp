@@ -14,9 +14,9 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kTaskPoints = 4; // neighbors, which share what the caches hold of the occluder
+constexpr size_t kTaskPoints = 4; // neighbors, which share cached parts of the occluder
 
-// One thread's.
+// Buffers of one thread.
 struct Workspace {
     Workspace(const CpuVisibility& visibility, const CpuTransport& transport, int kept)
         : bits(visibility.texels() / 64), coefficients(transport.makeWorkspace()), packer(transport, kept) {}
@@ -37,7 +37,7 @@ std::vector<const FactoredBrdf*> brdfsOf(const AssetPart& part) {
     return brdfs;
 }
 
-// Seconds since the last call.
+// Measures the seconds since the last call.
 class StageClock {
   public:
     double lap() {
@@ -51,7 +51,7 @@ class StageClock {
     std::chrono::steady_clock::time_point mLast = std::chrono::steady_clock::now();
 };
 
-// Appends one point's rows, each to its set's transport.
+// Appends one point's rows to the transport of each set.
 void append(const CpuRows& rows, std::span<const int> setTerms,
             std::span<SparseTransport* const> transports) {
     size_t term = 0, entry = 0;

@@ -21,7 +21,7 @@ float keyOf(vec3 c) { return c.x * c.x + c.y * c.y + c.z * c.z; }
 
 void CpuRowPacker::select(const CpuCoefficients& coefficients, int group, int lane) {
     const size_t blocks = coefficients.blocks.size();
-    // A bound from below: where N blocks have a key of at least b, the N-th largest is at least b.
+    // Lower bound: if N blocks have a key of at least b, the N-th largest key is at least b.
     float bound = 0;
     if (blocks > mKept) {
         mBounds.clear();
@@ -39,8 +39,7 @@ void CpuRowPacker::select(const CpuCoefficients& coefficients, int group, int la
             const uint32_t place = block * kBlock + i;
             const float key = keyOf(coefficientAt(coefficients, group, lane, place));
             if (!(key > 0 && key >= bound)) continue;
-            // Floats that are not negative are ordered as their bits; of equal ones the lower index goes
-            // first.
+            // Nonnegative floats order like their bits; of equal ones the lower index comes first.
             mCandidates.push_back(uint64_t(std::bit_cast<uint32_t>(key)) << 32 |
                                   uint64_t(0xffffu - indices[i]) << 16 | place);
         }

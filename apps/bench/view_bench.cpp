@@ -20,7 +20,7 @@ void submit(vk::Commands& commands, const Work& work) {
     commands.submitAndWait();
 }
 
-// A bake on the device, lit once.
+// A bake on the device, with a light recorded once.
 struct Stage {
     Stage(const vk::Device& device, const Asset& source, const Light& sources, const ViewRounds& rounds,
           int samples)
@@ -28,7 +28,7 @@ struct Stage {
           relighter(device, source, {.residual = rounds.residual}),
           view(device, source, {.width = rounds.width, .height = rounds.height, .samples = samples}) {
         light.setLight(sources);
-        relighter.setMode(RelightMode::Full); // turning changes nothing of some light
+        relighter.setMode(RelightMode::Full); // full, since rotation may change nothing
         vk::Commands commands(device, "first light");
         submit(commands, [&] {
             light.record(commands, glm::radians(rounds.rotationDegrees), rounds.selection);
@@ -41,7 +41,7 @@ struct Stage {
     ViewPass view;
 };
 
-// Wall-clock milliseconds of one submission of `work`; those of its passes go to `passes`.
+// Returns the wall-clock milliseconds of one submission of `work`; adds those of its passes to `passes`.
 template <typename Work>
 double submission(vk::Commands& commands, std::map<std::string, std::vector<double>>& passes,
                   const Work& work) {
@@ -72,7 +72,7 @@ std::vector<ViewSeries> benchView(const vk::Device& device, const std::vector<As
         for (size_t i = 0; i < stages.size(); i++) {
             Stage& stage = *stages[i];
             ViewSeries& own = series[i];
-            if (round <= 1) own = {}; // the first round warmed up
+            if (round <= 1) own = {}; // discard the first round, which warmed up
             const Camera camera = rounds.camera(stage.asset, turn);
             const Camera next = rounds.camera(stage.asset, turn + glm::radians(1.0f));
             submit(commands, [&] { stage.view.record(commands, camera, stage.relighter); });

@@ -1,5 +1,5 @@
 // Draws a bake into the frame of a program that has a Vulkan device, images and commands of its own:
-// foreign_frame BAKE IMAGE.pfm. What is Relume's is between the two lines of dashes.
+// foreign_frame BAKE IMAGE.pfm. Relume's own code is between lines of dashes.
 #include <cstdio>
 #include <fstream>
 #include <relume/relume.h>
@@ -20,7 +20,7 @@ uint32_t memoryType(VkPhysicalDevice physical, uint32_t allowed, VkMemoryPropert
     throw std::runtime_error("no such memory");
 }
 
-// The program's own device. It turns on what it needs itself, and what Relume does.
+// The program's own device. It enables the features that it needs itself, and those that Relume needs.
 struct Host {
     VkInstance instance;
     VkPhysicalDevice physical;
@@ -109,7 +109,7 @@ struct HostImage {
     }
 };
 
-// Orders everything before against everything after: a real program says less.
+// Orders everything before against everything after; a real program would be more specific.
 void transition(const Host& host, VkImage image, VkImageAspectFlags aspect, VkImageLayout from,
                 VkImageLayout to) {
     VkImageMemoryBarrier2 barrier{};
@@ -136,7 +136,7 @@ void copy(const Host& host, VkImage from, const HostImage& to, VkImageAspectFlag
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-// A buffer that the program reads its frame from.
+// A buffer from which the program reads its frame.
 struct HostPixels {
     const Host& host;
     VkBuffer buffer;
@@ -228,7 +228,7 @@ int main(int count, char** arguments) try {
     view.record(recorder, camera, relighter);
     // ---------------------------------------------------------------------------------------------
 
-    // The host's color and depth begin as what Relume drew; the host's own draws go on from there.
+    // The host's color and depth start with what Relume drew; the host's own draws would follow.
     for (const HostImage* image : {&color, &depth})
         transition(host, image->image, image->aspect, VK_IMAGE_LAYOUT_UNDEFINED,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -237,7 +237,7 @@ int main(int count, char** arguments) try {
                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     copy(host, view.depth().handle(), depth, VK_IMAGE_ASPECT_DEPTH_BIT);
     transition(host, view.depth().handle(), depth.aspect, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-               VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL); // as it was: Relume draws into it again
+               VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL); // back, since Relume draws into it again
     transition(host, depth.image, depth.aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
     transition(host, color.image, color.aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,

@@ -28,7 +28,7 @@ int main(int count, char** arguments) try {
         defaultCamera(objectBounds(asset), glm::radians(35.0f), float(kWidth) / float(kHeight));
 
     vk::Commands commands(device, "frame");
-    float exposure = 0; // of the first frame, for all: none flickers
+    float exposure = 0; // that of the first frame for all, so that none flickers
     for (int frame = 0; frame < frames; frame++) {
         commands.begin();
         light.record(commands, 2 * kPi * float(frame) / float(frames));

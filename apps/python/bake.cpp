@@ -1,4 +1,4 @@
-// Bakes.
+// Bindings of bakes.
 #include "precompute/bake/bake.h"
 #include "apps/python/module.h"
 #include "engine/import/asset_info.h"
@@ -12,7 +12,7 @@ namespace relume::python {
 
 namespace {
 
-// Takes options off `given` by name, so that what is left over is unknown.
+// Takes options from `given` by name, so that those left over are unknown.
 class GivenOptions {
   public:
     explicit GivenOptions(const py::kwargs& given) : mGiven(given) {}
@@ -109,7 +109,7 @@ BakeOptions optionsFrom(const py::kwargs& kwargs) {
     return options;
 }
 
-// Tells Python how far a bake is.
+// Reports a bake's progress to Python.
 class Reporter : public BakeObserver {
   public:
     explicit Reporter(const std::function<void(double)>& tell) : mTell(tell) {}
@@ -152,7 +152,7 @@ std::shared_ptr<Asset> planScene(const SceneBuilder& builder, const py::kwargs& 
     return std::make_shared<Asset>(planBake(*on, scene, options, silent).asset);
 }
 
-// (rows, 6 F²) vectors of the first set of a part.
+// Returns rows of a part's first set as an array (rows, 6 F²) of RGB coefficients.
 py::array_t<float> coefficientsOfRows(const Asset& asset, size_t part, const std::vector<size_t>& rows) {
     const Transport& transport = asset.parts.at(part).sets.front().transport;
     const size_t count = size_t(6 * asset.faceSize * asset.faceSize),

@@ -1,4 +1,4 @@
-// BRDFs, factored and evaluated, and how far their terms are from them.
+// Bindings of BRDFs: factorization, evaluation and errors.
 #include "apps/python/module.h"
 #include "engine/base/error.h"
 #include "precompute/brdf/factorization.h"
@@ -28,7 +28,7 @@ TexelValue texelsFrom(const std::string& name) {
     throw UsageError(fmt::format("texels: expected centers or means, found \"{}\"", name));
 }
 
-// One layer of a factored BRDF as the dictionary that factorsFrom() reads.
+// Returns one layer of a factored BRDF as the dictionary that factorsFrom() reads.
 py::dict dictOf(const FactoredBrdf& brdf, int layer) {
     const py::ssize_t side = brdf.size, count = brdf.terms;
     const vec3* const views = brdf.viewMap(layer, 0);
@@ -40,7 +40,7 @@ py::dict dictOf(const FactoredBrdf& brdf, int layer) {
     return result;
 }
 
-// The materials' factors, jointly found.
+// Returns the factors of materials, found jointly.
 py::list factored(const std::vector<std::string>& materials, int terms, const std::string& factorization,
                   int mapSize, const std::optional<std::string>& map,
                   const std::optional<std::string>& texels) {
@@ -81,7 +81,7 @@ py::list factored(const std::vector<std::string>& materials, int terms, const st
     return layers;
 }
 
-// (K, S, S, 3).
+// Reads maps of shape (K, S, S, 3); sets K and S, or checks them if they are known.
 std::vector<vec3> mapsOf(const py::dict& factors, const char* name, FactoredBrdf& brdf) {
     const auto maps = factors[name].cast<Array<float>>();
     if (maps.ndim() != 4 || maps.shape(0) < 1 || maps.shape(0) > kMostTerms || maps.shape(1) < kMinMapSize ||
@@ -106,12 +106,12 @@ FactoredBrdf factorsFrom(const py::dict& factors) {
     return brdf;
 }
 
-// After each term, per light and factors.
+// Returns the errors after each term, per light and factors.
 std::vector<std::vector<std::vector<float>>> errorsOfRadiance(const std::string& material,
                                                               const std::vector<py::dict>& factors,
                                                               const std::vector<Light>& lights,
                                                               int orientations, bool uniform) {
-    constexpr int kLightSize = 64; // a side of the cube, as `relume brdf` has it
+    constexpr int kLightSize = 64; // per side of the cube, as in `relume brdf`
     if (orientations < 1) throw py::value_error("orientations: expected 1 or more");
     std::vector<FactoredBrdf> brdfs;
     for (const py::dict& one : factors) brdfs.push_back(factorsFrom(one));
@@ -123,7 +123,7 @@ std::vector<std::vector<std::vector<float>>> errorsOfRadiance(const std::string&
     return radianceErrors(*makeBrdf(material), layers, cubes, {orientations, uniform});
 }
 
-// Local directions, lifted above the horizon.
+// Returns local directions, lifted above the horizon.
 std::vector<vec3> directionsFrom(const Array<float>& array, const char* name) {
     std::vector<vec3> directions = elementsOf<vec3>(array, name);
     for (vec3& direction : directions) direction = liftAboveHorizon(glm::normalize(direction));

@@ -1,4 +1,4 @@
-// Lights and cameras.
+// Bindings of lights and cameras.
 #include "apps/python/module.h"
 #include "engine/import/environment_file.h"
 #include "engine/import/light_file.h"

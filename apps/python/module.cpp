@@ -34,7 +34,7 @@ py::list listedDevices() {
     return list;
 }
 
-// Messages go to Python's logger "relume".
+// Sends messages to Python's logger "relume".
 void logToPython(LogLevel level, const std::string& text) {
     const py::gil_scoped_acquire lock;
     static constexpr const char* kMethods[] = {"debug", "info", "warning", "error"};
@@ -98,7 +98,7 @@ PYBIND11_MODULE(_relume, module) {
     addRenderer(module);
     addStudies(module);
     addBrdfs(module);
-    // Before the interpreter goes: the driver's threads and Python's log end in order.
+    // Before the interpreter exits, so that the driver's threads and Python's log end in order.
     py::module_::import("atexit").attr("register")(py::cpp_function([] {
         openDevice.reset();
         setLog(nullptr);

@@ -1,4 +1,4 @@
-// Pictures and tuples from bakes.
+// Bindings of rendering and relighting.
 #include "apps/python/module.h"
 #include "engine/base/error.h"
 #include "engine/import/image_file.h"
@@ -84,7 +84,7 @@ class Renderer {
     LightPass mLight;
     Relighter mRelighter;
     ViewPass mView;
-    std::optional<BackgroundPass> mBackground; // once it is asked for
+    std::optional<BackgroundPass> mBackground; // made when first needed
     Appearance mAppearance;
     LightSelection mSelection;
     std::pair<int, int> mSize;
@@ -104,7 +104,8 @@ py::list relight(Renderer& renderer, const Light& light) {
     return parts;
 }
 
-// As `relume render` writes it: linear to .exr, tone-mapped to .png. Returns the exposure of the latter.
+// Writes an image as `relume render` does: linear to .exr, tone-mapped to .png. Returns the exposure of the
+// latter.
 float save(const std::filesystem::path& path, const Array<float>& array, std::optional<float> exposure,
            const std::string& tone) {
     Image image = imageOf(array, "image");

@@ -1,4 +1,4 @@
-// Meshes and scenes.
+// Bindings of meshes and scenes.
 #include "apps/python/module.h"
 #include "engine/import/mesh_cleanup.h"
 #include "engine/import/mesh_file.h"
@@ -11,7 +11,7 @@ namespace {
 
 const char* const kDefaultMaterial = "gold";
 
-// From arrays, checked and welded as a file's is.
+// Makes a mesh from arrays, checked and welded as one from a file.
 Mesh makeMesh(const Array<float>& positions, const Array<uint32_t>& triangles,
               const std::optional<Array<float>>& normals, const std::optional<Array<float>>& uvs,
               const std::optional<Array<float>>& colors) {
@@ -31,7 +31,7 @@ Mesh makeMesh(const Array<float>& positions, const Array<uint32_t>& triangles,
     return cleanUp(std::move(mesh), "mesh");
 }
 
-// As bakes simplify what casts shadows, with normals made anew; other attributes go.
+// Simplifies as bakes simplify occluders, with new normals; drops other attributes.
 Mesh simplified(const Mesh& mesh, size_t triangles) {
     if (triangles == 0) throw py::value_error("triangles: expected 1 or more");
     Scene scene;

@@ -1,4 +1,4 @@
-// References, errors and advice.
+// Bindings of references, errors and advice.
 #include "apps/python/module.h"
 #include "precompute/bake/bake_preset.h"
 #include "precompute/error/advice.h"
@@ -18,7 +18,7 @@ Camera cameraOr(const std::optional<Camera>& camera, const Asset& asset, std::pa
         defaultCamera(objectBounds(asset), glm::radians(35.0f), float(size.first) / float(size.second)));
 }
 
-// The asset with the first terms of its BRDFs, for references: its transport is that of all.
+// Returns the asset with the first terms of its BRDFs, for references. Its transport keeps all terms.
 Asset withTerms(Asset asset, int terms) {
     for (AssetPart& part : asset.parts)
         for (MaterialSet& set : part.sets) {
@@ -65,7 +65,7 @@ py::array_t<float> reference(const std::shared_ptr<const Asset>& asset, const Li
     return arrayOf(std::move(image));
 }
 
-// The light in a cube of `faceSize` texels a side, of its maps as finely as that can hold them.
+// Returns the light as a cube of `faceSize` texels a side, with maps as fine as the cube can represent.
 LightCube fineLight(Light light, int faceSize) {
     for (EnvironmentLight& environment : light.environments)
         if (environment.picture)
@@ -74,7 +74,7 @@ LightCube fineLight(Light light, int faceSize) {
     return sampleLight(light, faceSize);
 }
 
-// A reference that gets better; keeps the asset that it refers to.
+// A progressive reference; keeps alive the asset that it refers to.
 class SampledReference {
   public:
     SampledReference(std::shared_ptr<const Asset> asset, const Light& light,
@@ -129,7 +129,7 @@ py::list errors(const std::shared_ptr<const Asset>& asset, const std::vector<Lig
         studies = studyErrors(*on, *asset, defaultAppearance(*asset), all,
                               {.view = {cameraOr(camera, *asset, size), size.first, size.second},
                                .mostPasses = passes,
-                               .lowOrder = 5, // as `relume errors`: 25 harmonics
+                               .lowOrder = 5, // as in `relume errors`: 25 harmonics
                                .residual = residual,
                                .bounces = bounces},
                               tell);

@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-// NAME, or NAME=WEIGHT where no material has that whole text as its name.
+// Parses NAME=WEIGHT, or NAME if there is no "=" or the whole text is a material's name.
 WeightedMaterial parse(const std::string& text, const std::vector<std::string>& names) {
     const size_t equals = text.rfind('=');
     if (equals == std::string::npos || std::ranges::find(names, text) != names.end()) return {text};
@@ -32,7 +32,7 @@ void AppearanceArguments::add(CLI::App& command) {
                     "Show this material of the bake, wherever a part has it; those of one set are blended by "
                     "their weights (default 1) over the sum of these: -m clay=0.3 -m gold=0.7")
         ->type_name("NAME[=WEIGHT]")
-        ->allow_extra_args(false); // one each: FILE may follow
+        ->allow_extra_args(false); // one each, since FILE may follow
 }
 
 Appearance AppearanceArguments::appearance(const Asset& asset) const {

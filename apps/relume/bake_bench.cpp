@@ -15,7 +15,7 @@ namespace relume {
 
 namespace {
 
-constexpr uint64_t kRun = 64; // neighbors
+constexpr uint64_t kRun = 64; // neighboring vertices per run
 
 int termsOf(const AssetPart& part) {
     int terms = 0;
@@ -23,20 +23,21 @@ int termsOf(const AssetPart& part) {
     return terms;
 }
 
-// Indices of about `wanted` vertices out of `count`.
+// Returns indices of about `wanted` of `count` vertices, in runs.
 std::vector<uint64_t> sampleIndices(uint64_t count, uint64_t wanted) {
     wanted = std::clamp<uint64_t>(wanted, 1, count);
     const uint64_t run = std::min(kRun, wanted), runs = std::min((wanted + run / 2) / run, count / run);
     std::vector<uint64_t> indices;
     for (uint64_t i = 0; i < runs; i++) {
-        // In the middle of the i-th of `runs` equal stretches, none of which is shorter than a run.
+        // Put the run in the middle of the i-th of `runs` equal stretches, none of which is shorter than a
+        // run.
         const uint64_t first = (2 * i + 1) * (count - runs * run) / (2 * runs) + i * run;
         for (uint64_t j = 0; j < run; j++) indices.push_back(first + j);
     }
     return indices;
 }
 
-// A run of a path whose `bakePart(part, points)` bakes one part and returns rows per set.
+// Times a path whose `bakePart(part, points)` bakes one part and returns rows per set.
 template <typename BakePart>
 SampleRun timeRun(const BakeSample& sample, const BakePart& bakePart) {
     SampleRun run;
@@ -94,7 +95,7 @@ double relativeDifference(const SampleRows& a, const SampleRows& b, int faceSize
             dense[rows.indices[e]] +=
                 sign * vec3(unpackCoefficient(rows.values[e])) * (rows.scales[row] / maxima);
     };
-    // Adds up and clears what a row has left in `dense`.
+    // Returns the energy that a row has left in `dense`, and clears it.
     const auto takeEnergy = [&](const SparseTransport& rows, size_t row) {
         double energy = 0;
         for (uint64_t e = rows.rowStarts[row]; e < rows.rowStarts[row + 1]; e++) {
@@ -172,7 +173,7 @@ DevicePath::DevicePath(const vk::Device& device, const BakeSample& sample, const
 
 DevicePath::~DevicePath() = default;
 
-// Seconds of all parts' passes so far, times `sign`.
+// Adds the seconds of all parts' passes so far, times `sign`.
 template <typename Parts>
 void addStages(const Parts& parts, double sign, vk::PassTimes& stages) {
     for (const auto& part : parts)
@@ -207,7 +208,7 @@ SampleRun DevicePath::run() {
 
 struct RebakePath::Part {
     std::unique_ptr<PartPasses> passes;
-    std::vector<StoredChunk> blocks; // of kRun points
+    std::vector<StoredChunk> blocks; // of kRun points each
 };
 
 RebakePath::RebakePath(const vk::Device& device, const BakeSample& sample, const BakeOptions& options)

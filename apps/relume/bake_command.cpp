@@ -11,7 +11,7 @@ struct Arguments {
     SceneArguments scene;
     BakeArguments bake;
     BakeJob job;
-    std::optional<std::string> shard; // none: all
+    std::optional<std::string> shard; // none: all blocks
     bool preview = false;
 };
 

@@ -13,7 +13,7 @@
 
 namespace relume {
 
-// Refuses sizes of 0, which would be no limit, and negative ones, which would wrap.
+// Rejects sizes of 0, which would mean no limit, and negative ones, which would wrap.
 static std::string isPositive(const std::string& text) {
     return std::atof(text.c_str()) > 0 ? ""
                                        : fmt::format("expected a size as 512M or 2G, found \"{}\"", text);
@@ -30,7 +30,7 @@ void BakeJob::add(CLI::App& command) {
                     "Most memory that a batch of vertices may take, on device and host: 512M, 2G")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false))
-        ->transform(CLI::Validator(isPositive, "")); // what is added last comes first
+        ->transform(CLI::Validator(isPositive, "")); // the last one added runs first
     command.add_option("--threads", mThreads, "Most host threads that work at a time")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));

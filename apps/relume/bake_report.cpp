@@ -104,7 +104,7 @@ void BakeReport::progress(const BakeStatus& status) {
 void BakeReport::preview(double bakedShare) {
     event("preview", {{"baked_share", bakedShare}});
     if (mStyle == ReportStyle::Text && !mHasPreview) {
-        mBar.reset(); // its line is for others
+        mBar.reset(); // end its line before logging
         spdlog::info("a preview is there; it is refined as the bake goes on");
         showBar(mVertices);
     }

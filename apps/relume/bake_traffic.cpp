@@ -21,7 +21,7 @@ std::optional<double> BakeTraffic::cpu(const std::string& stage) const {
 std::optional<double> BakeTraffic::device(const std::string& stage) const {
     constexpr double kTriangleIndices = 12, kCoefficient = 12, kIndex = 4, kValue = 4;
     const double blocks = mCoefficients / 15, summaries = blocks * 8, slots = blocks * 16 * kCoefficient;
-    if (stage == "visibility draw") return mTexels + mTriangles * kTriangleIndices; // a byte a texel
+    if (stage == "visibility draw") return mTexels + mTriangles * kTriangleIndices; // one byte per texel
     if (stage == "visibility pack") return 3 * mTexels + mTexels / 8;               // copied, then packed
     if (stage == "visibility trace") return mTexels / 8;
     if (stage == "transport")

@@ -33,12 +33,12 @@ struct Arguments {
 constexpr const char* kRebake = "rebake";
 constexpr VisibilityMethod kMethods[] = {VisibilityMethod::Raster, VisibilityMethod::Traced};
 
-// Every figure of one path, a value for each repetition.
+// Measurements of one path, one value per repetition.
 struct PathSeries {
     std::vector<double> seconds;
     std::map<std::string, std::vector<double>> stageSeconds;
-    std::vector<std::string> stages; // in their order
-    double difference = 0;           // of its rows to the CPU's
+    std::vector<std::string> stages; // in order of execution
+    double difference = 0;           // of its rows from the CPU's
 
     void add(const SampleRun& run) {
         seconds.push_back(run.seconds);
@@ -49,7 +49,7 @@ struct PathSeries {
     }
 };
 
-// Of two paths' times in the same rounds.
+// Returns the median ratio of two paths' times in the same rounds.
 double medianRatio(const PathSeries& path, const PathSeries& other) {
     std::vector<double> ratios;
     for (size_t i = 0; i < path.seconds.size(); i++) ratios.push_back(path.seconds[i] / other.seconds[i]);
@@ -99,14 +99,15 @@ Json describeScene(const std::string& input, const BakeSample& sample) {
             {"parts", parts}};
 }
 
-// All but the way to visibility: every way is timed.
+// Describes the options without the visibility method, since every method is timed.
 Json describeCommonOptions(const BakeOptions& options) {
     Json described = Json::parse(describeOptions(options));
     described.erase("visibility");
     return described;
 }
 
-// Runs every path in alternation; the first round warms up and shows that all do the same work.
+// Runs the paths in alternation. The first round warms up, and measures the difference of rows from the
+// CPU's.
 std::map<std::string, PathSeries>
 runPaths(const std::vector<std::pair<std::string, std::unique_ptr<BakePath>>>& paths, int repeats,
          int faceSize, bool quiet) {

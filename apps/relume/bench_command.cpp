@@ -25,7 +25,8 @@ struct Arguments {
 
 constexpr int kWidth = 1280, kHeight = 720;
 
-// Median wall-clock milliseconds of recording, submitting and waiting for `work`, after one warm-up.
+// Returns the median wall-clock milliseconds of recording, submitting and waiting for `work`, after one
+// warm-up.
 template <typename Work>
 double medianMilliseconds(vk::Commands& commands, int repeats, const Work& work) {
     std::vector<double> times;
@@ -87,8 +88,7 @@ void run(Arguments& arguments) {
     view16by9.width = kWidth;
     view16by9.height = kHeight;
     vk::Commands commands(*device, "bench");
-    // Every light change turns the light a little, and is relit in full even where that changes nothing of
-    // it.
+    // Every light change rotates the light slightly, and is relit in full even if nothing changes.
     relighter.setMode(RelightMode::Full);
     const double lightChange = medianMilliseconds(commands, arguments.repeats, [&](int repeat) {
         light.record(commands, radians(arguments.light.rotationDegrees + float(repeat)));
@@ -142,7 +142,7 @@ void addBenchCommand(CLI::App& program) {
     addBenchBakeCommand(*command);
     addBenchRelightCommand(*command);
     addBenchViewCommand(*command);
-    // CLI11 runs this after a subcommand's own callback too.
+    // CLI11 also runs this after a subcommand's own callback.
     command->callback([arguments, command] {
         if (command->get_subcommands().empty()) run(*arguments);
     });

@@ -30,7 +30,7 @@ struct Arguments {
     bool json = false;
 };
 
-// Of two series' times in the same rounds.
+// Returns the median ratio of two series' times in the same rounds.
 double medianRatio(std::vector<double> values, const std::vector<double>& divisors) {
     for (size_t i = 0; i < values.size(); i++) values[i] /= divisors[i];
     return median(values);

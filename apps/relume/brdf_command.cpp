@@ -16,7 +16,7 @@ namespace relume {
 
 namespace {
 
-constexpr int kLightSize = 64; // a side of the cube that radiance errors are measured under
+constexpr int kLightSize = 64; // side of the cube under which radiance errors are measured
 
 struct Arguments {
     std::string material;
@@ -79,7 +79,7 @@ void addBrdfCommand(CLI::App& program) {
         ->add_option("-e,--environment", arguments->environments,
                      "Measure the error of reflected radiance under this, too (.exr, .hdr); may be repeated")
         ->type_name("FILE")
-        ->allow_extra_args(false); // or it would take MATERIAL as well
+        ->allow_extra_args(false); // otherwise it would take MATERIAL as well
     command
         ->add_option("--maps", arguments->maps,
                      "Write the first 8 light maps: each over its largest magnitude, magenta where negative")

@@ -21,7 +21,7 @@ std::vector<float> eigenvaluesOf(const FactoredBrdf& factored, size_t channel) {
     return values;
 }
 
-// 1, 2, 4, 8, then every eighth, and the last.
+// Returns 1, 2, 4, 8, then every eighth, and the last count.
 std::vector<int> someTermCounts(int terms) {
     std::vector<int> counts;
     for (const int count : {1, 2, 4, 8, 16, 24, 32})

@@ -9,7 +9,7 @@ namespace relume {
 
 namespace {
 
-// The same for all names of a file, which need not be there yet.
+// Returns a path that is the same for all names of a file, which need not exist yet.
 std::filesystem::path placeOf(const std::filesystem::path& file) {
     std::error_code failure;
     const std::filesystem::path whole = std::filesystem::absolute(file);

@@ -31,7 +31,7 @@ void addCompareCommand(CLI::App& program) {
         const ImageDifference difference =
             compareImages(readImage(arguments->image).image, readImage(arguments->reference).image);
         if (arguments->json) {
-            // JSON has no infinity: equal images have no PSNR.
+            // JSON has no infinity, the PSNR of equal images.
             const auto number = [](double value) {
                 return std::isfinite(value) ? nlohmann::json(value) : nullptr;
             };

@@ -47,7 +47,7 @@ void checkOutput(const Arguments& arguments) {
 }
 
 Conversion convert(Asset& asset, const LayoutOptions& options, const Arguments& arguments) {
-    std::unique_ptr<Progress> progress; // once the work is known
+    std::unique_ptr<Progress> progress; // made once the amount of work is known
     const auto report = [&](uint64_t done, uint64_t total) {
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
         if (!progress)
@@ -57,7 +57,7 @@ Conversion convert(Asset& asset, const LayoutOptions& options, const Arguments& 
     return convertLayout(asset, options, report, arguments.coefficients);
 }
 
-// A bake of this version or the one before, with residuals.
+// Reads a bake of this version or the one before, with residuals.
 Asset readInput(const std::filesystem::path& path, std::vector<std::byte> bytes) {
     const std::string name = path.string();
     if (isOldAsset(bytes)) bytes = updateAsset(bytes, name);

@@ -17,7 +17,7 @@ constexpr int kCopies = 7;
 
 template <typename Copy>
 double bestBandwidth(const Copy& copy) {
-    copy(); // pages are touched, code is compiled
+    copy(); // touches pages and compiles code
     double best = 0;
     for (int i = 0; i < kCopies; i++) {
         const auto start = std::chrono::steady_clock::now();
@@ -31,7 +31,7 @@ double bestBandwidth(const Copy& copy) {
 } // namespace
 
 double deviceCopyBandwidth(const vk::Device& device) {
-    // Many copies a submission: on a GPU a single one drowns in the time to submit it.
+    // Submit many copies at once: on a GPU the time of a single one is lost in that of its submission.
     constexpr int kTogether = 8;
     const vk::Buffer from(device, kBytes, vk::BufferUse::Device, "copied from");
     const vk::Buffer to(device, kBytes, vk::BufferUse::Device, "copied to");

@@ -22,13 +22,13 @@ struct Arguments {
     StudiedLightArguments light;
     AppearanceArguments appearance;
     DeviceArguments device;
-    std::filesystem::path images; // a folder; empty: none
+    std::filesystem::path images; // folder; empty for none
     bool residual = true;
     std::optional<int> bounces; // none: as many as the bake has
     bool json = false;
 };
 
-constexpr int kLowOrder = 5; // 25 coefficients: what most engines keep
+constexpr int kLowOrder = 5; // 25 coefficients, as most engines keep
 
 void writeImages(const std::filesystem::path& folder, const ErrorStudy& study, const ViewPoints& points) {
     constexpr int kScale = 4;
@@ -62,7 +62,7 @@ void print(const ErrorStudy& study) {
 }
 
 void run(const Arguments& arguments) {
-    constexpr uint64_t kMostPixels = 1u << 18; // of which each takes tens of milliseconds: hours
+    constexpr uint64_t kMostPixels = 1u << 18; // hours, since a pixel takes tens of milliseconds
     const auto pixels = uint64_t(arguments.camera.width) * uint64_t(arguments.camera.height);
     if (pixels > kMostPixels)
         throw UsageError(
@@ -82,7 +82,7 @@ void run(const Arguments& arguments) {
     files.check();
     if (!arguments.images.empty()) {
         std::error_code failure;
-        std::filesystem::create_directories(arguments.images, failure); // the next line says why not
+        std::filesystem::create_directories(arguments.images, failure); // the next line reports a failure
         expectWritable(arguments.images / "drawn.exr");
     }
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kAuto = "auto:";
 
-// Of "auto:E".
+// Returns the error E of "auto:E".
 float wantedErrorFrom(const std::string& text) {
     float error;
     if (CLI::detail::lexical_cast(text.substr(kAuto.size()), error) && error > 0 && error <= 1) return error;
@@ -25,7 +25,8 @@ int termsFrom(const std::string& text) {
                                  kMostTerms, text));
 }
 
-// Published tables are orthographic; errors that are weighted by area do best with texels of equal area.
+// Returns the default mapping. Published tables are orthographic; errors weighted by area do best with
+// equal-area texels.
 DiskMapping mappingFor(Factorization method) {
     return isPublished(method) ? DiskMapping::Orthographic : DiskMapping::EqualArea;
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr size_t kColumns = 100, kTextColumn = 30;
 
-// Returns what an option takes: the words of a set, or its type's name, without the range, which errors tell
-// of.
+// Returns what an option takes: the words of a set, or its type's name without the range, which error
+// messages state.
 std::string valueOf(const CLI::Option& option) {
     if (option.get_type_size() == 0) return ""; // a flag
     std::string type = option.get_type_name();
@@ -27,7 +27,7 @@ std::string valueOf(const CLI::Option& option) {
            (option.get_expected_max() == CLI::detail::expected_max_vector_size ? " ..." : "");
 }
 
-// Returns the names of an option, without the values that CLI11 writes in braces behind those of flags.
+// Returns the names of an option, without the values that CLI11 writes in braces after those of flags.
 std::string nameOf(const CLI::Option& option, bool isPositional) {
     std::string name = option.get_name(isPositional, !isPositional);
     for (size_t open; (open = name.find('{')) != std::string::npos;)
@@ -37,7 +37,7 @@ std::string nameOf(const CLI::Option& option, bool isPositional) {
     return name;
 }
 
-// Returns the description, with whether it is required and what holds without it.
+// Returns the description, with whether the option is required and its default.
 std::string textOf(const CLI::Option& option) {
     std::string text = option.get_description();
     const std::string standard = option.get_default_str();
@@ -46,7 +46,7 @@ std::string textOf(const CLI::Option& option) {
     return text;
 }
 
-// Appends words to `out`, each line from kTextColumn on; `at` is the column that it stands in.
+// Appends words to `out`, with every line starting at kTextColumn; `at` is the current column.
 void wrap(const std::string& text, size_t at, std::ostringstream& out) {
     std::istringstream words(text);
     const auto beginText = [&] {

@@ -27,8 +27,8 @@ static void printReadable(const nlohmann::ordered_json& value, int depth) {
     }
 }
 
-// Names the preset of the asset's options, or null: of none, of another program, or converted to another
-// layout since.
+// Returns the name of the preset that the options match; null if none does, they are another program's, or
+// the layout was converted since.
 static nlohmann::json describePreset(const Asset& asset) {
     try {
         const TransportLayout layout = optionsOf(asset).layout.layout;

@@ -44,7 +44,7 @@ LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
     if (mLayout)
         options.layout = *layoutFromName(*mLayout);
     else if ((mBudget || mError) && !isCompressed(options.layout))
-        options.layout = TransportLayout::Bases; // rows know of neither
+        options.layout = TransportLayout::Bases; // rows have neither
     if (!isCompressed(options.layout)) {
         if (mBudget || mError)
             throw UsageError("--layout rows: --budget and --error are for bases; rows are "
@@ -61,7 +61,7 @@ LayoutOptions LayoutArguments::resolve(const LayoutOptions& otherwise) const {
 
 void warnOfMisses(const LayoutRecord& layout, double bytesPerVertex, LayoutOrigin origin) {
     constexpr double kHardlyMore = 1.05;
-    const bool isBaked = origin == LayoutOrigin::Baked; // then it is mostly the sample that missed
+    const bool isBaked = origin == LayoutOrigin::Baked; // then a miss is mostly due to the sample
     if (layout.wantedBytes && bytesPerVertex > kHardlyMore * *layout.wantedBytes) {
         if (isBaked)
             spdlog::warn(

@@ -19,7 +19,7 @@ float largestMagnitude(const vec3* map, size_t texels) {
     return largest;
 }
 
-// Of a value scaled to [-1, 1], brightened as displays expect.
+// Returns the color of a value in [-1, 1], gamma-encoded for display; negative ones in the color kNegative.
 vec3 colorOf(vec3 value) {
     const vec3 bright = glm::pow(glm::abs(value), vec3(1 / 2.2f));
     if (value.x + value.y + value.z >= 0) return bright;

@@ -35,7 +35,7 @@ void checkOutput(const Arguments& arguments) {
     expectWritable(arguments.output);
 }
 
-// All parts are open at once, and there may be more than a process may open without asking.
+// Raises the limit of open files, since all parts are open at once.
 void allowOpenFiles() {
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -53,7 +53,7 @@ uint64_t totalBytes(const std::vector<std::filesystem::path>& parts) {
     return bytes;
 }
 
-// Bytes of transport in bases.
+// Returns the stored bytes of transport in bases.
 uint64_t basesBytes(const std::vector<ShardFile>& shards) {
     uint64_t bytes = 0;
     for (const ShardFile& shard : shards)
@@ -64,7 +64,7 @@ uint64_t basesBytes(const std::vector<ShardFile>& shards) {
 
 uint64_t merge(const Arguments& arguments) {
     // Every byte is read twice: checked before anything is written, then copied. Bases' columns are counted
-    // between.
+    // in between.
     constexpr uint64_t kMegabyte = 1000000;
     const uint64_t allBytes = totalBytes(arguments.parts);
     uint64_t read = 0, total = 0;

@@ -15,7 +15,7 @@
 
 namespace relume {
 
-// Angles and positions beyond this have lost all precision.
+// Largest angle or coordinate; beyond it all precision is lost.
 static constexpr float kLargestNumber = 1e6f;
 
 float radians(float degrees) { return glm::radians(degrees); }
@@ -180,7 +180,7 @@ MovingLight LightArguments::moving(bool withPictures) const {
     return light;
 }
 
-// Whether --light is a light file's content instead of its name.
+// Returns whether --light is the content of a light file instead of its name.
 static bool isInline(const std::string& light) { return light.starts_with('{'); }
 
 void LightArguments::addInputs(CommandFiles& files) const {
@@ -188,7 +188,7 @@ void LightArguments::addInputs(CommandFiles& files) const {
     if (!isInline(mFile)) files.addInput(mFile);
 }
 
-// `file`: empty for the built-in sky.
+// Makes an environment light; `file` is empty for the built-in sky.
 static EnvironmentLight environmentLight(const std::string& file, float gain, bool withPicture) {
     Environment map = file.empty() ? makeSky() : readEnvironment(file);
     EnvironmentLight light{std::make_shared<const Environment>(prepareForSampling(map)), 0, gain};
@@ -212,7 +212,7 @@ MovingLight LightArguments::source(bool withPictures) const {
         if (!(mSphere[2] >= kSmallestLampRadius && mSphere[2] <= 90))
             throw UsageError(fmt::format("--sphere-light: expected a radius of {} to 90 degrees, found {}",
                                          kSmallestLampRadius, mSphere[2]));
-        // Irradiance of a surface that faces a sphere of angular radius r: π sin² r times its radiance.
+        // A surface that faces a sphere of angular radius r receives irradiance π sin² r times its radiance.
         const float radius = radians(mSphere[2]), sine = std::sin(radius);
         return MovingLight(
             {.lamps = {{directionAt(mSphere[0], mSphere[1]), radius, vec3(1 / (sine * sine))}}});

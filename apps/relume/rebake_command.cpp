@@ -26,7 +26,7 @@ struct Arguments {
 
 constexpr const char* kGround = "ground";
 
-// Where `text` is PART=MATERIAL: the length of PART, of the longest part's name that it can be.
+// Returns the length of PART if `text` is PART=MATERIAL, with the longest part's name that fits; else npos.
 size_t partPrefix(const std::string& text, const Asset& asset) {
     size_t longest = std::string::npos;
     if (looksLikeJson(text)) return longest;
@@ -45,7 +45,8 @@ size_t partPrefix(const std::string& text, const Asset& asset) {
     return longest;
 }
 
-// Per part, as rebakeToFile() takes them: what names the part; else, but for a ground, what names none.
+// Returns the materials per part, as rebakeToFile() takes them: those that name the part; else, except for a
+// ground, those that name none.
 std::vector<std::string> materialsFor(const Asset& asset, const Arguments& arguments) {
     std::vector<std::vector<std::string>> own(asset.parts.size());
     std::vector<std::string> others;
@@ -68,7 +69,7 @@ std::vector<std::string> materialsFor(const Asset& asset, const Arguments& argum
         isUsed |= takesOthers;
         most = std::max(most, chosen.size());
         joined.push_back(chosen.empty() ? "" : joinMaterials(chosen, arguments.separate));
-        if (!chosen.empty()) readMaterials(joined.back()); // says early what is wrong
+        if (!chosen.empty()) readMaterials(joined.back()); // reports errors early
     }
     if (!isUsed)
         throw UsageError(fmt::format("--material {}: no part is left for it; for the ground say -m {}={}",
@@ -138,7 +139,7 @@ void addRebakeCommand(CLI::App& program) {
             "for all parts that no other names, but for the ground; several, or a {\"set\": […]}, "
             "share one bake")
         ->type_name("[PART=]MATERIAL")
-        ->allow_extra_args(false) // one each: FILE may follow
+        ->allow_extra_args(false) // one each, since FILE may follow
         ->default_str("the bake's own");
     command->add_flag("--separate", arguments->separate,
                       "Bake several materials each on its own: larger, more exact, swapped but not blended");

@@ -33,15 +33,15 @@ double bytesRead(const BasisTransport& transport, const std::vector<bool>& met) 
     return bytes;
 }
 
-// Bytes of transport that a light makes relighting read at least, and of tuples that are written: columns
-// that the light does not meet are not counted but for their index.
+// Returns the least bytes of transport that relighting reads under a light, plus those of the tuples written.
+// Of columns that the light does not touch only the index counts.
 double relightBytes(const Transport& transport, const LightVector& light) {
     const std::vector<bool> met = metBy(light);
     const double tuples = double(verticesOf(transport)) * termsOf(transport) * sizeof(vec3);
     return tuples + std::visit([&](const auto& kept) { return bytesRead(kept, met); }, transport);
 }
 
-// What relights a part on the CPU, and where to.
+// A part's CPU relighter, and the tuples that it writes.
 struct CpuPart {
     const Transport& transport;
     std::unique_ptr<CpuRelighter> relighter;
@@ -86,7 +86,7 @@ Light withLamp(Light light, float azimuth) {
     return light;
 }
 
-// Under the light recorded last.
+// Relights under the light recorded last; returns the milliseconds.
 double relightMs(vk::Commands& commands, const LightPass& light, Relighter& relighter, RelightMode mode) {
     return milliseconds([&] {
         relighter.setMode(mode);
@@ -96,7 +96,7 @@ double relightMs(vk::Commands& commands, const LightPass& light, Relighter& reli
     });
 }
 
-// A lamp beside the light that moves by a degree.
+// Measures the light with an additional lamp that moves by a degree.
 void benchLamp(vk::Commands& commands, LightPass& pass, const Light& light, float azimuth,
                const LightSelection& selection, std::vector<Variant>& variants, RelightSeries& series) {
     const auto setLight = [&](float place) {
@@ -178,7 +178,7 @@ RelightSeries benchRelight(const vk::Device& device, const RelightBenchInput& in
                   series);
         progress.update(uint64_t(round) + 1);
     }
-    // The first round warmed up.
+    // Drop the first round, which warmed up.
     const auto dropFirst = [](std::vector<double>& values) { values.erase(values.begin()); };
     for (auto& [name, own] : series.layouts) {
         for (auto& [count, values] : own.msByCount) dropFirst(values);

@@ -34,7 +34,7 @@ struct Arguments {
     std::optional<bool> residual; // none: the preset's
     int samples = kDefaultSamples;
     int frames = 1;
-    float rate = 24; // frames a second of light that moves
+    float rate = 24; // frames per second of a moving light
     std::string turn = "camera";
     RelightMode mode = RelightMode::Auto;
     std::filesystem::path timings;
@@ -47,7 +47,7 @@ struct Arguments {
     }
 };
 
-// image.png as it is, or image_0001.png and so on for several frames.
+// Returns image.png itself, or image_0001.png and so on for several frames.
 std::filesystem::path framePath(const Arguments& arguments, int frame) {
     if (arguments.frames == 1) return arguments.image.output;
     std::filesystem::path path = arguments.image.output;
@@ -68,7 +68,7 @@ void checkFiles(const Arguments& arguments, const MovingLight& light) {
     files.check();
 }
 
-// Over the frames whose light changed.
+// Losses of light selection, over the frames whose light changed.
 struct LightLoss {
     uint32_t fewest = UINT32_MAX, most = 0;
     float error = 0;
@@ -97,7 +97,7 @@ void writeTimings(const std::filesystem::path& path, const vk::TimingCapture& ca
     writeTimings(path, trace);
 }
 
-// Tells of a lamp or distant light that is too small for the bake where nothing else lights shadows.
+// Warns of a lamp or distant light that is too small for the bake, if nothing else lights the shadows.
 void warnOfSmallLamps(const Light& light, const Asset& asset) {
     if (!light.environments.empty() || light.sky) return;
     const float least = smallestLampRadius(asset);
@@ -153,7 +153,7 @@ void run(const Arguments& arguments) {
     const bool turnsLight = turnsBoth || arguments.turn == "light";
     const bool turnsCamera = turnsBoth || arguments.turn == "camera";
     LightLoss loss;
-    float exposure = 0; // of the first frame, for all: none flickers
+    float exposure = 0; // that of the first frame for all, so that none flickers
     Progress progress("rendering", uint64_t(arguments.frames), "frames");
     vk::Commands commands(*device, "render");
     commands.setCapture(capture);

@@ -17,21 +17,20 @@ namespace relume {
 
 namespace {
 
-// Software drivers allocate what they need for a frame and free it afterwards. As glibc would have it the
-// system gets it back between the frames, and finding it again costs as much as processing the vertices
-// (docs/view_speed.md).
+// Keeps freed memory in the process. Software drivers allocate memory for a frame and free it afterwards. By
+// default glibc returns it to the system between frames, and getting it back costs as much as processing the
+// vertices (docs/view_speed.md).
 void keepFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
-    mallopt(M_MMAP_THRESHOLD, 32 << 20); // what it would grow to by itself, had the other not been set
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); // the value it would grow to by itself if the other were not set
 #endif
 }
 
 constexpr const char* kUnwritten =
     "standard output: cannot be written; is its disk full, or its reader gone?";
 
-// Throws for an empty argument, which the options would take for none: a variable of the shell that is not
-// set.
+// Throws for an empty argument, which options would take for none; most likely a shell variable is not set.
 void checkArguments(int argc, char** argv) {
     for (int i = 1; i < argc; i++) {
         const std::string_view argument = argv[i];
@@ -42,7 +41,7 @@ void checkArguments(int argc, char** argv) {
     }
 }
 
-// Throws for a first word that is no command, where the program has commands.
+// Throws if the program has commands and the first word is none of them.
 void checkCommand(const CLI::App& program, char** argv) {
     const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
     if (commands.empty() || !argv[1] || *argv[1] == '-') return;
@@ -54,7 +53,7 @@ void checkCommand(const CLI::App& program, char** argv) {
                                  nearestName(argv[1], names), program.get_name()));
 }
 
-// A message with its control characters spelled out: it may hold names that come from files.
+// Prints a message with control characters escaped, since it may contain names from files.
 class PrintableText : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {

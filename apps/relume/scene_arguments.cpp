@@ -18,7 +18,7 @@ std::string joinMaterials(const std::vector<std::string>& materials, bool separa
     nlohmann::json list = nlohmann::json::array();
     for (const std::string& material : materials)
         list.push_back(looksLikeJson(material) ? parseMaterial(material) : nlohmann::json(material));
-    // Bytes that are not UTF-8 lead to an unknown name.
+    // Bytes that are not UTF-8 are replaced, which leads to an unknown name.
     return nlohmann::json{{separate ? "separate" : "set", list}}.dump(
         -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -33,7 +33,7 @@ void SceneArguments::add(CLI::App& command) {
                                       "Preset, model, file, or JSON object with parameters; several, or a "
                                       "{\"set\": […]}, share one bake and can be swapped and blended")
                           ->type_name("MATERIAL")
-                          ->allow_extra_args(false) // one each: INPUT may follow
+                          ->allow_extra_args(false) // one each, since INPUT may follow
                           ->default_str(fmt::format("the file's own (glTF), else {}", kDefaultMaterial));
     command.add_flag("--separate", mSeparate,
                      "Bake several materials each on its own: larger, more exact, swapped but not blended");

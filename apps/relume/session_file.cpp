@@ -29,8 +29,9 @@ void applySession(const std::filesystem::path& file, CLI::App& command) {
     const CLI::Option* const background = command.get_option("--background");
     const CLI::Option* const blur = command.get_option("--background-blur");
     for (const auto& [key, value] : session.items()) {
-        if (key == "session" || key == "model") continue; // the model is what the bake was made of
-        // Only an environment is out of focus: that of a picture, unless the command has another background.
+        if (key == "session" || key == "model") continue; // the model is what the bake was made from
+        // Only an environment is blurred. It is the default background of a picture, not of .exr; the command
+        // may set another.
         if (key == "background-blur" &&
             (isGiven(background) || command.get_option("--output")->as<std::string>().ends_with(".exr")))
             continue;

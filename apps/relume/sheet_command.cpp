@@ -26,14 +26,14 @@ struct Arguments {
     int samples = kDefaultSamples;
 };
 
-// A row of the sheet: a bake, and how its parts look.
+// A row of the sheet: a bake and its appearance.
 struct Row {
     size_t file;
     std::string name;
     Appearance appearance;
 };
 
-// Adds the bake as it is, then each of its materials that changes that.
+// Adds the bake as it is, then with each material that changes it.
 void addRows(const Asset& asset, size_t file, const std::string& name, std::vector<Row>& rows) {
     const Appearance first = defaultAppearance(asset);
     rows.push_back({file, name, first});
@@ -57,7 +57,7 @@ class SheetPass {
         mView.setGroundFade(makeGroundFade(asset));
     }
 
-    // `exposure`: in stops, found for the object if there is none yet.
+    // Draws a picture. `exposure` is in stops; if empty, it is set to suit the object.
     Image draw(const Light& light, const Appearance& appearance, std::optional<float>& exposure,
                ToneCurve tone) {
         mLight.setLight(light);
@@ -120,7 +120,7 @@ void run(const Arguments& arguments) {
     Image sheet(int(wide) - kGap, int(high) - kGap);
     std::ranges::fill(sheet.pixels, vec4(1));
 
-    std::vector<std::optional<float>> exposures(lights.size()); // of a column, by its first row
+    std::vector<std::optional<float>> exposures(lights.size()); // per column, from its first row
     Progress progress("drawing", rows.size() * lights.size(), "pictures");
     std::optional<SheetPass> pass;
     for (size_t row = 0; row < rows.size(); row++) {

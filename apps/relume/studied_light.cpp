@@ -13,7 +13,7 @@ void StudiedLightArguments::add(CLI::App& command) {
 
 StudiedLight StudiedLightArguments::studied() const {
     StudiedLight studied = sampled();
-    // Said before the work, whose errors are relative to what is seen.
+    // Checked before the work, whose errors are relative to the radiance seen.
     if (std::ranges::all_of(studied.fine.radiance, [](vec3 radiance) { return radiance == vec3(0); }))
         throw Error(
             "the light is black: under no light no error can be told; choose another, or turn a lamp on");
@@ -21,7 +21,7 @@ StudiedLight StudiedLightArguments::studied() const {
 }
 
 StudiedLight StudiedLightArguments::sampled() const {
-    constexpr int kFineWidth = 2048; // as many columns for a fine cube as the default has for a coarse one
+    constexpr int kFineWidth = 2048; // as many columns per texel as the coarse cube has
     const float rotation = radians(light.rotationDegrees);
     if (!light.isEnvironment()) {
         const Light all = turned(light.light(), rotation);

@@ -16,7 +16,7 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kMostWords = 4096; // of what it said last
+constexpr size_t kMostWords = 4096; // of its latest messages
 
 std::filesystem::path findProgram() {
     std::error_code failure;
@@ -29,7 +29,7 @@ std::filesystem::path findProgram() {
     return program;
 }
 
-// What is there to be read of a pipe.
+// Reads what is available from a nonblocking pipe.
 std::string readAll(int pipe) {
     std::string text;
     char buffer[4096];
@@ -64,7 +64,7 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
     if (mProcess == 0) {
         dup2(events[1], STDOUT_FILENO);
         dup2(errors[1], STDERR_FILENO);
-        setpriority(PRIO_PROCESS, 0, 19); // frames first
+        setpriority(PRIO_PROCESS, 0, 19); // frames have priority
         execv(arguments[0], arguments.data());
         _exit(127);
     }
@@ -100,7 +100,7 @@ void BakeProcess::end() {
 bool BakeProcess::poll() {
     if (mProcess <= 0) return false;
     int status = 0;
-    const bool hasEnded = waitpid(mProcess, &status, WNOHANG) == mProcess; // before the last words are read
+    const bool hasEnded = waitpid(mProcess, &status, WNOHANG) == mProcess; // before reading its last messages
     bool isThere = false;
     mSaid += readAll(mWords);
     if (mSaid.size() > kMostWords) mSaid.erase(0, mSaid.size() - kMostWords);

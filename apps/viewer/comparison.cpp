@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Threads that trace rays are not to keep frames waiting. (Linux has a priority per thread.)
+// Lowers the thread's priority, so that tracing does not delay frames. (Linux has priorities per thread.)
 void yieldToFrames() { setpriority(PRIO_PROCESS, 0, 19); }
 
 class YieldingThreads : public tbb::task_scheduler_observer {
@@ -44,7 +44,7 @@ void Comparison::stop() {
     const std::lock_guard lock(mMutex);
     mPass.request_stop();
     mResult.reset();
-    mWanted = View{}; // of no model
+    mWanted = View{}; // no model
     mChanged.notify_one();
 }
 
@@ -57,7 +57,7 @@ void Comparison::run(std::stop_token stop) {
     yieldToFrames();
     tbb::task_arena arena;
     const YieldingThreads yielding(arena);
-    std::shared_ptr<const Model> model; // outlives the reference that is made of it
+    std::shared_ptr<const Model> model; // outlives the reference made from it
     std::unique_ptr<ProgressiveReference> reference;
     for (;;) {
         View view;
@@ -77,7 +77,7 @@ void Comparison::run(std::stop_token stop) {
                     if (model) reference = std::make_unique<ProgressiveReference>(model->asset);
                 }
                 if (reference) work(view, *reference, pass);
-            } catch (const std::exception& why) { // measured data that is gone, too little memory
+            } catch (const std::exception& why) { // missing measured data, too little memory
                 reference.reset();
                 model.reset();
                 publish({.failure = why.what()}, pass);
@@ -100,7 +100,7 @@ void Comparison::work(const View& view, ProgressiveReference& reference, std::st
                       view.samples);
     Clock::time_point shown;
     while (reference.passes() < kPasses && reference.addPass(stop)) {
-        // What is shown costs a frame.
+        // Publish rarely: every result shown costs a frame.
         constexpr auto kBetween = std::chrono::milliseconds(400);
         const bool isLast = reference.passes() == kPasses;
         if (Clock::now() - shown < kBetween && !isLast) continue;

@@ -21,7 +21,7 @@ constexpr size_t kMostRecent = 12;
 
 bool isSceneFile(const std::filesystem::path& input) { return extensionOf(input) == ".json"; }
 
-// What `relume bake` reads with the options of beginBake().
+// Reads a scene as `relume bake` does with the options of beginBake().
 Scene readInput(const std::filesystem::path& input) {
     if (isSceneFile(input)) return readScene(input);
     const bool isBound = hasOwnMaterials(input);
@@ -42,7 +42,7 @@ Content::Content(const vk::Device& device, const std::string& deviceSelect, Ligh
 
 void Content::open(const std::filesystem::path& file) {
     const FileKind kind = kindOf(file);
-    // The built-in scene is for want of another.
+    // The built-in scene is only a stand-in, so its bakes are dropped.
     if (kind == FileKind::Bake || kind == FileKind::Bakeable) {
         std::erase_if(mNextBakes, [&](const Bake& bake) { return bake.input == mBuiltIn; });
         if (mBake && mBake->input() == mBuiltIn) cancelBake();
@@ -88,7 +88,7 @@ bool Content::poll() {
     return std::exchange(mHasChanged, false);
 }
 
-// Models
+// --- Models
 
 void Content::load(const std::filesystem::path& bake, OnError onError) {
     if (mBake && mBake->output() == bake) mMustReload = false;
@@ -125,7 +125,7 @@ void Content::showOpen(const std::filesystem::path& file) {
 
 void Content::take(std::shared_ptr<Model> model) {
     const auto same = find(model->file);
-    // What is there anew is shown if it was before: someone may be looking at another one.
+    // Show a reloaded model only if it was shown before; the user may be looking at another.
     const bool isShown = !mShown || same == mModels.end() || *same == mShown;
     if (same != mModels.end())
         *same = model;
@@ -144,13 +144,13 @@ void Content::close(size_t model) {
     mHasChanged = true;
 }
 
-// Bakes
+// --- Bakes
 
 void Content::bake(const std::filesystem::path& input) {
     const Bake bake{input, bakePath(input)};
     mInputs[bake.output] = wholePath(input);
     if (mBake && mBake->output() == bake.output) return;
-    if (mBake) { // it goes on where it was, later
+    if (mBake) { // to be resumed later
         mNextBakes.push_back({mBake->input(), mBake->output()});
         cancelBake();
     }
@@ -168,7 +168,7 @@ void Content::bake(const std::filesystem::path& input) {
     });
 }
 
-// The bake tells what is wrong with the file.
+// Shows a sketch until there is a bake. Errors are only logged, since the bake reports them.
 void Content::sketch(const Bake& bake) {
     mWorker.post(
         "reading " + bake.input.filename().string(),
@@ -225,16 +225,16 @@ void Content::pollBake() {
     mHasChanged = true;
 }
 
-// Light
+// --- Light
 
-// The chosen one first.
+// Reads the chosen environment first.
 void Content::readNextEnvironment() {
     const auto wants = [](const EnvironmentChoice& choice) {
         return !choice.isRead && choice.kind != EnvironmentChoice::Kind::DaySky;
     };
     std::vector<EnvironmentChoice>& choices = mLight.environments;
     EnvironmentChoice& chosen = choices[mLight.environment];
-    // It could not be read before: perhaps now.
+    // The chosen one could not be read before; try again.
     if (!mLight.isReady() && mWorker.isIdle()) chosen.isRead = false;
     if (wants(chosen)) {
         readEnvironment(mLight.environment);

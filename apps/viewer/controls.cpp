@@ -7,7 +7,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kDegreesPerWidth = 360; // of the light, for a drag across the window
+constexpr float kDegreesPerWidth = 360; // by which a drag across the window turns the light
 constexpr double kDoubleClick = 0.4;    // seconds
 constexpr float kNear = 6;              // pixels
 
@@ -84,7 +84,7 @@ Command Controls::takeButton(const InputEvent& event, const SceneState& state, i
     if (!isPlain) return Command::None;
     const bool isDouble =
         event.seconds - mLastClickTime < kDoubleClick && glm::distance(event.place, mLastClick) < kNear;
-    mLastClick = isDouble ? vec2(-1e6f) : event.place; // three clicks are not two doubles
+    mLastClick = isDouble ? vec2(-1e6f) : event.place; // three clicks are not two double clicks
     mLastClickTime = event.seconds;
     return isDouble ? Command::Focus : Command::None;
 }

@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-// A face of the cross: its column and row, and the world's directions that its right and down are.
+// A face of the cross: its column and row, and its axes in world space.
 struct CrossFace {
     int column, row;
     vec3 forward, right, down;

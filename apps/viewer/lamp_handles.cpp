@@ -8,15 +8,15 @@ namespace relume {
 
 namespace {
 
-constexpr float kSphere = 1.25f;     // of the object's radius
+constexpr float kSphere = 1.25f;     // radius of the handles' sphere, relative to the object's
 constexpr float kSmallestHandle = 7; // pixels
-constexpr int kSegments = 96;        // of a circle
+constexpr int kSegments = 96;        // per circle
 
 vec3 directionOf(const LampChoice& lamp, float rotation) {
     return directionAt(lamp.azimuth + rotation, lamp.elevation);
 }
 
-// The far side of the sphere, or its near one.
+// Returns whether a point is on the far side of the sphere.
 bool isBehind(vec3 direction, const Camera& camera, const Bounds& model) {
     const vec3 point = kSphere * model.radius() * direction;
     return glm::dot(point, camera.eye - model.center() - point) < 0;
@@ -64,13 +64,14 @@ bool LampHandles::take(const InputEvent& event, LightState& light, const Camera&
     return false;
 }
 
-// The handle stays under the cursor; beside the sphere it follows the rim, and comes back on the other side.
+// Keeps the handle under the cursor. Beside the sphere it follows the silhouette; when the cursor returns, it
+// is on the other side.
 void LampHandles::drag(LampChoice& lamp, float rotation, const Camera& camera, const Bounds& model,
                        ivec2 size) {
     const vec3 ray = camera.pixelDirection(int(mCursor.x), int(mCursor.y), size.x, size.y);
     const vec3 toEye = camera.eye - model.center();
     const float radius = kSphere * model.radius();
-    const float along = -glm::dot(toEye, ray); // of the point of the ray that is nearest to the middle
+    const float along = -glm::dot(toEye, ray); // distance along the ray to its point nearest to the center
     const vec3 nearest = toEye + along * ray;
     const float inside = radius * radius - glm::dot(nearest, nearest);
     if (inside >= 0 && mIsOff) mIsBehind = !mIsBehind;
@@ -99,7 +100,7 @@ void LampHandles::draw(const LightState& light, const Camera& camera, const Boun
     constexpr ImU32 kFaint = IM_COL32(160, 160, 160, 90), kShadow = IM_COL32(0, 0, 0, 160);
     const vec3 back = glm::normalize(camera.eye - center);
     const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back));
-    drawCircle(right, glm::cross(back, right), kFaint); // the rim, nearly
+    drawCircle(right, glm::cross(back, right), kFaint); // approximately the silhouette
     drawCircle({1, 0, 0}, {0, 0, 1}, kFaint);           // the horizon
     for (const LampChoice& lamp : light.lamps) {
         const vec3 direction = directionOf(lamp, light.rotation);

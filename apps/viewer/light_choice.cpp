@@ -15,14 +15,14 @@ namespace {
 constexpr double kDegreesPerSecond = 20, kHoursPerSecond = 0.5;
 
 vec3 radianceOf(const LampChoice& lamp) {
-    // Irradiance of a surface that faces it: π sin² radius times its radiance.
+    // Irradiance of a surface facing the lamp is π sin² radius times its radiance.
     const float sine = std::sin(glm::radians(lamp.radius));
     return lamp.brightness / (sine * sine) * lamp.color;
 }
 
 constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
 
-// As a light file has it, to the second.
+// Returns the time as light files have it, to the second.
 std::string timeOf(const DaySkyChoice& choice) {
     int month = 1, day = choice.dayOfYear;
     while (month < 12 && day > kDays[month - 1]) day -= kDays[month++ - 1];
@@ -44,7 +44,7 @@ nlohmann::json listOf(vec3 v) { return {v.x, v.y, v.z}; }
 } // namespace
 
 SunPlace sunPlaceOf(const DaySkyChoice& choice) {
-    constexpr float kNorth = 180; // the default of light files
+    constexpr float kNorth = 180; // default of light files
     const SunPosition sun = sunPosition(parseMoment(timeOf(choice)), double(choice.latitude), 0);
     return {kNorth - float(sun.azimuth), float(sun.elevation)};
 }
@@ -149,7 +149,7 @@ void setLight(LightState& state, const nlohmann::json& light, const std::string&
         set.environmentGain = sky.number("gain", 1, 0, 1e6f);
         set.sky.latitude = sky.requiredNumber("latitude", -90, 90);
         set.sky.turbidity = sky.number("turbidity", 2.5f, 2, 10);
-        // The viewer's clock shows solar time, which is an hour later every 15 degrees to the east.
+        // The viewer's clock shows solar time, which is one hour later per 15 degrees east.
         const float longitude = sky.requiredNumber("longitude", -180, 180);
         const Moment moment = momentOf(sky);
         set.sky.hour = float(moment.hours) + longitude / 15;

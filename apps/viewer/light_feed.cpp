@@ -13,7 +13,7 @@ void LightFeed::want(const std::shared_ptr<MovingLight>& file, double seconds) {
     if (isNewest() || mIsAsked) return;
     mIsAsked = true;
     mWorker.post(
-        "light", // one at a time: nobody else asks the file
+        "light", // one at a time; nothing else reads the file
         [this, moment = mWanted]() -> Worker::Result {
             auto light = std::make_shared<const Light>(moment.file->at(moment.seconds));
             return [this, moment, light] {

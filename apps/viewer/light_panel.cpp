@@ -12,7 +12,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kPanelMapWidth = 25; // lines
+constexpr float kPanelMapWidth = 25; // in lines of text
 constexpr int kThumbnailsPerRow = 4;
 
 void drawLamp(LampChoice& lamp, size_t number, float leastDegrees, std::optional<size_t>& removed) {
@@ -65,7 +65,7 @@ void drawEnvironments(LightState& light, const PanelFacts& facts) {
     }
     if (ImGui::BeginCombo("Environment", light.chosen().name.c_str())) {
         for (size_t i = 0; i < light.environments.size(); i++) {
-            ImGui::PushID(int(i)); // names may be the same
+            ImGui::PushID(int(i)); // names may repeat
             if (ImGui::Selectable(light.environments[i].name.c_str(), i == light.environment))
                 light.environment = i;
             explain(light.environments[i].file.string().c_str());
@@ -86,7 +86,7 @@ void drawSky(DaySkyChoice& sky) {
     explain("Haze: 2 is clear, 10 hazy");
 }
 
-// The light as it was recorded; the brush touches it where the mouse drags.
+// Draws the light as recorded. Dragging on it paints strokes.
 void drawMap(LightState& light, const Brush& b, const PanelFacts& facts) {
     if (!facts.lightMap) return;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -103,7 +103,7 @@ void drawMap(LightState& light, const Brush& b, const PanelFacts& facts) {
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
     const StrokeChoice stroke{std::remainder(angles.azimuth - light.rotation, 360.0f), angles.elevation,
                               b.radius, b.brightness * b.color, b.opacity};
-    // A touch that is hardly beside the last one adds little and counts as much.
+    // A touch close to the last one adds little but would count as another stroke.
     const bool isNew =
         light.strokes.empty() || ImGui::IsMouseClicked(ImGuiMouseButton_Left) ||
         glm::dot(directionAt(light.strokes.back().azimuth, light.strokes.back().elevation),

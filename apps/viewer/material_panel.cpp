@@ -8,7 +8,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kSwatchWidth = 4; // lines
+constexpr float kSwatchWidth = 4; // in lines of text
 constexpr int kSwatchesPerRow = 5;
 
 std::vector<std::string> namesOf(const PartMaterials& group) {
@@ -41,7 +41,7 @@ void drawSwatches(SceneState& state, const PartMaterials& group, const PanelFact
     }
 }
 
-// Sliders of the set that holds what is bound, else of the first that has several materials.
+// Draws blend sliders of the set that holds the bound material, else of the first set with several materials.
 void drawBlend(SceneState& state, const PartMaterials& group) {
     const auto isBound = [&](const std::vector<std::string>& set) {
         return set.size() > 1 &&
@@ -86,7 +86,7 @@ void drawGroup(SceneState& state, const PartMaterials& group, const PanelFacts& 
 void drawMaterialPanel(SceneState& state, const PanelFacts& facts) {
     if (ImGui::RadioButton("as baked", state.material.empty())) state.material.clear();
     explain("M: the next material of the bake");
-    // The picked part's come first.
+    // List the picked part's materials first.
     for (const bool first : {true, false})
         for (const PartMaterials& group : facts.materials)
             if (isPicked(state, group) == first) drawGroup(state, group, facts);

@@ -41,7 +41,7 @@ void drawModelPanel(const PanelFacts& facts, PanelRequests& requests) {
     const auto& recent = facts.content->recent();
     if (!recent.empty() && ImGui::BeginCombo("Recent", "open again")) {
         for (const std::filesystem::path& file : recent) {
-            ImGui::PushID(file.string().c_str()); // names may be the same
+            ImGui::PushID(file.string().c_str()); // names may repeat
             if (ImGui::Selectable(file.filename().string().c_str())) requests.opens = file;
             explain(file.string().c_str());
             ImGui::PopID();

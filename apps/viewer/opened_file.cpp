@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// Three materials that light looks different on, near enough to be seen in each other.
+// Three materials that respond differently to light, close enough to be reflected in each other.
 constexpr std::string_view kSceneText = R"({
   "parts": [
     {"name": "knot", "mesh": "knot", "material": "gold", "rotate": [75, 20, 0], "translate": [0, 0.93, 0]},
@@ -28,7 +28,7 @@ constexpr std::string_view kSceneText = R"({
 }
 )";
 
-// Whatever text of a scene is a file's name, with that file's date.
+// Returns the names and dates of the files that a scene's text refers to.
 std::string datesOf(const json& value, const std::filesystem::path& folder) {
     std::string dates;
     if (value.is_string()) {
@@ -79,7 +79,7 @@ std::filesystem::path writeBuiltInScene() {
     const std::filesystem::path file = cacheFolder() / fmt::format("{}.json", kBuiltInScene);
     const auto scene = std::as_bytes(std::span(kSceneText));
     std::error_code failure;
-    // Its date decides whether its bake is still its own.
+    // Write only what has changed: the file's date decides whether its bake is up to date.
     if (!std::filesystem::exists(file, failure) || !std::ranges::equal(readFile(file), scene))
         writeFileAtomically(file, scene);
     return file;

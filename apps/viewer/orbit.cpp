@@ -7,9 +7,9 @@ namespace relume {
 
 namespace {
 
-constexpr float kSteepest = 1.5620697f; // 89.5 degrees
+constexpr float kSteepest = 1.5620697f; // 89.5 degrees in radians
 
-// Towards the eye, and the image's axes.
+// Axes of the view: towards the eye, and the image's right and up.
 struct Axes {
     vec3 back, right, up;
 };

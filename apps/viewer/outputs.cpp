@@ -112,7 +112,7 @@ void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& scr
     if (file.extension() != ".exr") return writePng(file, screen);
     if (!model) throw Error(fmt::format("{}: nothing is shown yet", file.string()));
     writeExr(file, model->view.read());
-    if (state.inspect != Inspect::Off || model->isSketch) return; // no command draws it
+    if (state.inspect != Inspect::Off || model->isSketch) return; // no command draws these
     std::filesystem::path light = file;
     light.replace_extension(".light.json");
     if (needsLightFile(state.light)) writeJsonFile(light, lightFileOf(state.light));

@@ -7,7 +7,7 @@ namespace relume {
 
 std::optional<std::filesystem::path> saveButton(const char* label, const char* explanation,
                                                 const std::string& proposed) {
-    static std::array<char, 4096> name; // of the one prompt that is open
+    static std::array<char, 4096> name; // of the one open prompt
     if (ImGui::Button(label)) {
         std::strncpy(name.data(), proposed.c_str(), name.size() - 1);
         ImGui::OpenPopup(label);

@@ -11,7 +11,7 @@ namespace relume {
 namespace {
 
 constexpr int kThumbnailWidth = 128, kSwatchSide = 64;
-constexpr auto kBetweenLights = std::chrono::milliseconds(250); // while the light moves
+constexpr auto kBetweenLights = std::chrono::milliseconds(250); // between updates while the light moves
 
 Image thumbnailOf(const EnvironmentChoice& choice, const DaySkyChoice& day) {
     constexpr int kHeight = kThumbnailWidth / 2;
@@ -82,7 +82,7 @@ void PanelPictures::updateSwatches(const std::shared_ptr<Model>& model) {
                             mHasNews = true;
                         };
                     },
-                    [](const std::string&) {}); // measured data that is gone: its name will do
+                    [](const std::string&) {}); // measured data may be missing; the name suffices then
             }
 }
 
@@ -113,7 +113,7 @@ void PanelPictures::updateWhy(const SceneState& state, const std::shared_ptr<Mod
     const Asset& asset = model->asset;
     if (mAsked->model != model->file || mAsked->part >= asset.parts.size() ||
         mAsked->vertex >= asset.parts[mAsked->part].mesh.vertexCount())
-        return stopAsking(); // another model
+        return stopAsking(); // it was of another model
     mAsked->version = view.viewVersion();
     mWorker.post(
         "asking why",

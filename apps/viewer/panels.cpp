@@ -9,7 +9,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kPanelWidth = 27; // lines
+constexpr float kPanelWidth = 27; // in lines of text
 
 bool beginSection(const char* name, bool& isOpen) {
     ImGui::SetNextItemOpen(isOpen);
@@ -68,7 +68,7 @@ void drawTask(const Task& task, PanelRequests& requests) {
     explain("What is baked is kept for the next time");
 }
 
-// At the lower edge: a bake's progress, what is read, what happened.
+// Draws the status at the lower edge: a bake's progress, files being read, notices.
 void drawStatus(const PanelFacts& facts, PanelRequests& requests) {
     const Task task = facts.content->task();
     if (task.title.empty() && facts.notice.empty()) return;

@@ -10,12 +10,12 @@ namespace relume {
 
 namespace {
 
-constexpr int kGap = 1; // between pictures, as the texture is filtered
+constexpr int kGap = 1; // between pictures, since the texture is filtered
 constexpr int kWidth = 1024 + 16 * kGap, kHeight = 1024;
 
 static_assert(IMGUI_VERSION_NUM < 18800, "from 1.88 on pictures are ImGui_ImplVulkan_AddTexture()'s");
 
-// The backend's own name for its texture is the image.
+// Returns the image of ImGui's font texture, whose ID is the image's handle.
 VkImage textureOf(const ImFontAtlas& fonts) { return reinterpret_cast<VkImage>(fonts.TexID); }
 
 VkImageMemoryBarrier barrierOf(VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,

@@ -17,7 +17,7 @@ constexpr size_t kMostBytes = 1 << 20, kMostFiles = 64;
 
 std::filesystem::path habitsFile() { return stateFolder() / "viewer.json"; }
 
-// Of an object; null: it is not there.
+// Returns a member of an object; null if it is missing.
 json memberOf(const json& object, const char* name) { return object.value(name, json()); }
 
 std::vector<std::filesystem::path> filesOf(const json& list) {

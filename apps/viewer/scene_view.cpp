@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-// Of a difference that the hottest color stands for, where 1 is what a display shows as white.
+// Difference that the hottest color shows, where 1 is displayed as white.
 constexpr float kHottest = 0.25f;
 
 } // namespace
@@ -63,7 +63,7 @@ void SceneView::record(vk::Commands& commands, SceneState& state, const std::sha
 }
 
 void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
-    // The same object stays where it is, another one is looked at as a whole.
+    // Keep the camera for the same object; show all of another one.
     const float slack = 1e-3f * model->bounds.radius();
     const bool isSame = mModel && glm::distance(mModel->bounds.low, model->bounds.low) < slack &&
                         glm::distance(mModel->bounds.high, model->bounds.high) < slack;
@@ -93,7 +93,7 @@ void SceneView::bindChosen(SceneState& state) {
         return;
     }
     mBound = state.material;
-    // Another set's tuples are of the light before.
+    // Another set's tuples are of an earlier light.
     const bool isRelit =
         !std::ranges::equal(appearance, mModel->appearance, {}, &PartAppearance::set, &PartAppearance::set);
     mModel->appearance = std::move(appearance);
@@ -107,7 +107,7 @@ void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
     if (light.file) mFeed.want(light.file, light.seconds);
     if (light.file && !mFeed.light() && mFeed.isNewest()) light.file.reset(); // it cannot be read
     const std::shared_ptr<const Light> fromFile = light.file ? mFeed.light() : nullptr;
-    // The light before, until the one chosen is there.
+    // Keep the previous light until the chosen one is ready.
     if (light.file ? !fromFile : !light.isReady()) return;
     if (mLit && mLitFile == fromFile && lightsAlike(*mLit, light)) return;
     mLight = fromFile ? *fromFile : lightOf(light);
@@ -130,7 +130,7 @@ void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec
                         mSeen->terms == now.terms && mSeen->addsResidual == now.addsResidual &&
                         mSeen->inspect == now.inspect && mSeen->fadesGround == now.fadesGround;
     if (isSame && mSeen->samples == now.samples) return;
-    // While things move edges may be jagged: what stays is drawn again, with all samples.
+    // Edges may be jagged while things move; a still view is drawn again with all samples.
     if (!isSame && !isFinal) now.samples = 1;
     const vk::ImageOptions& options = mModel->view.image().options();
     if (ivec2(int(options.width), int(options.height)) != size) mModel->view.resize(size.x, size.y);
@@ -169,7 +169,7 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
 }
 
 bool SceneView::fadesGround(const SceneState& state) const {
-    // The reference has all of it.
+    // The reference shows all of the ground.
     return mModel && mModel->groundFade && state.fadesGround && state.background != Behind::None &&
            state.inspect == Inspect::Off && !compares(state);
 }

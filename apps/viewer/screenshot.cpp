@@ -14,7 +14,7 @@ double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
 nlohmann::json listOf(vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 
-// For a shell.
+// Quotes text for a shell.
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -65,7 +65,7 @@ nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, 
         if (fadesGround) options["ground-fade"] = true;
         return options;
     }
-    const bool isSeen = state.background == Behind::Environment; // the default of .png
+    const bool isSeen = state.background == Behind::Environment; // default of .png
     options["exposure"] = shortest(state.exposure);
     options["tone"] = kToneNames[size_t(state.tone)];
     if (!isSeen) options["background"] = "none";
@@ -78,7 +78,7 @@ std::string renderCommand(const nlohmann::ordered_json& options, const std::file
                           int height, Drawn drawn) {
     std::string command = fmt::format("relume render {} -o image.{} --size {}x{}", quoted(bake.string()),
                                       drawn == Drawn::Picture ? "png" : "exr", width, height);
-    // Numbers follow a =, as they may begin with a minus.
+    // Numbers follow a "=", since they may begin with a minus sign.
     const auto textOf = [](const nlohmann::json& value) {
         return value.is_string() ? ' ' + quoted(value.get<std::string>())
                                  : fmt::format("={}", value.get<double>());

@@ -23,7 +23,7 @@ const std::map<std::string, int>& buttons() {
     return all;
 }
 
-// "shift+left": what is held, and what is pressed.
+// Splits text such as "shift+left" into the key or button and its modifiers.
 std::pair<std::string, int> splitModifiers(std::string text) {
     int modifiers = 0;
     const std::pair<const char*, int> known[] = {{"shift+", GLFW_MOD_SHIFT}, {"ctrl+", GLFW_MOD_CONTROL}};
@@ -39,7 +39,7 @@ std::pair<std::string, int> splitModifiers(std::string text) {
     return {text, modifiers};
 }
 
-// A letter, a digit, a sign, F1 to F12, Enter, Space, Tab.
+// Returns the key of a name: a letter, a digit, a sign, F1 to F12, Enter, Space or Tab.
 int keyOf(const std::string& name) {
     if (name.size() == 1 && name[0] >= 'A' && name[0] <= 'Z') return GLFW_KEY_A + (name[0] - 'A');
     if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
@@ -78,7 +78,7 @@ void checkWait(const json& wait) {
             kMostSeconds, wait.dump()));
 }
 
-// Throws unless a step is one action with what belongs to it, in numbers that there are.
+// Throws unless a step is one action with valid parameters.
 void checkStep(const json& step) {
     static const std::map<std::string, std::set<std::string>> kActions = {
         {"click", {}}, {"double-click", {}}, {"drag", {"from", "by", "over"}},
@@ -142,7 +142,7 @@ bool Script::run(ScriptTarget& target, const json& step) {
     const bool isFirst = mFrame++ == 0;
     if (step.contains("frames")) return mFrame > step["frames"].get<int>();
     if (step.contains("wait")) return hasWaited(target, step["wait"]);
-    // What takes one frame: done in it, over with the next.
+    // The other actions take one frame: they run in the first, and the next step follows.
     if (!isFirst) return true;
     if (step.contains("set")) {
         for (const auto& [name, value] : step["set"].items()) target.set(name, value);
@@ -175,7 +175,7 @@ bool Script::run(ScriptTarget& target, const json& step) {
     return false;
 }
 
-// Until all is settled, so many passes of the reference are there, or so many seconds have passed.
+// Returns whether all is settled, enough passes of the reference are done, or enough seconds have passed.
 bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
     if (mFrame == 1) mWaitsSince = std::chrono::steady_clock::now();
     if (wait == "settled") return target.isSettled();
@@ -186,7 +186,7 @@ bool Script::hasWaited(const ScriptTarget& target, const json& wait) {
     return target.comparedPasses() >= wait["passes"].get<int>();
 }
 
-// Pressed at `from`, moved by an equal part of `by` in each of `over` frames, released.
+// Presses at `from`, moves by an equal part of `by` in each of `over` frames, then releases.
 bool Script::drag(ScriptTarget& target, const json& step) {
     const auto [name, modifiers] = splitModifiers(step["drag"].get<std::string>());
     const auto button = buttons().find(name);

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 
 constexpr float kLargest = 1e6f, kMostDegrees = 1e6f, kMostWeight = 1e9f;
 
-// One of `names`, in the order of an enumeration.
+// Reads one of `names`, which are in the order of an enumeration.
 template <typename Choice>
 Choice choiceOf(const JsonObject& object, const char* key, Choice fallback,
                 std::initializer_list<std::string_view> names, std::string_view expected) {
@@ -36,7 +36,7 @@ int wholeOf(const JsonObject& object, const char* key, int fallback, int low, in
     return int(number);
 }
 
-// A name, or several with their weights: "gold=0.5".
+// Reads material names, with optional weights: "gold=0.5".
 std::vector<WeightedMaterial> materialOf(const JsonObject& object) {
     std::vector<WeightedMaterial> material;
     if (!object.find("material")) return material;
@@ -90,7 +90,7 @@ nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, cons
     if (!input.empty()) session["model"] = input.string();
     session["size"] = fmt::format("{}x{}", size.x, size.y);
     session.update(renderOptions(state, fadesGround, Drawn::Picture));
-    if (fadesGround) session["ground-fade"] = true; // whatever the image's default is
+    if (fadesGround) session["ground-fade"] = true; // regardless of the image's default
     if (state.light.file)
         session["light"] = std::filesystem::absolute(state.light.fileName).string();
     else if (needsLightFile(state.light))

@@ -31,12 +31,12 @@ vec3 colorOf(const std::string& name, const json& value, float high) {
 struct Setting {
     std::string name;
     std::function<void(SceneState&, const json&)> set;
-    std::function<json(const SceneState&)> get = nullptr; // null: not kept for the next time
+    std::function<json(const SceneState&)> get = nullptr; // null: not saved
 };
 
 constexpr bool kKept = true;
 
-// A member of the state, or of its light.
+// Returns a member of the state, or of its light.
 template <typename State, typename Owner, typename Value>
 auto& memberOf(State& state, Value Owner::*member) {
     if constexpr (std::is_same_v<Owner, LightState>)
@@ -45,7 +45,7 @@ auto& memberOf(State& state, Value Owner::*member) {
         return state.*member;
 }
 
-// A member that `read` makes of a value, by the setting's name.
+// Makes a setting for a member; `read` converts a value, given the setting's name.
 template <typename Owner, typename Value, typename Read>
 Setting ofMember(const std::string& name, Value Owner::*member, bool isKept, Read read) {
     Setting setting{
@@ -70,7 +70,7 @@ Setting flag(const std::string& name, bool Owner::*member, bool isKept = false) 
     });
 }
 
-// One of `names`, in the order of an enumeration.
+// Makes a setting that is one of `names`, in the order of an enumeration.
 template <typename Owner, typename Choice>
 Setting choice(const std::string& name, Choice Owner::*member, const std::vector<std::string>& names,
                bool isKept = false) {
@@ -87,7 +87,7 @@ Setting choice(const std::string& name, Choice Owner::*member, const std::vector
     return setting;
 }
 
-// Calls `read` with every key of an object.
+// Calls `read` with every key and value of an object; throws if it returns false.
 template <typename Read>
 void forEachKey(const std::string& name, const json& object, Read read) {
     if (!object.is_object())
@@ -163,7 +163,7 @@ void setThreshold(SceneState& state, const json& value) {
     state.light.selection = {.threshold = int(numberOf("threshold", value, 0, float(kLightMaximum)))};
 }
 
-// 0: by threshold.
+// Sets the number of light entries; 0 selects by threshold.
 void setCoefficients(SceneState& state, const json& value) {
     const int count = int(numberOf("coefficients", value, 0, float(kMaximumLightEntries)));
     LightSelection& selection = state.light.selection;
@@ -184,7 +184,7 @@ void setSamples(SceneState& state, const json& value) {
     state.samples = value.get<int>();
 }
 
-// A name, "" for what was baked, or weights by name.
+// Sets the material: a name, "" for what was baked, or weights by name.
 void setMaterial(SceneState& state, const json& value) {
     std::vector<WeightedMaterial> blend;
     if (value.is_string() && value != "") blend.push_back({value.get<std::string>()});
@@ -261,7 +261,7 @@ const std::vector<Setting>& settings() {
     return all;
 }
 
-// True: it was one of the camera.
+// Applies a setting of the camera; returns false if it is not one.
 bool applyToCamera(SceneState& state, const std::string& name, const json& value, const Bounds* model) {
     if (name != "azimuth" && name != "elevation" && name != "distance" && name != "fov") return false;
     if (!model) throw Error(fmt::format("\"{}\": nothing is shown yet; \"wait\" for it", name));

@@ -27,26 +27,26 @@ std::filesystem::path shaderFolder() {
 
 namespace {
 
-constexpr size_t kMostBytes = 1 << 20; // of a source
-constexpr size_t kMostNested = 32;     // includes
+constexpr size_t kMostBytes = 1 << 20; // per source
+constexpr size_t kMostNested = 32;     // depth of includes
 
 std::string readText(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path, kMostBytes);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Finds includes beside the file that asks, then from the root.
+// Finds includes next to the including file, then from the root.
 class Includer : public glslang::TShader::Includer {
   public:
     explicit Includer(std::filesystem::path root) : mRoot(std::move(root)) {}
 
-    // Null: not found, which the compiler reports with file and line.
+    // Returns null if there is none; the compiler reports that with file and line.
     IncludeResult* includeLocal(const char* name, const char* from, size_t depth) override {
         if (depth > kMostNested) return nullptr;
         for (const auto& path : {std::filesystem::path(from).parent_path() / name, mRoot / name}) {
             std::error_code failure;
             if (!std::filesystem::is_regular_file(path, failure)) continue;
-            try { // no exception may pass through the compiler
+            try { // exceptions must not pass through the compiler
                 auto text = std::make_unique<std::string>(readText(path));
                 auto* result = new IncludeResult(path.string(), text->data(), text->size(), text.get());
                 text.release();
@@ -81,7 +81,7 @@ EShLanguage stageOf(const std::filesystem::path& source) {
     throw Error(fmt::format("{}: expected a shader that ends in .comp, .vert or .frag", source.string()));
 }
 
-// The errors in the compiler's log, a line each: "FILE:LINE: …".
+// Returns the errors in the compiler's log, one per line: "FILE:LINE: …".
 std::string errorsIn(const std::string& log) {
     constexpr std::string_view kPrefix = "ERROR: ";
     std::istringstream lines(log);
@@ -107,7 +107,7 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source,
     const int lengths[] = {int(text.size())};
     const char* const names[] = {name.c_str()};
 
-    // As shaders/CMakeLists.txt: glslangValidator -V --target-env vulkan1.3 -I…
+    // Options as in shaders/CMakeLists.txt: glslangValidator -V --target-env vulkan1.3 -I…
     glslang::TShader shader(stage);
     shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
     std::string preamble;

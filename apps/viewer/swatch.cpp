@@ -12,7 +12,7 @@ namespace relume {
 
 namespace {
 
-constexpr int kLightSize = 12; // texels a side of the cube that lights it
+constexpr int kLightSize = 12; // texels per side of the cube that lights it
 
 struct Ray {
     vec3 direction, energy;

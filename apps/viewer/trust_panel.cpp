@@ -8,16 +8,16 @@ namespace relume {
 
 namespace {
 
-constexpr float kCrossWidth = 12; // lines
+constexpr float kCrossWidth = 12; // in lines of text
 
 void drawDot(vec3 value) { text(fmt::format("{:9.4f} {:9.4f} {:9.4f}", value.x, value.y, value.z)); }
 
-// A window at the lower edge, so many lines from the right one.
+// Begins a window at the lower edge, `fromRight` lines of text from the right edge.
 bool beginAtRight(const char* name, bool& isOpen, float fromRight = 0.5f) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x - fromRight * line(), size.y - 0.5f * line()}, ImGuiCond_FirstUseEver,
                             {1, 1});
-    ImGui::SetNextWindowBgAlpha(1); // other panels may be behind
+    ImGui::SetNextWindowBgAlpha(1); // other panels may be behind it
     return ImGui::Begin(name, &isOpen,
                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
 }

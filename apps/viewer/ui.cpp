@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-// Draws over what is there. ImGui's backend knows no dynamic rendering.
+// Makes a render pass that draws over the image, since ImGui's backend does not support dynamic rendering.
 VkRenderPass makeRenderPass(const vk::Device& device, VkFormat format) {
     VkAttachmentDescription color{};
     color.format = format;
@@ -56,7 +56,7 @@ Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swap
       mDescriptors(makeDescriptorPool(device)), mRenderPass(makeRenderPass(device, swapchain.format())) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // Settings keep what is worth keeping
+    io.IniFilename = nullptr; // the viewer saves its own preferences
     io.LogFilename = nullptr;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     ImFontConfig font;
@@ -153,9 +153,9 @@ void Ui::setDark(bool dark) {
     style.WindowRounding = 4;
     style.FrameRounding = 3;
     style.Colors[ImGuiCol_WindowBg].w = 0.92f;
-    const float gray = dark ? 0.62f : 0.4f; // hints are to be read as well
+    const float gray = dark ? 0.62f : 0.4f; // hints must be legible, too
     style.Colors[ImGuiCol_TextDisabled] = {gray, gray, gray, 1};
-    style.Colors[ImGuiCol_SliderGrab].w = 0.5f; // numbers are written over it
+    style.Colors[ImGuiCol_SliderGrab].w = 0.5f; // numbers are drawn over it
     style.Colors[ImGuiCol_SliderGrabActive].w = 0.7f;
     style.ScaleAllSizes(mScale);
     ImGui::GetStyle() = style;

@@ -11,11 +11,11 @@ namespace relume {
 
 namespace {
 
-constexpr float kGray = 0.35f; // of the environment behind what is colored
+constexpr float kGray = 0.35f; // brightness of the environment behind colors
 
 float mean(vec3 v) { return (v.x + v.y + v.z) / 3; }
 
-// What all but the largest hundredth stay below.
+// Returns the 99th percentile of the texels' mean over channels.
 float brightestOf(const LightCube& cube) {
     std::vector<float> values;
     for (const vec3& texel : cube.radiance) values.push_back(mean(texel));
@@ -30,7 +30,7 @@ LightCube scaled(const LightCube& cube, float factor) {
     return result;
 }
 
-// Black where it is blocked, transparent below the horizon.
+// Draws visibility: black where it is blocked, transparent below the horizon.
 Image visibilityPicture(const std::vector<float>& visibility, int size, vec3 normal) {
     LightCube open{size, {}}, above{size, {}};
     for (int face = 0; face < kCubeFaces; face++)
@@ -46,7 +46,7 @@ Image visibilityPicture(const std::vector<float>& visibility, int size, vec3 nor
     return picture;
 }
 
-// What reaches the eye, over the light itself.
+// Draws what each direction contributes to the radiance, over the light itself.
 Image contributionsPicture(const LightCube& light, const LightCube& transport) {
     LightCube contributions = transport;
     for (size_t i = 0; i < light.radiance.size(); i++)

@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-// GLFW's account of what went wrong.
+// Returns GLFW's description of its last error.
 std::string lastError() {
     const char* text = nullptr;
     glfwGetError(&text);

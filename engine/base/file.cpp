@@ -62,13 +62,14 @@ void FileReader::read(uint64_t offset, std::span<std::byte> bytes) const {
     }
 }
 
-// Returns the message for a file on which a call has just failed, from errno.
+// Returns the message for a file on which a call has just failed; the reason is in errno.
 static std::string unwritten(const std::filesystem::path& path) {
     return fmt::format("{}: cannot be written: {}; make room, or name a file elsewhere", path.string(),
                        std::strerror(errno));
 }
 
-// The file that writing `path` replaces: a symbolic link's target. Refuses what is no regular file.
+// Returns the file that writing `path` replaces: a symbolic link's target, else `path`. Throws if it is not a
+// regular file.
 static std::filesystem::path replacedFile(std::filesystem::path path) {
     std::error_code failure;
     const auto status = std::filesystem::status(path, failure);
@@ -90,7 +91,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : mPath(replacedFile(std::mov
         throw Error(fmt::format("{}: cannot be written: {}; is its folder there and writable?",
                                 mPath.string(), std::strerror(errno)));
     mTemporary = pattern;
-    // mkstemp makes private files; the result gets the permissions that any new file would have.
+    // mkstemp() makes private files; give this one the permissions of any new file.
     const mode_t mask = umask(0);
     umask(mask);
     (void)fchmod(mDescriptor, 0666 & ~mask);
@@ -121,14 +122,14 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 }
 
 void AtomicFile::commit() {
-    // A library may have replaced the temporary file by name: flush the file that carries the name now.
+    // A library may have replaced the temporary file, so flush whichever file has its name now.
     const int current = open(mTemporary.c_str(), O_RDONLY);
     const bool flushed = current >= 0 && fsync(current) == 0;
     if (current >= 0) close(current);
     if (!flushed || rename(mTemporary.c_str(), mPath.c_str()) != 0) throw Error(unwritten(mPath));
     close(mDescriptor);
     mDescriptor = -1;
-    // The new name outlives a crash of the machine only once its folder is on the disk.
+    // A new name survives a crash of the machine only once its folder has been flushed.
     const int directory = open(folderOf(mPath).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory < 0) return;
     (void)fsync(directory);
@@ -136,8 +137,8 @@ void AtomicFile::commit() {
 }
 
 void expectWritable(const std::filesystem::path& path) {
-    // A file without a name leaves nothing behind even if the process is killed now; not every file system
-    // has such.
+    // An unnamed temporary file leaves nothing behind even if the process is killed now. Not every file
+    // system supports one.
     const int probe = open(folderOf(replacedFile(path)).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (probe >= 0)
         close(probe);

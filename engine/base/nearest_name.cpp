@@ -27,7 +27,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> names) {
     RELUME_CHECK(!names.empty());
-    // What is longer than any name is as far from all of them: no need to read a hostile megabyte.
+    // Truncate: beyond the length of any name all distances rank alike, and the text may be hostile and huge.
     const std::string_view start = name.substr(0, 64);
     return *std::min_element(names.begin(), names.end(), [&](std::string_view a, std::string_view b) {
         return editDistance(start, a) < editDistance(start, b);

@@ -64,7 +64,7 @@ void Progress::update(const State& state) {
 
 void Progress::setTitle(std::string_view title) {
     mTitle = printable(title);
-    if (mQuiet || !mTerminal || mLineOpen) return; // a bar shows it when it is drawn next
+    if (mQuiet || !mTerminal || mLineOpen) return; // a bar shows the title when it is next drawn
     fmt::print(stderr, "\r{}\033[K", mTitle);
     std::fflush(stderr);
     mTitleOpen = true;

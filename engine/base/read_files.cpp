@@ -8,7 +8,7 @@ namespace relume {
 
 namespace {
 
-std::mutex gMutex; // of all below, and of the paths that are collected
+std::mutex gMutex; // guards gCollector and the paths that it collects
 ReadFiles* gCollector = nullptr;
 
 } // namespace

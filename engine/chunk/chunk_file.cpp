@@ -18,8 +18,7 @@ constexpr std::array<char, 8> kMagic = {'R', 'E', 'L', 'U', 'M', 'E', '\r', '\n'
 constexpr size_t kHeaderBytes = 32, kEntryBytes = 48;
 constexpr size_t kHeaderChecksumOffset = 24;
 
-// Level 1: the planes of our chunks hold little but entropy, so that higher levels gain 1 % for half the
-// speed.
+// Level 1: chunks are nearly incompressible beyond that; higher levels save 1 % and halve the speed.
 constexpr int kCompressionLevel = 1;
 
 bool withinRatio(uint64_t raw, uint64_t stored) {
@@ -53,14 +52,14 @@ ChunkEntry getEntry(ByteReader& in, const std::string& name) {
     return entry;
 }
 
-// Of the header before its checksum and of the table behind it.
+// Returns the checksum of the header, up to its own checksum field, and of the table.
 uint64_t headerChecksum(std::span<const std::byte> header, std::span<const std::byte> table) {
     std::vector<std::byte> both(header.begin(), header.begin() + kHeaderChecksumOffset);
     both.insert(both.end(), table.begin(), table.end());
     return hash64(both);
 }
 
-// A chunk in words, for messages.
+// Describes a chunk for messages.
 std::string chunkText(ChunkTag tag, uint32_t owner) {
     return owner == kWholeFile ? fmt::format("chunk {} of the file", tagText(tag))
                                : fmt::format("chunk {} of part or set {}", tagText(tag), owner);
@@ -214,7 +213,7 @@ void ChunkFile::readTable(uint32_t expectedVersion) {
     for (uint32_t i = 0; i < count; i++) mEntries.push_back(getEntry(rows, mName));
 }
 
-// Chunks lie end to end, so that none can be counted twice and nothing hides between them.
+// Chunks must lie end to end, so that none is counted twice and nothing is hidden between them.
 void ChunkFile::checkEntry(const ChunkEntry& entry, uint64_t expectedOffset,
                            std::vector<std::byte>& room) const {
     const std::string tag = tagText(entry.tag);

@@ -1,4 +1,4 @@
-// Constants are those of the paper (see the header) and of its authors' reference implementation.
+// Constants are from the paper (see the header) and its authors' reference implementation.
 #include "engine/image/flip.h"
 
 #include "engine/base/check.h"
@@ -18,7 +18,7 @@ constexpr float kPixelsPerDegree = 67;
 
 float decodeSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
-// Columns: XYZ of the sRGB primaries, each row divided by its sum, so that white is (1, 1, 1).
+// Converts linear sRGB to XYZ. Each row is divided by its sum, so that white is (1, 1, 1).
 const mat3 kRgbToXyz = [] {
     mat3 m(0.4124564f, 0.2126729f, 0.0193339f, 0.3575761f, 0.7151522f, 0.1191920f, 0.1804375f, 0.0721750f,
            0.9503041f);
@@ -35,7 +35,8 @@ vec3 xyzOfOpponent(vec3 opponent) {
     return {y + opponent.y / 500, y, y - opponent.z / 200};
 }
 
-// L*a*b* is the opponent space of the cube root; Hunt: colors matter less in the dark.
+// Returns Hunt-adjusted L*a*b*: L*a*b* whose a* and b* are scaled by lightness, since colors matter less in
+// the dark.
 vec3 huntLabOfRgb(vec3 rgb) {
     vec3 root = kRgbToXyz * rgb;
     for (int c = 0; c < 3; c++) {
@@ -47,13 +48,13 @@ vec3 huntLabOfRgb(vec3 rgb) {
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
 }
 
-// HyAB distance: city-block in lightness, Euclidean in color.
+// Returns the HyAB distance: city-block in lightness, Euclidean in color.
 float hyab(vec3 a, vec3 b) {
     const vec3 difference = a - b;
     return std::abs(difference.x) + std::hypot(difference.y, difference.z);
 }
 
-// --- Separable filters; pixels beyond the border repeat the border.
+// --- Separable filters. Beyond the border the image repeats its border pixels.
 
 struct Plane {
     int width, height;
@@ -62,7 +63,7 @@ struct Plane {
 
 using Kernel = std::vector<float>; // 2 · radius + 1 weights
 
-// One pass over `plane`, along rows (dx = 1, dy = 0) or columns.
+// Filters along rows (dx = 1, dy = 0) or columns (dx = 0, dy = 1).
 Plane filterAlong(const Plane& plane, const Kernel& kernel, int dx, int dy) {
     const int radius = int(kernel.size()) / 2;
     Plane result = plane;
@@ -99,7 +100,7 @@ float sumOf(const Kernel& kernel) {
 
 // --- Color pipeline.
 
-// A Gaussian of a contrast sensitivity function, a √(π / b) exp(-π² x² / b) with x in degrees.
+// Gaussian of a contrast sensitivity function: a √(π / b) exp(-π² x² / b), x in degrees.
 struct Sensitivity {
     float a, b;
 };
@@ -114,7 +115,7 @@ Kernel sensitivityKernel(float b) {
     });
 }
 
-// Filters by the sum of the given Gaussians, normalized to a sum of 1.
+// Filters by the sum of the given Gaussians, normalized to a total weight of 1.
 Plane filterBySensitivity(const Plane& plane, std::initializer_list<Sensitivity> terms) {
     Plane result{plane.width, plane.height, std::vector<float>(plane.values.size(), 0.0f)};
     float total = 0;
@@ -129,7 +130,7 @@ Plane filterBySensitivity(const Plane& plane, std::initializer_list<Sensitivity>
     return result;
 }
 
-// What of the image the eye resolves, in Hunt-adjusted L*a*b*.
+// Returns what the eye resolves of an image, in Hunt-adjusted L*a*b*.
 std::vector<vec3> perceivedColors(const std::array<Plane, 3>& opponent) {
     const Plane achromatic = filterBySensitivity(opponent[0], {kAchromatic});
     const Plane redGreen = filterBySensitivity(opponent[1], {kRedGreen});
@@ -143,7 +144,8 @@ std::vector<vec3> perceivedColors(const std::array<Plane, 3>& opponent) {
     return colors;
 }
 
-// The distance with its exponent, stretched so that 0.4 of the largest becomes 0.95.
+// Returns a color error: the HyAB distance to the power 0.7, remapped so that 0.4 of the largest becomes
+// 0.95.
 float colorError(vec3 a, vec3 b) {
     constexpr float kExponent = 0.7f, kKnee = 0.4f, kKneeError = 0.95f;
     static const float largest =
@@ -156,7 +158,7 @@ float colorError(vec3 a, vec3 b) {
 
 // --- Feature pipeline.
 
-// Positive weights sum to 1, negative ones to -1.
+// Scales positive weights to sum to 1, negative ones to sum to -1.
 Kernel normalizeBySign(Kernel kernel) {
     float positive = 0, negative = 0;
     for (float weight : kernel) (weight > 0 ? positive : negative) += std::abs(weight);
@@ -164,7 +166,8 @@ Kernel normalizeBySign(Kernel kernel) {
     return kernel;
 }
 
-// Magnitudes of the filter that is `across` in one direction and a Gaussian in the other.
+// Returns the magnitude of the responses to a filter that is `across` along one axis and the Gaussian `along`
+// along the other.
 std::vector<float> featureStrength(const Plane& plane, const Kernel& across, const Kernel& along) {
     const Plane x = filterSeparably(plane, across, along), y = filterSeparably(plane, along, across);
     std::vector<float> strength(plane.values.size());
@@ -176,7 +179,8 @@ struct Features {
     std::vector<float> edges, points;
 };
 
-// First and second derivatives of a Gaussian of 0.082 degrees from peak to trough.
+// Detects edges and points by the first and second derivatives of a Gaussian. The first derivative is 0.082
+// degrees wide from peak to trough.
 Features detectFeatures(Plane opponentY) {
     for (float& value : opponentY.values) value = (value + 16) / 116;
     const float deviation = 0.5f * 0.082f * kPixelsPerDegree;

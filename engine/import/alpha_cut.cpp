@@ -16,13 +16,13 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr size_t kMostAddedTriangles = 200'000;
-constexpr int kMostRounds = 24;         // halvings of an edge
+constexpr int kMostRounds = 24;         // rounds of edge halving
 constexpr double kLeastTolerance = 0.5; // texels
 constexpr double kSnap = 0.1;           // texels: a cut this near to a vertex goes through it
-constexpr double kMostTiles = 64;       // repetitions of the texture on a triangle that are looked at
-constexpr int kMostCells = 1 << 16;     // looked at for one triangle; one that needs more is split
+constexpr double kMostTiles = 64;       // most repetitions of the texture on a triangle that are examined
+constexpr int kMostCells = 1 << 16;     // most cells examined per triangle; beyond that it is split
 
-// The lowest and the highest alpha of squares of texels of side 1, 2, 4 and so on.
+// Pyramid of the lowest and highest alpha in squares of 1, 2, 4, … texels a side.
 class AlphaPyramid {
   public:
     struct Range {
@@ -69,7 +69,7 @@ class AlphaPyramid {
     std::vector<Level> mLevels;
 };
 
-// A function of the plane that is linear: at(p) = slope · p + offset.
+// Linear function of the plane: at(p) = slope · p + offset.
 struct Linear {
     dvec2 slope = dvec2(0);
     double offset = 0;
@@ -82,8 +82,7 @@ struct Linear {
     double least(dvec2 low, dvec2 high) const { return -Linear{-slope, -offset}.greatest(low, high); }
 };
 
-// Returns the function that is 0 on the line through a and b, and elsewhere the distance from it, positive on
-// the side of `inside`.
+// Returns the signed distance from the line through a and b, positive on the side of `inside`.
 Linear distanceFrom(dvec2 a, dvec2 b, dvec2 inside) {
     const dvec2 along = b - a;
     const double length = glm::length(along);
@@ -93,7 +92,7 @@ Linear distanceFrom(dvec2 a, dvec2 b, dvec2 inside) {
     return line.at(inside) < 0 ? Linear{-line.slope, -line.offset} : line;
 }
 
-// Edges of triangles, each once, by the numbers of their vertices, the lower first.
+// Set of undirected edges, each given by its vertex indices in ascending order.
 class EdgeSet {
   public:
     using Edge = std::array<uint32_t, 2>;
@@ -114,7 +113,7 @@ class EdgeSet {
     std::vector<Edge> mEdges;
 };
 
-// Adds a vertex on the straight line between two others.
+// Adds a vertex on the straight line from `a` to `b`, at `share` of its length.
 uint32_t addBetween(Mesh& mesh, uint32_t a, uint32_t b, double share) {
     const auto add = [&](auto& values) {
         if (!values.empty()) values.push_back(glm::mix(values[a], values[b], float(share)));
@@ -123,7 +122,7 @@ uint32_t addBetween(Mesh& mesh, uint32_t a, uint32_t b, double share) {
     return uint32_t(mesh.vertexCount() - 1);
 }
 
-// Appends a polygon of three or four different corners, a quad cut along its shorter diagonal.
+// Appends a triangle, or a quad cut along its shorter diagonal; polygons of fewer corners are dropped.
 void addPolygon(const Mesh& mesh, std::vector<uvec3>& triangles, const std::vector<uint32_t>& p) {
     const auto length = [&](uint32_t a, uint32_t b) {
         return glm::distance(dvec3(mesh.positions[a]), dvec3(mesh.positions[b]));
@@ -144,7 +143,7 @@ class Cutter {
         for (uint32_t i = 0; i < mMesh.vertexCount(); i++) mIsKept.push_back(isKept(i, i, 0));
     }
 
-    // Returns false where triangles would be too many.
+    // Splits triangles until straight cuts are accurate enough. Returns false if that would take too many.
     bool refine() {
         const size_t most = mMesh.triangleCount() + kMostAddedTriangles;
         std::vector<bool> isSettled(mMesh.triangleCount(), !mPyramid);
@@ -162,7 +161,7 @@ class Cutter {
         return true;
     }
 
-    // Returns what is kept.
+    // Returns the mesh without its holes.
     Mesh cut() {
         EdgeSet crossed;
         for (const uvec3& t : mMesh.triangles)
@@ -171,7 +170,7 @@ class Cutter {
                 if (mIsKept[a] != mIsKept[b]) crossed.add(a, b);
             }
         crossed.sort();
-        std::vector<uint32_t> ends; // of the cuts, by the edge's number
+        std::vector<uint32_t> ends; // vertex at each crossed edge's cut, by edge index
         for (const auto& [a, b] : crossed.edges()) {
             const double share = crossing(a, b), length = glm::distance(texelPlace(a), texelPlace(b));
             const bool isAtA = share == 0 || (mPyramid && share * length < kSnap);
@@ -213,7 +212,7 @@ class Cutter {
         return alpha >= double(mMask.cutoff);
     }
 
-    // Returns where an edge whose ends differ is cut, to a 65,536th of its length.
+    // Returns where an edge between a kept and a dropped vertex is cut, to 1 / 65,536 of its length.
     double crossing(uint32_t a, uint32_t b) const {
         double low = 0, high = 1;
         for (int i = 0; i < 16; i++) {
@@ -223,17 +222,17 @@ class Cutter {
         return high == 1 ? 1 : low == 0 ? 0 : 0.5 * (low + high);
     }
 
-    // A triangle in the plane of texels, and how it would be cut as it is.
+    // A triangle in texel space, and the cut that it would get without splitting.
     struct Look {
-        std::array<Linear, 3> sides; // positive inside
-        Linear kept;                 // distance from the cut in texels, positive where the surface stays
-        Linear alpha;                // of vertices
+        std::array<Linear, 3> sides; // signed distances from the sides, positive inside
+        Linear kept;                 // signed distance from the cut in texels, positive if kept
+        Linear alpha;                // alpha of the vertices, interpolated
         double tolerance;            // texels
         dvec2 low, high;             // bounds
-        int cells = 0;               // looked at so far
+        int cells = 0;               // examined so far
     };
 
-    // Returns whether a cut of the triangle as it is would be off by more than the tolerance.
+    // Returns whether cutting the triangle without splitting it would be off by more than the tolerance.
     bool isWrong(const uvec3& t) const {
         std::array<dvec2, 3> p = {texelPlace(t.x), texelPlace(t.y), texelPlace(t.z)};
         const dvec2 size = mPyramid->size();
@@ -261,10 +260,10 @@ class Cutter {
         return false;
     }
 
-    // The same of the texels of a cell of the pyramid, in the repetition that starts at `tile`.
+    // Returns the same for the texels of a pyramid cell, in the texture repetition that starts at `tile`.
     bool isWrong(Look& look, dvec2 tile, int level, int x, int y) const {
         const double side = double(1 << level);
-        const dvec2 low = tile + dvec2(x, y) * side + 0.5, high = low + side - 1.0; // of the centers
+        const dvec2 low = tile + dvec2(x, y) * side + 0.5, high = low + side - 1.0; // of the texels' centers
         if (!mPyramid->isInside(level, x, y) || glm::any(glm::greaterThan(low, look.high)) ||
             glm::any(glm::lessThan(high, look.low)))
             return false;
@@ -301,7 +300,7 @@ class Cutter {
             const int next = (corner + 1) % 3;
             if (mIsKept[t[corner]]) inside = p[size_t(corner)];
             if (mIsKept[t[corner]] == mIsKept[t[next]]) continue;
-            // From the vertex of the lower number, as cut() has it.
+            // Start at the vertex with the lower index, as cut() does.
             const bool isTurned = t[corner] > t[next];
             const double share = crossing(t[isTurned ? next : corner], t[isTurned ? corner : next]);
             ends[count++ % 2] = glm::mix(p[size_t(corner)], p[size_t(next)], isTurned ? 1 - share : share);
@@ -310,7 +309,7 @@ class Cutter {
         return distanceFrom(ends[0], ends[1], inside);
     }
 
-    // Marks the edges to split: those of at least half the longest, if of more than a texel.
+    // Marks the edges to split: those longer than a texel and than half the longest.
     void mark(const uvec3& t, EdgeSet& marked) const {
         std::array<double, 3> lengths{};
         for (int corner = 0; corner < 3; corner++)
@@ -344,7 +343,7 @@ class Cutter {
         isSettled = std::move(settled);
     }
 
-    // Appends what a triangle becomes whose edges, corner i to i + 1, have these middles.
+    // Appends the pieces of a triangle whose edges are split at `middle`; edge i goes from corner i to i + 1.
     void addSplit(const uvec3& t, const std::array<std::optional<uint32_t>, 3>& middle,
                   std::vector<uvec3>& triangles) const {
         if (middle[0] && middle[1] && middle[2]) {
@@ -356,12 +355,12 @@ class Cutter {
         for (size_t corner = 0; corner < 3; corner++) {
             const uint32_t a = t[int(corner)], b = t[int(corner + 1) % 3], c = t[int(corner + 2) % 3];
             const auto &before = middle[(corner + 2) % 3], &after = middle[corner];
-            if (before && after) { // the other edge is whole
+            if (before && after) { // the third edge is whole
                 triangles.push_back({*before, a, *after});
                 addPolygon(mMesh, triangles, {*after, b, c, *before});
                 return;
             }
-            if (after && !middle[(corner + 1) % 3]) { // the others are
+            if (after && !middle[(corner + 1) % 3]) { // only this edge is split
                 triangles.insert(triangles.end(), {uvec3(a, *after, c), uvec3(*after, b, c)});
                 return;
             }
@@ -373,7 +372,7 @@ class Cutter {
     const AlphaMask& mMask;
     float mTolerance;
     std::optional<AlphaPyramid> mPyramid;
-    std::vector<bool> mIsKept; // vertices
+    std::vector<bool> mIsKept; // per vertex
 };
 
 } // namespace

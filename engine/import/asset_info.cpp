@@ -15,7 +15,8 @@ namespace {
 
 constexpr size_t kLargestDepth = 8; // of nested arrays and objects
 
-// JSON where the text is JSON of no great depth, else the text itself: printing recurses.
+// Returns parsed JSON if the text is JSON of small depth, else the text itself. Printing recurses, so depth
+// is limited.
 Json jsonOrText(const std::string& text) {
     if (isJsonDeeper(text, kLargestDepth)) return text;
     const Json json = Json::parse(text, nullptr, false);
@@ -87,7 +88,7 @@ Json optionOf(const Asset& asset, const char* key) {
     return options.is_object() && options.contains(key) ? options[key] : Json();
 }
 
-// Takes a record of refinement, or null.
+// Describes interpolation between vertices by the record of refinement, which may be null.
 std::string describeInterpolation(const Json& record) {
     const auto number = [&](const char* key) {
         return record.is_object() && record.contains(key) && record[key].is_number()
@@ -117,7 +118,7 @@ std::string describeVisibility(const Asset& asset) {
                        asset.visibilitySize, asset.visibilityOffset, occluder);
 }
 
-// Names the method and the values that the terms of all sets are found by.
+// Describes the factorization and which values of f the terms of all sets were computed from.
 std::string describeTerms(const Asset& asset) {
     const Json method = optionOf(asset, "factorization");
     if (!method.is_string()) return "BRDF terms: of an unknown factorization";

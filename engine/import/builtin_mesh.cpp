@@ -11,8 +11,8 @@
 namespace relume {
 namespace {
 
-// Joins a closed grid of `rows` × `columns` vertices, row by row, with two triangles a cell, whose
-// normal is (next row) × (next column).
+// Adds two triangles per cell of a closed grid of `rows` × `columns` vertices in row order. Normals point
+// along (next row) × (next column).
 void joinClosedGrid(Mesh& mesh, int rows, int columns) {
     for (int row = 0; row < rows; row++)
         for (int column = 0; column < columns; column++) {
@@ -25,8 +25,8 @@ void joinClosedGrid(Mesh& mesh, int rows, int columns) {
         }
 }
 
-// Lifts a triangle's texture coordinates, which repeat after 1, so that none is more than half a turn behind
-// the foremost.
+// Adds 1 to periodic texture coordinates of a triangle so that none is more than half a period below the
+// largest.
 void closeUp(vec2 (&corners)[3]) {
     for (int axis = 0; axis < 2; axis++) {
         const float foremost = std::max({corners[0][axis], corners[1][axis], corners[2][axis]});
@@ -35,8 +35,7 @@ void closeUp(vec2 (&corners)[3]) {
     }
 }
 
-// Gives the mesh texture coordinates uvAt(triangle, corner) in [0, 1), and doubles the vertices in which
-// triangles of both sides of a seam meet.
+// Sets texture coordinates uvAt(triangle, corner) in [0, 1), and duplicates vertices along seams.
 template <typename UvAt>
 void unwrap(Mesh& mesh, const UvAt& uvAt) {
     std::map<std::tuple<uint32_t, float, float>, uint32_t> vertices;
@@ -60,7 +59,7 @@ void unwrap(Mesh& mesh, const UvAt& uvAt) {
     mesh.uvs = std::move(uvs);
 }
 
-// The same of a closed grid: u along its rows' numbers, v against its columns'.
+// Unwraps a closed grid: u follows the rows' indices, v opposes the columns'.
 void unwrapGrid(Mesh& mesh, int rows, int columns) {
     unwrap(mesh, [=](const uvec3& triangle, int corner) {
         const int row = int(triangle[corner]) / columns, column = int(triangle[corner]) % columns;
@@ -70,13 +69,13 @@ void unwrapGrid(Mesh& mesh, int rows, int columns) {
 
 bool isPole(vec3 position) { return std::max(std::abs(position.x), std::abs(position.z)) < 1e-6f; }
 
-// A place on the unit sphere in a latlong, u in [0, 1).
+// Returns latlong texture coordinates of a point on the unit sphere, u in [0, 1).
 vec2 latlong(vec3 position) {
     const float u = 0.5f + std::atan2(position.x, position.z) / (2 * kPi);
     return {u < 1 ? u : 0.0f, std::acos(glm::clamp(position.y, -1.0f, 1.0f)) / kPi};
 }
 
-// At a pole every longitude is as good: that of the middle of the triangle's other corners.
+// At a pole longitude is undefined; uses the one midway between the triangle's other corners.
 vec2 sphereUv(const Mesh& sphere, const uvec3& triangle, int corner) {
     const vec3 position = sphere.positions[triangle[corner]];
     if (!isPole(position)) return latlong(position);
@@ -85,9 +84,9 @@ vec2 sphereUv(const Mesh& sphere, const uvec3& triangle, int corner) {
     return {latlong(middle).x, position.y > 0 ? 0 : 1};
 }
 
-// A point of the (2, 3) torus knot, axis Y, and the frame of its tube's cross-section.
+// A point of the (2, 3) torus knot about the Y axis, with the frame of the tube's cross-section.
 struct KnotPoint {
-    vec3 center, tangent, outward; // outward: the torus' normal, which is perpendicular to the curve
+    vec3 center, tangent, outward; // outward: the torus's normal, perpendicular to the curve
 };
 
 constexpr float kKnotMajor = 2.0f, kKnotMinor = 1.0f, kKnotTube = 0.42f;
@@ -159,7 +158,7 @@ Mesh makeKnot(int vertices, bool hasUvs) {
     for (int i = 0; i < steps; i++)
         length += glm::distance(knotPoint(2 * kPi * float(i) / steps).center,
                                 knotPoint(2 * kPi * float(i + 1) / steps).center);
-    // Cells as square as the two circumferences allow.
+    // Choose cells as square as the two circumferences allow.
     const int across =
         std::max(5, int(std::lround(std::sqrt(float(vertices) * 2 * kPi * kKnotTube / length))));
     const int along = std::max(5, int(std::lround(double(vertices) / across)));

@@ -1,4 +1,4 @@
-// From image files to latlong maps with pixel centers.
+// Conversion of images to latlong maps with samples at pixel centers.
 #include "engine/import/environment_file.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
@@ -15,10 +15,11 @@ namespace relume {
 
 namespace {
 
-// Far beyond the sun's 2e7 W·m⁻²·sr⁻¹, and small enough that no later float sum or square overflows.
+// Far above the sun's radiance of 2e7 W·m⁻²·sr⁻¹, yet small enough that no float sum or square overflows
+// later.
 constexpr float kLargestRadiance = 1e12f;
 
-// Bilinear value at (x, y), where whole numbers are pixel centers; beyond the border the border repeats.
+// Returns the bilinear value at (x, y), where integers are pixel centers; clamps to the border.
 vec3 bilinear(const Image& image, float x, float y) {
     const int x0 = std::clamp(int(x), 0, image.width - 1), x1 = std::min(x0 + 1, image.width - 1);
     const int y0 = std::clamp(int(y), 0, image.height - 1), y1 = std::min(y0 + 1, image.height - 1);
@@ -53,7 +54,8 @@ Environment fromPixelCenters(const Image& image) {
     return map;
 }
 
-// OpenEXR's own latlong: the first and last rows lie on the poles, the first and last columns coincide.
+// Converts OpenEXR's latlong, whose first and last rows are at the poles and whose first and last columns
+// coincide.
 Environment fromOpenExrLatLong(const Image& image) {
     Environment map = emptyEnvironment(image.width, image.height);
     for (int y = 0; y < map.height; y++)
@@ -64,7 +66,7 @@ Environment fromOpenExrLatLong(const Image& image) {
     return map;
 }
 
-// Bilinear within the face, whose outer pixels are centered on the cube's edges.
+// Looks up a cube map bilinearly within the face; the outer pixels' centers are on the cube's edges.
 vec3 lookupOpenExrCube(const Image& image, vec3 direction) {
     const int faceSize = image.width;
     const Imath::Box2i window({0, 0}, {image.width - 1, image.height - 1});
@@ -82,8 +84,8 @@ vec3 lookupOpenExrCube(const Image& image, vec3 direction) {
     return glm::mix(glm::mix(at(x0, y0), at(x1, y0), s), glm::mix(at(x0, y1), at(x1, y1), s), t);
 }
 
-// Four pixels for each face's width around the equator, 2 × 2 lookups each: towards the cube's corners
-// its pixels are smaller than the map's.
+// Resamples a cube map to four pixels per face width around the equator. Takes 2 × 2 lookups per pixel, since
+// towards the cube's corners its pixels are smaller than the map's.
 Environment fromOpenExrCube(const Image& image) {
     constexpr int kLookups = 2;
     Environment map = emptyEnvironment(4 * image.width, 2 * image.width);

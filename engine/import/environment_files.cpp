@@ -12,10 +12,10 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kMostMaps = 64;    // of at most 1.5 MiB
-constexpr size_t kMostPictures = 4; // of at most 384 MiB: as many as a moment's light is made of
+constexpr size_t kMostMaps = 64;    // at most 1.5 MiB each
+constexpr size_t kMostPictures = 4; // at most 384 MiB each; the light of one moment needs no more
 
-// By value, whatever number of digits they have.
+// Compares digits by value, whatever the number of leading zeros.
 struct ByNumber {
     static std::string_view significant(std::string_view digits) {
         return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));

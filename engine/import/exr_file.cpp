@@ -63,14 +63,14 @@ class MemoryWriter : public Imf::OStream {
     uint64_t mPosition = 0;
 };
 
-// Version and flags, of a file that has them.
+// Returns the version and flags of a file long enough to hold them.
 int32_t versionOf(std::span<const std::byte> bytes) {
     int32_t version;
     std::memcpy(&version, bytes.data() + 4, sizeof version);
     return version;
 }
 
-// The header of a single-part image of pixels.
+// Reads the header of a single-part image file.
 Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name) {
     constexpr size_t kPrefixBytes = 8; // magic number, then version and flags
     if (bytes.size() < kPrefixBytes)
@@ -99,8 +99,9 @@ size_t bytesPerPixel(const Imf::ChannelList& channels) {
     return bytes;
 }
 
-// OpenEXR decodes whole chunks (at most 256 rows, or a tile), and holds an 8-byte offset of each. A file of
-// rows may describe tiles, too, which nothing has checked.
+// Throws if decoding would need implausibly much memory for the file's size. OpenEXR decodes whole chunks (up
+// to 256 rows, or a tile) and stores an 8-byte offset for each. Even a scanline file may describe tiles,
+// which nothing has checked.
 void checkChunks(const Imf::Header& header, bool isTiled, int64_t width, int64_t height, size_t fileBytes,
                  const std::string& name) {
     constexpr int64_t kMostRows = 256;
@@ -122,7 +123,7 @@ void checkChunks(const Imf::Header& header, bool isTiled, int64_t width, int64_t
                                 chunkBytes, fileBytes));
 }
 
-// Which channels to read: R, G and B as far as they are there, else Y alone.
+// Returns whether to read Y alone: if there is none of R, G and B. Throws if the channels are not supported.
 bool isLuminance(const Imf::ChannelList& channels, const std::string& name) {
     const bool color = channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
     const bool luminance = !color && channels.findChannel("Y");
@@ -201,7 +202,7 @@ ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) t
     return {readPixels(file, window, luminance), projection};
 } catch (const Error&) {
     throw;
-} catch (const std::bad_alloc&) { // no fault of the file's
+} catch (const std::bad_alloc&) { // not the file's fault
     throw;
 } catch (const std::exception& failure) {
     throw Error(fmt::format("{}: damaged OpenEXR file: {}; get the file again", name, failure.what()));

@@ -1,5 +1,6 @@
-// OpenEXR trusts sizes in a header: it allocates what they say before it reads, and of the types that it
-// knows takes the bytes that it expects instead, from where on it would read anything as sizes.
+// Checks sizes in an OpenEXR header. OpenEXR allocates what a header says before it reads. For attributes of
+// known types it reads the number of bytes it expects, whatever the stated size, and would then take
+// arbitrary bytes for sizes.
 #include "engine/base/error.h"
 #include "engine/import/image_codecs.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-// Attributes of one size, in bytes; those of all other types are checked by themselves, or read by their
-// sizes.
+// Attribute types of fixed size in bytes. All others have checks of their own, or are read by their stated
+// size.
 struct FixedType {
     std::string_view name;
     size_t bytes;
@@ -63,7 +64,7 @@ class HeaderWalk {
         return value;
     }
 
-    // A text that ends in a zero.
+    // Takes a null-terminated string.
     std::string_view takeText() {
         const auto end = std::ranges::find(mRest, std::byte(0));
         const Bytes text = take(size_t(end - mRest.begin()));
@@ -75,7 +76,7 @@ class HeaderWalk {
         const auto fixed = std::ranges::find(kFixedTypes, type, &FixedType::name);
         if (fixed != kFixedTypes.end() && mRest.size() != fixed->bytes) fail();
         if (type == "chlist") {
-            constexpr size_t kChannelBytes = 16; // behind the name
+            constexpr size_t kChannelBytes = 16; // after the name
             while (!takeText().empty()) take(kChannelBytes);
             if (!mRest.empty()) fail();
         } else if (type == "preview") {

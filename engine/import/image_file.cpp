@@ -34,7 +34,7 @@ void zeroWhatIsNotFinite(Image& image, const std::string& name) {
             fmt::format("{}: {} pixels are infinite or not a number; they become 0", name, count));
 }
 
-// A value that is not a number becomes 0.
+// Converts to a byte; NaN becomes 0.
 uint8_t quantize(float value) { return value > 0 ? uint8_t(std::lround(255 * std::min(value, 1.0f))) : 0; }
 
 void checkWritable(const Image& image) {
@@ -90,7 +90,7 @@ void writeExr(const std::filesystem::path& path, const Image& image) {
 
 void writePng(const std::filesystem::path& path, const Image& image) {
     checkWritable(image);
-    // stb counts bytes in int.
+    // stb_image_write counts bytes in an int.
     if (image.pixels.size() > size_t(1) << 27)
         throw Error(fmt::format("{}: {} x {} pixels are too many for PNG; write .exr", path.string(),
                                 image.width, image.height));

@@ -1,4 +1,4 @@
-// The JSON of docs/light_format.md.
+// Reads the JSON of docs/light_format.md.
 #include "engine/import/light_file.h"
 
 #include "engine/base/error.h"
@@ -17,8 +17,8 @@ using Json = nlohmann::json;
 using Keys = std::span<const std::string_view>;
 
 constexpr float kMostDegrees = 36000, kMostRadiance = 1e9f, kMostGain = 1e6f;
-constexpr float kSequenceRate = 24; // files a second
-constexpr float kMostHours = 100;   // of the day, a second
+constexpr float kSequenceRate = 24; // files per second
+constexpr float kMostHours = 100;   // hours of the day per second
 
 vec3 directionOf(const JsonObject& object) {
     const float azimuth = object.requiredNumber("azimuth", -kMostDegrees, kMostDegrees);
@@ -29,7 +29,7 @@ float radiusOf(const JsonObject& object) {
     return std::min(glm::radians(object.requiredNumber("radius", kSmallestLampRadius, 180)), kPi);
 }
 
-// Adds an environment, or of a sequence the two files that the moment is between.
+// Adds an environment, or the two images of a sequence that the moment lies between.
 void addEnvironment(const JsonObject& object, const LightMoment& moment, float share, Light& light) {
     const float rotation = glm::radians(object.number("rotate", 0, -kMostDegrees, kMostDegrees));
     const float gain = share * object.number("gain", 1, 0, kMostGain);
@@ -119,7 +119,7 @@ void readSky(const JsonObject& root, const LightMoment& moment, Light& light) {
     light.sky = day;
 }
 
-// Calls `read` with every object of a list.
+// Calls `read` with each object of a list.
 template <typename Read>
 void forEach(const JsonObject& root, const char* key, Keys keys, Read read) {
     const Json* list = root.find(key);
@@ -160,7 +160,7 @@ Light makeLight(const Json& values, const LightMoment& moment) {
     forEach(root, "distant", kDistantKeys, [&](const JsonObject& object) {
         light.distant.push_back({directionOf(object), object.requiredVector("irradiance", 0, kMostRadiance)});
     });
-    readEnvironments(root, moment, light); // last: reading images takes longest
+    readEnvironments(root, moment, light); // last, since reading images takes longest
     return light;
 }
 

@@ -12,11 +12,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDepth = 5; // of values in light files
+constexpr int kDepth = 5; // nesting depth of values in light files
 
 bool isTrack(const Json& json) { return json.is_object() && json.contains("keys"); }
 
-// Calls visit(track, place) for all tracks.
+// Calls visit(track, place) for every track.
 template <typename Visit>
 void forEachTrack(const Json& json, const std::string& place, const Visit& visit, int depth = 0) {
     if (depth == kDepth) return;
@@ -30,8 +30,8 @@ void forEachTrack(const Json& json, const std::string& place, const Visit& visit
     }
 }
 
-// `json` with valueOf(track, key) in place of tracks, where `key` is that of the object a track is in. Keys,
-// of which there may be very many, are not copied.
+// Returns a copy of `json` in which valueOf(track, key) replaces each track; `key` is that of the object
+// which the track is in. Does not copy keys, of which there may be very many.
 template <typename ValueOf>
 Json withTracks(const Json& json, const ValueOf& valueOf, const std::string& key = "", int depth = 0) {
     if (depth == kDepth) return json;
@@ -88,7 +88,7 @@ const Json::array_t& keysOf(const Json& track) { return track["keys"].get_ref<co
 
 double timeOf(const Json& key) { return key[0].get<double>(); }
 
-// The track's last time if it repeats, else 0.
+// Returns the track's last time if it repeats, else 0.
 double periodOf(const Json& track) { return track.value("repeat", false) ? timeOf(keysOf(track).back()) : 0; }
 
 Json valueAt(const Json& track, double seconds) {
@@ -102,7 +102,7 @@ Json valueAt(const Json& track, double seconds) {
     return mixed(from[1], (*after)[1], (seconds - start) / (timeOf(*after) - start));
 }
 
-// ∫ of a track of numbers, not repeated, from 0.
+// Returns the integral of a track of numbers from 0 to `end`, without repetition.
 double integralTo(const Json::array_t& keys, double end) {
     double sum = 0, time = 0, value = keys.front()[1].get<double>();
     for (const Json& key : keys) {
@@ -118,7 +118,7 @@ double integralTo(const Json::array_t& keys, double end) {
     return sum + value * (end - time);
 }
 
-// Of a track of numbers from 0 to `seconds`.
+// Returns the mean of a track of numbers from 0 to `seconds`.
 double meanTo(const Json& track, double seconds) {
     if (seconds == 0) return valueAt(track, 0).get<double>();
     const Json::array_t& keys = keysOf(track);
@@ -128,7 +128,8 @@ double meanTo(const Json& track, double seconds) {
     return (rounds * integralTo(keys, period) + integralTo(keys, seconds - rounds * period)) / seconds;
 }
 
-// What is multiplied by the time, to where the light is: its mean leads to where all its values so far do.
+// Returns whether the value is a rate, which is multiplied by the time. Its mean up to a time then gives the
+// integral of all its values so far.
 bool isSpeed(const std::string& key) { return key == "rate" || key == "hours_per_second"; }
 
 } // namespace

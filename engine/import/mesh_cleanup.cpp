@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kUnused = 0xffffffff;
 
-// Squares and products of four lengths must stay inside single precision.
+// Keeps squares of lengths and products of four within single precision.
 constexpr float kLargestCoordinate = 1e9f, kSmallestExtent = 1e-9f;
 
 template <typename Vector>
@@ -25,7 +25,7 @@ bool isFinite(const Vector& v) {
     return true;
 }
 
-// An attribute that not every vertex has is as good as none.
+// Drops an attribute that not every vertex has; throws if one of its values is not finite.
 template <typename Vector>
 void checkAttribute(std::vector<Vector>& values, const Mesh& mesh, const char* what,
                     const std::string& name) {
@@ -62,7 +62,7 @@ void checkMesh(const Mesh& mesh, const std::string& name) {
     }
 }
 
-// Makes normals unit length, or drops all of them if one that is used is no direction.
+// Normalizes normals; drops all of them if one that is used has no direction.
 void normalizeNormals(Mesh& mesh, const std::string& name) {
     if (mesh.normals.empty()) return;
     std::vector<bool> isUsed(mesh.vertexCount(), false);
@@ -82,8 +82,8 @@ void normalizeNormals(Mesh& mesh, const std::string& name) {
     mesh.normals.clear();
 }
 
-// Makes tangents unit length and orthogonal to the normals, or drops all of them if none is a direction.
-// A single one that is not gives way to the s of the normal's frame.
+// Makes tangents unit length and orthogonal to the normals; drops all of them if none has a direction. A
+// single one without a direction is replaced by the s axis of the normal's frame.
 void normalizeTangents(Mesh& mesh) {
     const auto isDirection = [](vec3 t) { return isFinite(t) && glm::dot(t, t) > 1e-12f; };
     if (mesh.tangents.size() != mesh.vertexCount() || std::ranges::none_of(mesh.tangents, isDirection))
@@ -95,9 +95,9 @@ void normalizeTangents(Mesh& mesh) {
     }
 }
 
-// Gives vertices that are equal the number of the first of them, whose tangent all have from then on.
+// Merges equal vertices into the first of them, whose tangent is kept.
 void weld(Mesh& mesh) {
-    // Adding zero turns the negative zero, which is equal but has other bits, into the positive one.
+    // Turns negative zero, which compares equal but has other bits, into positive zero.
     for (vec3& position : mesh.positions) position += 0.0f;
     for (vec3& normal : mesh.normals) normal += 0.0f;
     for (vec2& uv : mesh.uvs) uv += 0.0f;
@@ -108,7 +108,7 @@ void weld(Mesh& mesh) {
         const vec4 c = mesh.colors.empty() ? vec4(0) : mesh.colors[i];
         return std::array{p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y, c.x, c.y, c.z, c.w};
     };
-    // Sorting, unlike hashing, has no worst case that a hostile file could ask for.
+    // Sort rather than hash: sorting has no worst case that a hostile file could provoke.
     std::vector<uint32_t> order(mesh.vertexCount());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(),
@@ -126,7 +126,7 @@ bool isDegenerate(const Mesh& mesh, uvec3 triangle) {
     return glm::cross(b - a, c - a) == glm::dvec3(0);
 }
 
-// Drops vertices that no triangle uses, keeping the order of the others.
+// Drops vertices that no triangle uses; keeps the order of the others.
 void dropUnused(Mesh& mesh) {
     std::vector<uint32_t> renumbered(mesh.vertexCount(), kUnused), order;
     for (const uvec3& triangle : mesh.triangles)

@@ -8,11 +8,11 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kMostNodes = 4; // channels of a texture
-// Below the first the model's lobes are no narrower: docs/materials.md.
+constexpr size_t kMostNodes = 4; // one per channel of a texture
+// kLeastRoughness: below this the model's lobes get no narrower (docs/materials.md).
 constexpr float kLeastRoughness = 0.1414f, kEvenMetalness = 0.1f, kEvenRoughness = 1.1f, kStep = 1.6f;
 
-// Values that most of a texture is between: of each 256ths, how many texels have it.
+// Histogram of values in [0, 1] in steps of 1/255.
 class Histogram {
   public:
     void add(float value) {
@@ -20,7 +20,7 @@ class Histogram {
         mSum += value, mAll++;
     }
     float mean() const { return float(mSum / double(mAll)); }
-    // The value that this share of all is at or below.
+    // Returns the least value that at least this share of all values do not exceed.
     float quantile(double share) const {
         size_t below = 0, value = 0;
         while (value < 255 && double(below += mCounts[value]) < share * double(mAll)) value++;
@@ -33,9 +33,9 @@ class Histogram {
     size_t mAll = 0;
 };
 
-constexpr double kLow = 0.02, kHigh = 0.98; // outliers are the nearest node
+constexpr double kLow = 0.02, kHigh = 0.98; // quantiles that nodes span; outliers take the nearest
 
-// Returns roughnesses in equal ratios, rising, as many as the range asks for.
+// Returns ascending roughness levels in equal ratios, as many as the range requires.
 std::vector<float> levelsOf(const Histogram& roughness, size_t most) {
     const float low = std::max(roughness.quantile(kLow), kLeastRoughness),
                 high = std::max(roughness.quantile(kHigh), kLeastRoughness);
@@ -48,7 +48,7 @@ std::vector<float> levelsOf(const Histogram& roughness, size_t most) {
     return levels;
 }
 
-// Adds the weights of levels that make up a roughness, times `share`, to those from `first` on.
+// Adds `share` times the interpolation weights of a roughness between levels to the weights at `first`.
 void addWeights(std::span<const float> levels, float roughness, float share, float* first) {
     size_t next = 1;
     while (next + 1 < levels.size() && levels[next] < roughness) next++;
@@ -74,7 +74,7 @@ std::optional<MetalRoughnessMap> blendMetalRoughness(const Texture& texture, flo
     for (size_t i = 0; i < texture.texelCount(); i++) metallic.add(at(i).metallic);
     float low = metallic.quantile(kLow), high = metallic.quantile(kHigh);
     if (high - low < kEvenMetalness) low = high = metallic.mean();
-    // The first holds texels that are no metal, or all; the second those that are.
+    // First for texels that are not metal, or for all; second for metal.
     std::array<Histogram, 2> roughness;
     const auto isMetal = [&](const MetalRoughness& texel) {
         return low < high && texel.metallic > 0.5f * (low + high);

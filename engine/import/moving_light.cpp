@@ -27,7 +27,7 @@ MovingLight::MovingLight(std::string_view text, std::string name, std::filesyste
       mFolder(std::move(folder)) {
     const nlohmann::json& values = mDescription->values;
     const size_t keys = mostTrackKeys(values, mName);
-    // Between keys nothing is out of the range that both of them are in.
+    // Values between keys are within range if both keys are, so checking the keys suffices.
     for (size_t key = 0; key < std::max<size_t>(keys, 1); key++) read({withTrackKey(values, key)}, 0);
     mMoves = keys > 1 || (values.is_object() &&
                           (has(values, "environment", "sequence") || has(values, "blend", "sequence") ||

@@ -37,7 +37,7 @@ bool isNumber(std::string_view word) {
            std::isfinite(value);
 }
 
-// The next line, ended by "\n", "\r\n" or "\r", as the library has it.
+// Takes the next line, ended by "\n", "\r\n" or "\r", as the library does.
 std::string_view takeLine(std::string_view& text) {
     const size_t end = std::min(text.find_first_of("\r\n"), text.size());
     const std::string_view line = text.substr(0, end);
@@ -45,11 +45,10 @@ std::string_view takeLine(std::string_view& text) {
     return line;
 }
 
-// How many vertices, texture coordinates and normals there are so far, by which negative numbers count back.
+// Numbers of vertices, texture coordinates and normals so far, from which negative indices count back.
 using Counts = std::array<int64_t, 3>;
 
-// Returns whether a word is a corner: "v", "v/t", "v//n" or "v/t/n", by numbers from 1 on or back from the
-// last.
+// Returns whether a word is a corner: "v", "v/t", "v//n" or "v/t/n", with indices from 1 up or negative.
 bool isCorner(std::string_view word, const Counts& counts) {
     for (size_t kind = 0; kind < counts.size(); kind++) {
         const std::string_view digits = word.substr(0, word.find('/'));
@@ -65,8 +64,8 @@ bool isCorner(std::string_view word, const Counts& counts) {
     return false;
 }
 
-// Throws for what the library would misread: it takes words that are no numbers for zeros, wraps numbers that
-// are too large, and counts corners in eight bits.
+// Throws for lines that the library would misread: it reads words that are not numbers as zeros, wraps
+// numbers that are too large, and counts corners in eight bits.
 void checkLine(std::string_view keyword, std::string_view rest, const Counts& counts, const std::string& name,
                size_t number) {
     if (keyword == "f") {
@@ -83,7 +82,7 @@ void checkLine(std::string_view keyword, std::string_view rest, const Counts& co
                             "before export",
                             name, number, corners, kMostCorners));
     } else if (keyword == "vt") {
-        // The second coordinate may be missing: it is 0 then.
+        // The second coordinate is optional and defaults to 0.
         const std::string_view u = takeWord(rest), v = takeWord(rest);
         if (!isNumber(u) || !(v.empty() || isNumber(v)))
             throw Error(fmt::format("{}: line {}: expected two finite numbers after \"vt\", found \"{} {}\"",
@@ -97,9 +96,9 @@ void checkLine(std::string_view keyword, std::string_view rest, const Counts& co
     }
 }
 
-// Keeps the lines that describe the surface, each in one piece, and empties all others, so that line numbers
-// stay: the library reads other files on "mtllib", believes the sizes that "t" lines claim, and knows neither
-// byte order marks nor lines that go on after a backslash.
+// Keeps the lines that describe the surface, joined where they continue, and empties all others, so that line
+// numbers remain. The library would read other files on "mtllib", trust the sizes in "t" lines, and knows
+// neither byte order marks nor lines continued by a backslash.
 std::string surfaceLines(std::string_view text, const std::string& name, bool areUvsWanted) {
     std::string kept;
     kept.reserve(text.size() + 1);
@@ -109,7 +108,7 @@ std::string surfaceLines(std::string_view text, const std::string& name, bool ar
     std::string line;
     for (size_t number = 1, lines = 1; !text.empty(); number += lines) {
         line = takeLine(text);
-        // A name or a comment may end in a backslash, too, and does not go on.
+        // A name or comment may also end in a backslash; it does not continue.
         const size_t start = line.find_first_not_of(" \t");
         const bool mayGoOn = start < line.size() && (line[start] == 'v' || line[start] == 'f');
         for (lines = 1; mayGoOn && line.ends_with('\\') && !text.empty(); lines++) {
@@ -129,14 +128,14 @@ std::string surfaceLines(std::string_view text, const std::string& name, bool ar
     return kept;
 }
 
-// Throws unless a face's number, here counted from 0, is one of `count`.
+// Throws unless a face's index, here from 0, is less than `count`.
 void checkIndex(int index, size_t count, const char* what, const std::string& name) {
     if (index < 0 || size_t(index) >= count)
         throw Error(fmt::format("{}: a face refers to {} {}, but there are only {}: the file is corrupt",
                                 name, what, int64_t(index) + 1, count));
 }
 
-// Returns whether every corner of every face has a number of this kind. Throws if a number is out of range.
+// Returns whether every corner of every face has an index of this kind. Throws if an index is out of range.
 bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::*number, size_t count,
              const char* what, const std::string& name) {
     bool isComplete = count > 0;
@@ -149,8 +148,8 @@ bool haveAll(const std::vector<tinyobj::shape_t>& shapes, int tinyobj::index_t::
     return isComplete;
 }
 
-// The faces' corners, whose position, normal and texture coordinates have numbers of their own, as vertices
-// of their own.
+// Makes a vertex of every face corner if there are normals or uvs, since corners index each attribute
+// separately.
 class Corners {
   public:
     Corners(const tinyobj::attrib_t& attributes, bool hasNormals, bool hasUvs, const std::string& name)
@@ -193,7 +192,7 @@ class Corners {
     }
     vec3 position(int index) const { return element<vec3>(mAttributes.vertices, index, "vertex"); }
     vec3 normal(int index) const { return element<vec3>(mAttributes.normals, index, "normal"); }
-    // OBJ counts v up from an image's lower edge.
+    // OBJ measures v upward from an image's lower edge.
     vec2 uv(int index) const {
         const vec2 up = element<vec2>(mAttributes.texcoords, index, "texture coordinates");
         return {up.x, 1 - up.y};

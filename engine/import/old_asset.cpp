@@ -23,10 +23,10 @@ using Json = nlohmann::ordered_json;
 constexpr uint32_t kOldVersion = 2;
 constexpr size_t kLargestDepth = 8; // of nested arrays and objects
 
-constexpr uint64_t kAnyCount = 0xffffffff;          // of vertices or triangles
-constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // of transport
+constexpr uint64_t kAnyCount = 0xffffffff;          // upper bound for vertices or triangles
+constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // upper bound for entries of transport
 
-// A JSON object with a name for errors; reads typed members.
+// Reads typed members of a JSON object; errors name the object.
 class Reader {
   public:
     Reader(const Json& object, std::string where) : mObject(object), mWhere(std::move(where)) {

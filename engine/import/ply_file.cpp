@@ -1,6 +1,5 @@
-// A reader of our own: to make sure that no PLY file can lead a library astray that trusts its counts, all
-// of the file would have to be walked, which is all of the reading. Format: Turk, "The PLY Polygon File
-// Format", 1994.
+// Reads PLY files without a library: libraries trust a file's counts, and checking those would mean walking
+// the whole file, which is all there is to reading it. Format: Turk, "The PLY Polygon File Format", 1994.
 #include "engine/base/error.h"
 #include "engine/import/mesh_formats.h"
 #include "engine/import/ply_header.h"
@@ -21,7 +20,7 @@ namespace {
 
 constexpr size_t kMostCorners = 1 << 16;
 
-// Takes value after value from the data.
+// Takes values from the data one by one.
 class Values {
   public:
     Values(std::span<const std::byte> data, PlyEncoding encoding, const std::string& name)
@@ -31,7 +30,7 @@ class Values {
         return mEncoding == PlyEncoding::Ascii ? takeWord() : takeBinary(type);
     }
 
-    // Bytes that are left: at least `values` of this type must fit in.
+    // Returns whether the remaining bytes can hold this many values of a type.
     bool canHold(uint64_t values, const PlyScalarType& type) const {
         const size_t smallest = mEncoding == PlyEncoding::Ascii ? 1 : type.size;
         return values <= mData.size() / smallest;
@@ -95,12 +94,12 @@ class Values {
     const std::string& mName;
 };
 
-// Where the properties of an element "vertex" are.
+// Finds the columns of properties of the element "vertex".
 class VertexColumns {
   public:
     explicit VertexColumns(const PlyElement& element) : mElement(element) {}
 
-    // The columns of these properties, or nothing if one is missing.
+    // Returns the columns of these properties, or none if one is missing.
     std::optional<std::vector<size_t>> find(std::initializer_list<std::string_view> names) const {
         std::vector<size_t> columns;
         for (const std::string_view name : names) {
@@ -111,7 +110,7 @@ class VertexColumns {
         return columns;
     }
 
-    // Programs do not agree on how to call texture coordinates.
+    // Programs disagree on the names of texture coordinates.
     std::optional<std::vector<size_t>> findUvs() const {
         auto columns = find({"s", "t"});
         if (!columns) columns = find({"u", "v"});
@@ -119,7 +118,7 @@ class VertexColumns {
         return columns;
     }
 
-    // Colors are whole numbers of the type's range, or floating.
+    // Colors are integers of the type's full range, or floating point.
     std::optional<std::vector<size_t>> findColors() const {
         auto columns = find({"red", "green", "blue", "alpha"});
         if (!columns) columns = find({"red", "green", "blue"});
@@ -136,7 +135,7 @@ class VertexColumns {
     const PlyElement& mElement;
 };
 
-// What a color of this type is divided by to lie in [0, 1].
+// Returns the divisor that maps a color of this type to [0, 1].
 float fullColor(const PlyScalarType& type) {
     return type.kind == 'f' ? 1 : float(std::exp2(8.0 * double(type.size) - (type.kind == 'i')) - 1);
 }
@@ -149,7 +148,7 @@ class BodyReader {
     void read(const PlyElement& element) {
         if (element.properties.empty() && element.count > 0)
             throw Error(fmt::format("{}: element \"{}\" has no properties", mName, element.name));
-        // What every row takes at least, so that an absurd count ends here.
+        // Every row takes at least this many bytes, so an absurd count fails here.
         for (const PlyProperty& property : element.properties)
             if (!mValues.canHold(element.count, property.countType ? *property.countType : *property.type))
                 mValues.failShort();
@@ -186,7 +185,7 @@ class BodyReader {
     }
 
   private:
-    // The property's value, or, of a list, nothing: its items go to mItems.
+    // Takes a property's value. Items of a list go to mItems instead.
     double takeProperty(const PlyProperty& property) {
         if (!property.countType) return mValues.take(*property.type);
         const double count = mValues.take(*property.countType);
@@ -215,7 +214,7 @@ class BodyReader {
             for (size_t j = 0; j < row.size(); j++) row[j] = float(takeProperty(element.properties[j]));
             mMesh.positions.push_back(vectorAt(*position));
             if (normal) mMesh.normals.push_back(vectorAt(*normal));
-            // PLY counts v up from an image's lower edge.
+            // PLY measures v upward from an image's lower edge.
             if (uv) mMesh.uvs.push_back({row[(*uv)[0]], 1 - row[(*uv)[1]]});
             if (!color) continue;
             mMesh.colors.push_back(vec4(0));
@@ -247,7 +246,7 @@ class BodyReader {
     const std::string& mName;
     MeshAttributes mWanted;
     Mesh mMesh;
-    std::vector<uint32_t> mFaceSizes, mCorners; // Faces may come before the vertices they refer to.
+    std::vector<uint32_t> mFaceSizes, mCorners; // faces may precede the vertices that they refer to
     std::vector<double> mItems;
 };
 

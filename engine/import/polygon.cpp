@@ -12,8 +12,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// The polygon seen from its front: projected along the largest component of Newell's normal, so that it
-// runs counter-clockwise.
+// Projects a polygon along the largest component of Newell's normal, so that it is counter-clockwise.
 std::vector<dvec2> flatten(std::span<const vec3> corners) {
     dvec3 normal(0);
     for (size_t i = 0; i < corners.size(); i++)
@@ -28,12 +27,12 @@ std::vector<dvec2> flatten(std::span<const vec3> corners) {
     return flat;
 }
 
-// Twice the signed area of a triangle: positive when counter-clockwise.
+// Returns twice the signed area of a triangle, positive if it is counter-clockwise.
 double area(dvec2 a, dvec2 b, dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 bool isConvex(const std::vector<dvec2>& flat) {
     const size_t count = flat.size();
-    // Turning left everywhere is not enough: a star does, too. A fan must not fold over either.
+    // Turning left at every corner is not enough, since a star does too; nor may the fan fold over.
     for (size_t i = 0; i < count; i++)
         if (area(flat[i], flat[(i + 1) % count], flat[(i + 2) % count]) < 0) return false;
     for (size_t i = 1; i + 1 < count; i++)
@@ -41,7 +40,7 @@ bool isConvex(const std::vector<dvec2>& flat) {
     return true;
 }
 
-// Whether corner `at` of the remaining ring can be cut off: it is convex and no other corner lies in it.
+// Returns whether the ring's corner `at` is an ear: it is convex and no other corner lies inside it.
 bool isEar(const std::vector<dvec2>& flat, const std::vector<uint32_t>& ring, size_t at) {
     const size_t count = ring.size();
     const dvec2 a = flat[ring[(at + count - 1) % count]], b = flat[ring[at]],
@@ -62,7 +61,7 @@ void clipEars(const std::vector<dvec2>& flat, std::vector<uvec3>& triangles) {
         const size_t count = ring.size();
         size_t ear = 0;
         while (ear < count && !isEar(flat, ring, ear)) ear++;
-        // A ring without an ear crosses itself or is all on a line: any cut is as good as another.
+        // A ring without an ear crosses itself or is collinear; any cut will do.
         if (ear == count) ear = 0;
         triangles.push_back({ring[(ear + count - 1) % count], ring[ear], ring[(ear + 1) % count]});
         ring.erase(ring.begin() + ptrdiff_t(ear));

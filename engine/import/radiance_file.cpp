@@ -1,5 +1,5 @@
-// Radiance .hdr pictures (Ward: Real Pixels, Graphics Gems II, 1991; the Radiance file formats manual).
-// Read here, not by stb_image, because the packaged release of that never ends on truncated files.
+// Reads Radiance .hdr images (Ward: Real Pixels, Graphics Gems II, 1991; the Radiance file formats manual).
+// stb_image is not used because its packaged release loops forever on truncated files.
 #include "engine/base/error.h"
 #include "engine/import/image_codecs.h"
 
@@ -48,7 +48,7 @@ class RadianceReader {
         return {reinterpret_cast<const char*>(mBytes.data()) + start, mPosition - 1 - start};
     }
 
-    // Variables up to an empty line. Pixels are in RGBE unless a line says otherwise.
+    // Reads header lines up to an empty one. Pixels are RGBE unless a line says otherwise.
     void readHeader() {
         line();
         for (std::string_view text = line(); !text.empty() && text != "\r"; text = line())
@@ -72,8 +72,9 @@ class RadianceReader {
             throw Error(fmt::format(
                 "{}: expected rows from the top (-Y height +X width), found \"{}\"; save it upright", mName,
                 text.substr(0, 60)));
-        // A run spends 2 bytes on at most 127 values of one component, so 16 pixels a byte: an eighth of what
-        // checkImageSize allows (512) leaves room for the older runs, and no gigabytes for kilobytes.
+        // A run takes 2 bytes for at most 127 values of one component, so a byte holds at most 16 pixels.
+        // Accept an eighth of what checkImageSize allows (512 pixels a byte): that leaves room for older
+        // runs, yet no kilobytes claim gigabytes.
         checkImageSize(mName, width, height, mBytes.size() / 8);
         checkDensity(mName, width, height, mBytes.size());
         return Image(int(width), int(height));
@@ -87,7 +88,7 @@ class RadianceReader {
         for (size_t component = 0; component < 4; component++) readPlane(row, component);
     }
 
-    // Run lengths, one component after the other: above 128 a run, else so many single values.
+    // Reads run lengths of one component: codes above 128 are runs, others count single values.
     void readPlane(std::vector<Rgbe>& row, size_t component) {
         for (size_t x = 0; x < row.size();) {
             const uint8_t code = byte();
@@ -99,7 +100,8 @@ class RadianceReader {
         }
     }
 
-    // Whole pixels; (1, 1, 1, n) repeats the last one n times, further such pixels count in bytes upward.
+    // Reads whole pixels. (1, 1, 1, n) repeats the previous one n times; consecutive such pixels hold further
+    // bytes of the count, lowest first.
     void readPixels(std::vector<Rgbe>& row, Rgbe pixel) {
         unsigned shift = 0;
         for (size_t x = 0;;) {

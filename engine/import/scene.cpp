@@ -15,7 +15,7 @@
 namespace relume {
 namespace {
 
-// About 10,000 vertices each, about two units across.
+// Makes a mesh of about 10,000 vertices, about two units across.
 Mesh makeBuiltin(const std::string& name, bool hasUvs) {
     if (name == "sphere") return makeSphere(5, hasUvs);
     if (name == "torus") return makeTorus(0.7f, 0.3f, 160, 64, hasUvs);

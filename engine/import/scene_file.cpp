@@ -1,4 +1,4 @@
-// The JSON of docs/scene_format.md.
+// Reads the JSON of docs/scene_format.md.
 #include "engine/base/error.h"
 #include "engine/import/json_object.h"
 #include "engine/import/scene.h"
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 constexpr float kLargestCoordinate = 1e9f; // as in mesh files
 constexpr const char* kMaterial = "a preset's name or an object {\"model\": …}";
 
-// A preset's name, or an object as text.
+// Returns a preset's name, or an object as JSON text; none if not given.
 std::optional<std::string> materialOf(const JsonObject& object) {
     const Json* value = object.find("material");
     if (value && value->is_object()) return value->dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -25,7 +25,7 @@ std::optional<std::string> materialOf(const JsonObject& object) {
     return value ? std::optional(object.text("material", "")) : std::nullopt;
 }
 
-// Scales, then turns about x, y and z in this order, then moves.
+// Scales, then rotates about x, y and z in this order, then translates.
 void transform(Mesh& mesh, vec3 translation, vec3 degrees, float scale, const std::string& place) {
     mat4 turn(1);
     for (int axis = 2; axis >= 0; axis--) {
@@ -53,7 +53,7 @@ PartPaint readPaint(const JsonObject& node, const std::filesystem::path& folder)
     return paint;
 }
 
-// The parts' names: the mesh's or the one given, which several parts share as a first half.
+// Renames parts: a single one to `name`, several to `name` followed by their own.
 void renameParts(std::vector<Part>& parts, const std::string& name) {
     if (name.empty()) return;
     for (Part& part : parts) part.name = parts.size() == 1 ? name : name + ": " + part.name;

@@ -16,9 +16,9 @@ constexpr Keys kFiles = {"bake", "model", "environment"}, kTexts = {"size", "res
                kVectors = {"eye", "target"},
                kNumbers = {"fov",     "rotate", "coefficients", "threshold",      "time",
                            "samples", "terms",  "exposure",     "background-blur"};
-constexpr float kLargest = 1e6f; // as options of cameras have it
+constexpr float kLargest = 1e6f; // as for camera options
 
-// Replaces the name of a file by its place, if it is there.
+// Replaces a relative file name, if present, by its absolute path.
 void place(Json& object, const char* key, const std::filesystem::path& folder) {
     if (object.contains(key) && object[key].is_string())
         object[key] =

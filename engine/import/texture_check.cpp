@@ -17,7 +17,7 @@ using Bytes = std::span<const std::byte>;
 
 constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
 
-// Takes numbers from the front of a file or of a segment, high bytes first.
+// Takes big-endian numbers from the front of a file or segment.
 class Reader {
   public:
     Reader(Bytes bytes, const std::string& name) : mBytes(bytes), mName(name) {}
@@ -57,7 +57,7 @@ void checkSides(uint32_t width, uint32_t height, const std::string& name) {
                         name, width, height, kLongestTextureSide));
 }
 
-// CRC-32 as PNG has it (ISO 3309).
+// Returns the CRC-32 of PNG (ISO 3309).
 uint32_t checkSum(Bytes bytes) {
     static const std::array<uint32_t, 256> kTable = [] {
         std::array<uint32_t, 256> table;
@@ -74,13 +74,13 @@ uint32_t checkSum(Bytes bytes) {
     return ~sum;
 }
 
-// Walks through a JPEG file's segments (ITU-T T.81, annex B) up to the end of the image.
+// Walks a JPEG file's segments (ITU-T T.81, annex B) to the end of the image.
 class JpegWalk {
   public:
     JpegWalk(Bytes bytes, const std::string& name) : mFile(bytes, name) {}
 
     void run() {
-        mFile.take(2); // the start of the image
+        mFile.take(2); // start-of-image marker
         uint32_t marker = mFile.takeNumber(2);
         while (marker != kEnd) {
             while (marker == 0xffff) marker = 0xff00 | mFile.takeNumber(1); // padding
@@ -110,7 +110,7 @@ class JpegWalk {
 
     void readHuffmanTables(Reader& segment) {
         while (!segment.isEmpty()) {
-            const uint32_t table = segment.takeNumber(1); // class and number, 4 bits each
+            const uint32_t table = segment.takeNumber(1); // class and index, 4 bits each
             uint32_t symbols = 0, codes = 0;
             for (int length = 1; length <= 16; length++) {
                 const uint32_t count = segment.takeNumber(1);
@@ -126,7 +126,7 @@ class JpegWalk {
 
     void readQuantizationTables(Reader& segment) {
         while (!segment.isEmpty()) {
-            const uint32_t table = segment.takeNumber(1); // width and number
+            const uint32_t table = segment.takeNumber(1); // precision and index, 4 bits each
             segment.take(table >> 4 ? 128 : 64);
             mQuantization[table & 15] = true;
         }
@@ -155,8 +155,7 @@ class JpegWalk {
                 segment.fail("a scan is of a component that is not described");
             tables[i] = {numbers >> 4, 0x10 | (numbers & 15)};
         }
-        // A progressive scan is of the mean or of the other frequencies, and refines the mean without a
-        // table.
+        // A progressive scan holds either DC or AC coefficients, and refines DC without a table.
         const uint32_t first = segment.takeNumber(1);
         segment.take(1);
         const bool isRefinement = segment.takeNumber(1) >> 4 != 0;
@@ -168,7 +167,7 @@ class JpegWalk {
         mHasScan = true;
     }
 
-    // Skips entropy-coded data, and returns the marker after it.
+    // Skips entropy-coded data and returns the marker after it.
     uint32_t skipScan() {
         while (true) {
             if (mFile.takeNumber(1) != 0xff) continue;
@@ -180,7 +179,7 @@ class JpegWalk {
     }
 
     Reader mFile;
-    std::map<uint32_t, uint32_t> mComponents; // quantization table by id
+    std::map<uint32_t, uint32_t> mComponents; // quantization table by component id
     std::array<bool, 256> mHuffman{};
     std::array<bool, 16> mQuantization{};
     bool mIsProgressive = false, mHasScan = false;

@@ -11,7 +11,7 @@
 
 namespace relume {
 Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
-    // The library would try many more formats, among them some that it does not read safely.
+    // stb_image would try many more formats, some of which it does not read safely.
     if (isPng(bytes))
         checkPng(bytes, name);
     else if (isJpeg(bytes))
@@ -30,13 +30,13 @@ Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name,
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
     if (!pixels) throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
-    // Once more: the library reads the size anew, and a file may say it twice.
+    // Check again: stb_image reads the size anew, and a file may state it twice.
     checkImageSize(name, width, height, bytes.size());
     Texture texture{width, height, std::vector<uint32_t>(size_t(width) * size_t(height)), srgb};
     for (size_t i = 0; i < texture.texelCount(); i++)
         for (int channel = 0; channel < 4; channel++)
             texture.texels[i] |= uint32_t(pixels.get()[4 * i + size_t(channel)]) << (8 * channel);
-    // The library fills a missing alpha with 255; a weight that is not there is none.
+    // stb_image fills a missing alpha with 255, but a missing weight is 0.
     const bool hasAlpha = channels == 2 || channels == 4;
     if (!srgb && !hasAlpha)
         for (uint32_t& texel : texture.texels) texel &= 0x00ffffff;

@@ -37,7 +37,7 @@ Json eventOf(const TimingSpan& span) {
     return event;
 }
 
-// A field of a table: in quotes where it must be.
+// Returns a CSV field, quoted if necessary.
 std::string csvField(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";
@@ -68,8 +68,8 @@ std::string chromeTrace(const TimingTrace& trace) {
         tracks.push_back(metadata("thread_name", track, {{"name", nameOf(track)}}));
         tracks.push_back(metadata("thread_sort_index", track, {{"sort_index", threadOf(track)}}));
     }
-    // Events one by one, a line each: all of them as one document would take many times their bytes. Device
-    // and driver names are whatever the driver says, so that what is not UTF-8 is replaced.
+    // Write events one by one, one per line; as one JSON document all of them would take many times their
+    // size in memory. Device and driver names come from the driver, so bytes that are not UTF-8 are replaced.
     const auto dump = [](const Json& json) {
         return json.dump(-1, ' ', false, Json::error_handler_t::replace);
     };

@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-// Columns of a blurred map per standard deviation of the blur.
+// Columns that a blurred map has per standard deviation of the blur.
 constexpr float kColumnsPerDeviation = 8;
 // Columns of a map without an environment, made of sky and strokes alone.
 constexpr int kOwnColumns = 2048;
@@ -20,7 +20,7 @@ const std::shared_ptr<const Environment>& pictureOf(const EnvironmentLight& ligh
     return light.picture ? light.picture : light.map;
 }
 
-// Distance of unit vectors at an angle.
+// Returns the distance between unit vectors at an angle.
 float chord(float angle) { return 2 * std::sin(angle / 2); }
 
 shared::BackgroundDisc discOf(const Stroke& stroke) {
@@ -76,7 +76,8 @@ Environment sumOf(const std::vector<EnvironmentLight>& lights, int width) {
     return sum;
 }
 
-// Adds all light of the sun to the pixels around it: its disc may be smaller than a pixel.
+// Adds the sun's light to the pixels around it, with its full energy even if its disc is smaller than a
+// pixel.
 void addSun(Environment& map, const Lamp& sun) {
     if (sun.radiance == vec3(0)) return;
     const shared::BackgroundDisc disc = discOf(sun);
@@ -96,7 +97,7 @@ int widest(const std::vector<EnvironmentLight>& lights) {
     return width;
 }
 
-// Returns the sources that a background shows.
+// Returns the sources that are visible as background.
 Light visibleSources(const Light& light) {
     return {.environments = light.environments,
             .sky = light.sky,
@@ -155,7 +156,7 @@ Background makeBackground(const Light& light, float deviation, const Background&
         background.rotation = only.rotation;
         background.gain = only.gain;
     } else if (!light.environments.empty()) {
-        // Turned as the first is, so that those which are turned alike are not resampled.
+        // Use the rotation of the first one, so that environments of equal rotation need no resampling.
         background.rotation = light.environments.front().rotation;
         background.environments = light.environments;
         for (EnvironmentLight& each : background.environments) each.rotation -= background.rotation;
@@ -173,7 +174,7 @@ Background makeBackground(const Light& light, float deviation, const Background&
 shared::BackgroundPush makeBackgroundPush(const Background& background, const Camera& camera, float turn,
                                           int width, int height) {
     const vec3 forward = glm::normalize(camera.target - camera.eye);
-    // At unit depth, where directions are linear in x and y.
+    // Use directions at unit depth, which are linear in x and y.
     const auto center = [&](int x, int y) {
         const vec3 direction = camera.pixelDirection(x, y, width, height);
         return turnedBy(direction / glm::dot(direction, forward), -turn);
@@ -187,7 +188,7 @@ shared::BackgroundPush makeBackgroundPush(const Background& background, const Ca
     push.hasSky = background.sky.has_value();
     push.strokes = uint32_t(background.strokes.size());
     push.edge = glm::length(push.down);
-    // As many lookups as the map has columns to a pixel; two a side for the sky, whose horizon is an edge.
+    // One lookup per map column within a pixel; for the sky two a side, since its horizon is an edge.
     const float columns = background.map ? push.edge * float(background.map->width) / (2 * kPi) : 0;
     push.side = uint32_t(
         std::clamp(std::ceil(columns), background.sky ? 2.0f : 1.0f, float(shared::kMostBackgroundSide)));

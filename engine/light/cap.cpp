@@ -11,12 +11,12 @@ namespace relume {
 
 namespace {
 
-// Sub-cells to a disc's radius, and within what bounds to a texel's side. With four and edges a sub-cell
-// wide, the share of a texel errs by less than 1 % of the disc.
+// Sub-cells per radius of a disc, and their bounds per side of a texel. With four, and edges one sub-cell
+// wide, a texel's coverage errs by less than 1 % of the disc.
 constexpr float kCellsPerRadius = 4;
 constexpr int kFewestCells = 4, kMostCells = 16;
 
-// Distance of unit vectors at an angle.
+// Returns the distance between unit vectors at an angle.
 float chord(float angle) { return 2 * std::sin(angle / 2); }
 
 } // namespace
@@ -45,7 +45,7 @@ float capCoverage(const shared::LightCap& cap, int face, int x, int y, int size)
     const vec3 center = cap.centers[face];
     const auto local = [](float u, float v) { return glm::normalize(vec3(u, v, 1)); };
     const auto middle = [&](int i) { return (2.0f * float(i) + 1.0f) / float(size) - 1.0f; };
-    // Nothing of a texel is further from its center: projection to the sphere brings points together.
+    // No point of a texel is further from its center, since projection to the sphere shortens distances.
     const float reach = std::sqrt(2.0f) / float(size);
     const float away = glm::distance(local(middle(x), middle(y)), center);
     if (away - reach >= cap.outer) return 0;

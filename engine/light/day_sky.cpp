@@ -12,17 +12,17 @@ namespace relume {
 namespace {
 
 constexpr float kSunRadius = 0.5f * 0.53f * kPi / 180;
-constexpr float kWhiteLuminance = 100 / kPi; // kcd/m²: of radiance 1
-constexpr float kSunIlluminance = 133;       // klx above the air
+constexpr float kWhiteLuminance = 100 / kPi; // kcd/m² that radiance 1 stands for
+constexpr float kSunIlluminance = 133;       // klx, above the atmosphere
 
-// By the paper's equation 3, of Y, x and y, for angles to the zenith and to the sun.
+// Returns the paper's equation 3 for Y, x and y at angles to the zenith and to the sun.
 vec3 distribution(const shared::LightSky& m, float cosZenith, float toSun) {
     const float cosine = std::cos(toSun);
     return (1.0f + m.a * glm::exp(m.b / cosZenith)) *
            (1.0f + m.c * glm::exp(m.d * toSun) + m.e * cosine * cosine);
 }
 
-// Chromaticity of the zenith: a polynomial in turbidity and the sun's angle to it.
+// Returns a chromaticity of the zenith, a polynomial in turbidity and in the sun's angle to the zenith.
 float zenithChromaticity(const float (&rows)[3][4], float turbidity, float angle) {
     float sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -33,7 +33,7 @@ float zenithChromaticity(const float (&rows)[3][4], float turbidity, float angle
     return sum;
 }
 
-// Linear sRGB of luminance Y and chromaticity (x, y).
+// Converts luminance Y and chromaticity (x, y) to linear sRGB.
 vec3 rgbOf(vec3 Yxy) {
     const float X = Yxy.x * Yxy.y / Yxy.z, Z = Yxy.x * (1 - Yxy.y - Yxy.z) / Yxy.z;
     const vec3 rgb(3.2406f * X - 1.5372f * Yxy.x - 0.4986f * Z, -0.9689f * X + 1.8758f * Yxy.x + 0.0415f * Z,
@@ -41,8 +41,8 @@ vec3 rgbOf(vec3 Yxy) {
     return glm::max(rgb, vec3(0));
 }
 
-// Share of the sun's light that passes the air, by Rayleigh scattering, aerosols and ozone; Kasten's air mass
-// (1965).
+// Returns the share of sunlight that the atmosphere transmits, by Rayleigh scattering, aerosols and ozone;
+// air mass by Kasten (1965).
 vec3 transmittance(float elevation, float turbidity) {
     const float degrees = glm::degrees(std::max(elevation, 0.0f));
     const float mass = 1 / (std::sin(glm::radians(degrees)) + 0.15f * std::pow(degrees + 3.885f, -1.253f));
@@ -54,7 +54,8 @@ vec3 transmittance(float elevation, float turbidity) {
     return glm::exp(-mass * depth);
 }
 
-// Irradiance of a horizontal surface under the sky: the midpoint rule over 16 × 64 equal projected areas.
+// Returns the irradiance of a horizontal surface under the sky, by the midpoint rule over 16 × 64 cells of
+// equal projected area.
 vec3 horizontalIrradiance(const shared::LightSky& model) {
     constexpr int kRings = 16, kSectors = 64;
     vec3 sum(0);
@@ -75,7 +76,7 @@ shared::LightSky makeSkyModel(const DaySky& sky) {
     RELUME_CHECK(sky.turbidity >= 2 && sky.turbidity <= 10 && sky.gain >= 0);
     const float T = sky.turbidity;
     const float elevation = std::asin(std::clamp(sky.sun.y, -1.0f, 1.0f));
-    const float angle = kPi / 2 - std::max(elevation, 0.0f); // to the zenith
+    const float angle = kPi / 2 - std::max(elevation, 0.0f); // of the sun to the zenith
     const vec2 level = vec2(sky.sun.x, sky.sun.z);
     const float across = glm::length(level);
 
@@ -108,7 +109,7 @@ shared::LightSky makeSkyModel(const DaySky& sky) {
 
 vec3 skyRadiance(const shared::LightSky& model, vec3 direction) {
     if (direction.y <= 0) return model.ground;
-    // By the half chord: acos would lose digits near the sun.
+    // From the half chord, since acos() loses precision near the sun.
     const float toSun = 2 * std::asin(std::min(0.5f * glm::distance(direction, model.sun), 1.0f));
     return rgbOf(model.zenith * distribution(model, direction.y, toSun));
 }

@@ -15,11 +15,11 @@ struct Share {
     float weight;
 };
 
-// The texel (x, y) of a face, either one of which, not both, may be one beyond it: then that of the next
-// face.
+// Returns texel (x, y) of a face, where x or y, not both, may be one beyond the edge: then the neighboring
+// face's texel.
 CubeTexel acrossEdge(int face, int x, int y, int size) {
     const auto place = [&](int i) {
-        if (i < 0 || i >= size) return i < 0 ? -1.0001f : 1.0001f; // just behind the edge
+        if (i < 0 || i >= size) return i < 0 ? -1.0001f : 1.0001f; // just beyond the edge
         return (2.0f * float(i) + 1.0f) / float(size) - 1.0f;
     };
     return cubeTexel(cubeDirection(face, place(x), place(y)), size);

@@ -21,7 +21,7 @@ vec2 Environment::place(vec3 d) const {
 MapTaps Environment::taps(vec3 d) const {
     const vec2 centered = place(d) - 0.5f;
     const vec2 low = glm::floor(centered);
-    // place() lies in [0, width], so one wrap on either side is enough.
+    // place() lies in [0, width], so one wrap on either side suffices.
     const int x0 = (int(low.x) + width) % width;
     const int y0 = std::clamp(int(low.y), 0, height - 1), y1 = std::clamp(int(low.y) + 1, 0, height - 1);
     return {x0, y0, (x0 + 1) % width, y1, centered - low};

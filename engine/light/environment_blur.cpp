@@ -1,5 +1,5 @@
-// Blurs a map by heat diffusion on the sphere, in finite volumes: what leaves a pixel enters its neighbors,
-// so that no energy is lost.
+// Blurs a map by heat diffusion on the sphere, in finite volumes, so that energy is conserved: what leaves a
+// pixel enters its neighbors.
 #include "engine/base/check.h"
 #include "engine/light/environment.h"
 
@@ -13,11 +13,11 @@ namespace {
 
 using dvec3 = glm::dvec3;
 
-// Implicit steps, along columns and rows in turn; with so many the spread is nearly a Gaussian.
+// Implicit steps, alternating between columns and rows; with six the kernel is nearly a Gaussian.
 constexpr int kSteps = 6;
 
 // Solves -low[i] x[i-1] + (1 + low[i] + high[i]) x[i] - high[i] x[i+1] = values[i], low[0] = high[n-1] = 0.
-// The matrix is eliminated once, for all right-hand sides.
+// The elimination is done once for all right-hand sides.
 class Tridiagonal {
   public:
     Tridiagonal(std::vector<double> low, const std::vector<double>& high)
@@ -27,7 +27,7 @@ class Tridiagonal {
             mFactor[i] = high[i] * mInverse[i];
         }
     }
-    // Solves `lanes` right-hand sides that lie side by side.
+    // Solves for `lanes` interleaved right-hand sides.
     template <typename Value>
     void solve(Value* values, size_t lanes = 1) const {
         const size_t count = mFactor.size();
@@ -44,8 +44,8 @@ class Tridiagonal {
     std::vector<double> mLow, mFactor, mInverse;
 };
 
-// The same around a circle, with one exchange everywhere, by Sherman and Morrison: what passes between the
-// last and the first is taken out of the matrix, and the solution mended.
+// Solves the same system on a circle with uniform exchange, by the Sherman–Morrison formula: the exchange
+// between last and first is taken out of the matrix and corrected for in the solution.
 class Cyclic {
   public:
     Cyclic(size_t count, double exchange)
@@ -82,17 +82,16 @@ Environment blur(const Environment& environment, float deviation) {
     RELUME_CHECK_EQ(environment.radiance.size(), width * height);
     const double columnAngle = 2 * glm::pi<double>() / double(width),
                  rowAngle = glm::pi<double>() / double(height);
-    const double time =
-        0.5 * double(deviation) * double(deviation) / kSteps; // of a step: variance is twice that
-    const auto across = [&](double row) {
-        return std::sin(rowAngle * row);
-    }; // of a circle of latitude, its radius
-    // Exchange of neighboring pixels: length of their border, over their distance and the pixel's solid
+    // Duration of a step; the variance is twice the duration.
+    const double time = 0.5 * double(deviation) * double(deviation) / kSteps;
+    // Returns the radius of a circle of latitude.
+    const auto across = [&](double row) { return std::sin(rowAngle * row); };
+    // Exchange between neighboring pixels is their border's length over their distance and the pixel's solid
     // angle.
     std::vector<double> low(height), high(height);
     std::vector<Cyclic> rows;
     for (size_t y = 0; y < height; y++) {
-        const double area = 2 * std::sin(rowAngle / 2) * across(double(y) + 0.5); // over columnAngle
+        const double area = 2 * std::sin(rowAngle / 2) * across(double(y) + 0.5); // divided by columnAngle
         low[y] = y > 0 ? time * across(double(y)) / (rowAngle * area) : 0;
         high[y] = y + 1 < height ? time * across(double(y + 1)) / (rowAngle * area) : 0;
         rows.emplace_back(width,

@@ -1,4 +1,4 @@
-// Preparation of a map for sampling. Every step keeps Σ radiance · solid angle; sums are in double.
+// Prepares a map for sampling. Every step conserves Σ radiance · solid angle; sums are in double precision.
 #include "engine/base/check.h"
 #include "engine/light/environment.h"
 
@@ -20,20 +20,20 @@ struct Map {
     const dvec3& at(int x, int y) const { return radiance[size_t(y) * size_t(width) + size_t(x)]; }
 };
 
-// Solid angle between the upper pole and a row's upper edge, over 2π.
+// Returns the solid angle between the upper pole and a row's upper edge, over 2π.
 double capAbove(int row, int height) {
     const double half = std::sin(glm::pi<double>() * row / height / 2);
     return 2 * half * half;
 }
 
-// Overlap of a target pixel with source pixels along one axis.
+// Overlap of a target pixel with a source pixel along one axis.
 struct Share {
     int source;
-    double weight; // the shares of a target sum to 1
+    double weight; // share of the target; a target's weights sum to 1
 };
 
-// Shares of target interval [t, t + 1] / targetSize in the source's intervals, by a monotonic measure of
-// the edges: `sourceEdge(i)` and `targetEdge(t)` in the same unit.
+// Returns, per target interval [t, t + 1], the shares of the source's intervals. sourceEdge(i) and
+// targetEdge(t) give the edges' positions in the same unit, monotonically.
 template <typename SourceEdge, typename TargetEdge>
 std::vector<std::vector<Share>> overlaps(int sourceSize, int targetSize, SourceEdge sourceEdge,
                                          TargetEdge targetEdge) {
@@ -50,7 +50,7 @@ std::vector<std::vector<Share>> overlaps(int sourceSize, int targetSize, SourceE
     return shares;
 }
 
-// Area average: columns by their width, rows by their solid angle.
+// Resamples by area averages: columns by width, rows by solid angle.
 Map resample(const Environment& environment, int width, int height) {
     const auto columns = overlaps(
         environment.width, width, [&](int i) { return double(i) / environment.width; },
@@ -69,10 +69,11 @@ Map resample(const Environment& environment, int width, int height) {
     return map;
 }
 
-// Circular mean over a window of `columns`, at most the width, centered on each pixel.
+// Replaces a row by its circular moving average over a window of `columns`, at most the width, centered on
+// each pixel.
 void blurRow(dvec3* row, int width, double columns) {
     if (columns <= 1) return;
-    std::vector<dvec3> sums(size_t(2 * width) + 1, dvec3(0)); // of the pixels before, over two turns
+    std::vector<dvec3> sums(size_t(2 * width) + 1, dvec3(0)); // prefix sums over two turns
     for (int x = 0; x < 2 * width; x++) sums[size_t(x) + 1] = sums[size_t(x)] + row[x % width];
     const auto sumBefore = [&](double x) {
         const int whole = std::min(int(x), 2 * width - 1);
@@ -84,8 +85,8 @@ void blurRow(dvec3* row, int width, double columns) {
     }
 }
 
-// The rows around a pole become their common mean. A bilinear lookup gives a single polar row 8 % too
-// much of the sphere, three rows together 0.9 %.
+// Averages the rows around a pole. A bilinear lookup overweights a single polar row by 8 %, three rows
+// together by 0.9 %.
 void levelPole(Map& map, bool upper) {
     const int rows = std::min(3, map.height / 2);
     if (rows == 0) return;

@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-// Weights of a map's pixels in one texel.
+// Accumulates weights of a map's pixels for one texel.
 class Accumulator {
   public:
     Accumulator(int width, int height)
@@ -26,7 +26,7 @@ class Accumulator {
         mTotal += weight;
     }
 
-    // Appends the pixels, their weights over the total, and starts afresh.
+    // Appends the pixels with their normalized weights, and resets.
     void flush(std::vector<shared::FootprintPixel>& pixels) {
         std::sort(mTouched.begin(), mTouched.end());
         for (uint32_t pixel : mTouched) {
@@ -46,7 +46,7 @@ class Accumulator {
         mWeights[pixel] += weight;
     }
 
-    Environment mMap; // sizes only
+    Environment mMap; // for its size only
     std::vector<float> mWeights;
     std::vector<uint32_t> mTouched;
     float mTotal = 0;

@@ -24,20 +24,20 @@ LightCube dropFaintTexels(LightCube cube) {
     return cube;
 }
 
-// Returns zero for a weight that a device may flush to zero.
+// Replaces weights that a device may flush to zero by zero.
 float flushDenormal(float weight) { return weight < std::numeric_limits<float>::min() ? 0 : weight; }
 
 float largestComponent(vec3 c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
 double lengthSquared(glm::dvec3 v) { return glm::dot(v, v); }
 
-// The share of its face that the function of coefficient (x, y) covers: 4^-level, level 0 for the average.
+// Returns the share of its face that a Haar function covers: 4^-level, where the average has level 0.
 float areaOf(int x, int y) {
     const int side = std::max(1, int(std::bit_floor(unsigned(std::max(x, y)))));
     return 1.0f / float(side * side);
 }
 
-// Indices of the kept entries, rising.
+// Returns the indices of the kept entries, ascending.
 std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
                              const LightSelection& selection) {
     std::vector<float> weights;
@@ -61,7 +61,7 @@ std::vector<uint32_t> select(const std::vector<vec3>& coefficients, int size,
     return kept;
 }
 
-// Rounds to nearest, halves away from zero. In double, where none of this rounds.
+// Rounds to nearest, halves away from zero. In double precision, the division is exact.
 ivec3 quantize(vec3 coefficient, double step) {
     const glm::dvec3 c(coefficient);
     return ivec3(glm::sign(c) * glm::floor(glm::abs(c) / step + 0.5));
@@ -88,7 +88,7 @@ LightVector makeLightVector(const LightCube& cube, const LightSelection& selecti
     while (double(largest) / step > kLightMaximum) step *= 2;
     while (!fits(step)) step *= 2;
     vector.scale = float(step);
-    double energy = 0, lost = 0; // in double: no power of two overflows
+    double energy = 0, lost = 0; // in double precision, so that no power of two overflows
     for (const vec3& c : coefficients) energy += lengthSquared(glm::dvec3(c));
     lost = energy;
     for (uint32_t i : kept) {

@@ -1,5 +1,5 @@
-// The built-in sky: not a model of the atmosphere, but what shows a glossy object well: a bright soft sun,
-// a gradient, clouds for reflections to move over, a darker ground.
+// The built-in sky. It does not model the atmosphere but shows glossy objects well: a bright soft sun, a
+// gradient, clouds that reflections move over, and a darker ground.
 #include "engine/base/check.h"
 #include "engine/light/environment.h"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr float kSunRadius = 3 * kPi / 180;
 constexpr float kSunElevation = 42 * kPi / 180, kSunLongitude = 40 * kPi / 180;
 
-// A value in [0, 1) for each point of a lattice: the finaliser of MurmurHash3.
+// Returns a pseudorandom value in [0, 1) per lattice point, by the finalizer of MurmurHash3.
 float latticeValue(ivec3 p) {
     uint32_t h = uint32_t(p.x) * 0x8da6b343u ^ uint32_t(p.y) * 0xd8163841u ^ uint32_t(p.z) * 0xcb1ab31fu;
     h = (h ^ (h >> 16)) * 0x85ebca6bu;
@@ -21,7 +21,7 @@ float latticeValue(ivec3 p) {
     return float((h ^ (h >> 16)) >> 8) / 16777216.0f;
 }
 
-// Value noise with smooth steps, in [0, 1).
+// Returns value noise with smoothstep interpolation, in [0, 1).
 float noise(vec3 p) {
     const vec3 low = glm::floor(p);
     const vec3 t = (p - low) * (p - low) * (3.0f - 2.0f * (p - low));
@@ -32,7 +32,7 @@ float noise(vec3 p) {
     return glm::mix(glm::mix(edge(0, 0), edge(1, 0), t.y), glm::mix(edge(0, 1), edge(1, 1), t.y), t.z);
 }
 
-// Cloud cover in [0, 1] of a flat layer seen from below, thinning out towards the horizon.
+// Returns the cloud cover in [0, 1] of a flat layer seen from below, thinning out towards the horizon.
 float clouds(vec3 d) {
     if (d.y <= 0) return 0;
     const vec3 p = vec3(d.x, 0, d.z) * (2.0f / (d.y + 0.25f));

@@ -22,17 +22,17 @@ double wrapped(double degrees) { return degrees - 360 * std::floor(degrees / 360
 
 int daysOf(int year, int month) {
     constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    return kDays[month - 1] + (month == 2 && year % 4 == 0); // 2000 was a leap year as well
+    return kDays[month - 1] + (month == 2 && year % 4 == 0); // 2000 was a leap year, too
 }
 
-// Days since 2000-01-01 12:00 UTC, for 1901 to 2099.
+// Returns the days since 2000-01-01 12:00 UTC, valid for 1901 to 2099.
 double daysSince2000(const Moment& moment) {
     int days = 365 * (moment.year - 2000) + (moment.year - 2000 + 3 + 400) / 4 - 100;
     for (int month = 1; month < moment.month; month++) days += daysOf(moment.year, month);
     return days + moment.day - 1 + (moment.hours - 12) / 24;
 }
 
-// How much the air raises what stands at a true elevation, in degrees.
+// Returns by how much refraction raises an object at a true elevation, in degrees.
 double refraction(double elevation) {
     const double t = tangent(elevation);
     double seconds = 0;
@@ -58,7 +58,7 @@ Moment parseMoment(const std::string& text) {
             "UTC or Z, found \"{}\"",
             text.substr(0, 40)));
     };
-    // A digit for each 0 of `shape`, and all else as it is there.
+    // Returns whether `part` has a digit for each 0 of `shape` and equals it elsewhere.
     const auto isLike = [](std::string_view part, std::string_view shape) {
         return std::ranges::equal(part, shape, [](char letter, char expected) {
             return expected == '0' ? letter >= '0' && letter <= '9' : letter == expected;
@@ -70,7 +70,7 @@ Moment parseMoment(const std::string& text) {
         return value;
     };
     const std::string_view all = text;
-    constexpr size_t kDate = 16; // and time, without seconds
+    constexpr size_t kDate = 16; // date and time without seconds
     if (!isLike(all.substr(0, kDate), "0000-00-00T00:00")) refuse();
     moment = {number(all.substr(0, 4)), number(all.substr(5, 2)), number(all.substr(8, 2)), 0};
     const int hour = number(all.substr(11, 2)), minute = number(all.substr(14, 2));
@@ -114,7 +114,7 @@ SunPosition sunPosition(const Moment& moment, double latitude, double longitude)
 
     const double zenith = arcCosine(sine(latitude) * sine(declination) +
                                     cosine(latitude) * cosine(declination) * cosine(hourAngle));
-    // From the south, by components: no division fails at the poles or under the sun.
+    // Azimuth from the south by components, so that no division fails at the poles or below the sun.
     const double west = sine(hourAngle);
     const double south = cosine(hourAngle) * sine(latitude) - tangent(declination) * cosine(latitude);
     const double elevation = 90 - zenith;

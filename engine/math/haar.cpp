@@ -63,7 +63,7 @@ void haarInverseFaces(std::span<vec3> cube, int faceSize) { transformFaces(cube,
 
 size_t haarSlot(size_t coefficient, size_t size) {
     const size_t face = coefficient / (size * size), y = coefficient / size % size, x = coefficient % size;
-    const size_t level = std::bit_floor(std::max(x, y)); // a side, of the details it belongs to
+    const size_t level = std::bit_floor(std::max(x, y)); // side of the level's detail blocks
     const size_t detail = (x >= level) + 2 * size_t(y >= level) - 1;
     size_t first = 0;
     for (const size_t side : {size / 4, size / 16, size_t(1)}) {
@@ -77,7 +77,7 @@ size_t haarSlot(size_t coefficient, size_t size) {
         if (level == side) return place(x % level, y % level, 12 + detail);
         first += 6 * side * side;
     }
-    return 16 * (first - 6 + face) + 15; // the average
+    return 16 * (first - 6 + face) + 15; // the face's average
 }
 
 } // namespace relume

@@ -13,14 +13,14 @@ namespace {
 
 constexpr size_t kPaintChannels = 4;
 
-// How many materials of the blend a set holds.
+// Returns the number of the blend's materials that a set holds.
 size_t countHeld(const MaterialSet& set, std::span<const WeightedMaterial> blend) {
     return size_t(std::ranges::count_if(blend, [&](const WeightedMaterial& material) {
         return std::ranges::find(set.materials, material.name, &AssetMaterial::name) != set.materials.end();
     }));
 }
 
-// Returns the weights of a set's materials in the blend over their sum; none where that is zero.
+// Returns the weights of a set's materials in the blend, divided by their sum; empty if that is zero.
 std::vector<float> weightsIn(const MaterialSet& set, std::span<const WeightedMaterial> blend) {
     std::vector<float> weights(set.materials.size(), 0);
     float sum = 0;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kKey = 0.3; // middle gray is 0.18; grounds are mostly white
 constexpr double kBrightShare = 0.02;
-constexpr float kDarkest = 1e-3f; // of the brightest that counts in full
+constexpr float kDarkest = 1e-3f; // relative to the brightest that counts in full
 constexpr double kMostStops = 20;
 
 struct Sample {

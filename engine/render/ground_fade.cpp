@@ -4,7 +4,7 @@
 
 namespace relume {
 
-// Largest ratio of the inner to the outer radius: an object may be as large as its ground.
+// Largest ratio of inner to outer radius, since an object may be as large as its ground.
 static constexpr float kMostInner = 0.6f;
 
 std::optional<GroundFade> makeGroundFade(const Asset& asset) {
@@ -22,7 +22,7 @@ std::optional<GroundFade> makeGroundFade(const Asset& asset) {
 float groundCoverage(const GroundFade& fade, vec3 position) {
     const float away = glm::distance(vec2(position.x, position.z), fade.center);
     const float share = 1 - glm::smoothstep(fade.inner, fade.outer, away);
-    return share * share; // a long tail: no rim is seen
+    return share * share; // squared for a long tail, so that no rim is visible
 }
 
 } // namespace relume

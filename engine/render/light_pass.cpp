@@ -66,7 +66,7 @@ void LightPass::record(vk::Commands& commands, float rotation, const LightSelect
     commands.barrier(Stage::Draw, Stage::Compute);
     if (mLight) mSources.record(commands, turned(*mLight, rotation), mRadiance);
     commands.pass("light haar", [&] {
-        // A work-group per face and channel.
+        // One workgroup per face and channel.
         commands.dispatch(mHaarProgram, {mRadiance, mCoefficients}, 0, {1, 6, 3});
         commands.barrier(Stage::Compute, Stage::Compute);
     });

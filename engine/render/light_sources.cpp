@@ -21,7 +21,7 @@ using vk::Stage;
 
 namespace {
 
-// Looked at by one dispatch: software devices end an invocation's loops after 65,535 turns, and a cap's
+// Caps per dispatch: software devices end an invocation's loops after 65,535 iterations, and a cap's
 // sub-cells take up to 272.
 constexpr uint32_t kCapsPerDispatch = 128;
 

@@ -24,13 +24,14 @@ using vk::Stage;
 namespace {
 
 constexpr uint32_t kNone = 0xffffffff;
-constexpr uint32_t kBatch = 32; // nodes that are made together: what buffers between passes hold
+constexpr uint32_t kBatch = 32; // nodes made together, for which the buffers between passes have room
 constexpr VkFormat kTexelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kSphereTexels = kSphereRings * kSphereAzimuths;
 
 uint32_t roundUp(uint32_t value, uint32_t step) { return (value + step - 1) / step; }
 
-// As the device reads it: [component][four rings of the mirror direction][ring of the light][channel].
+// Returns the kernel as the device reads it: [component][four rings of the mirror direction][ring of the
+// light][channel].
 std::vector<vec4> packed(const SphereKernel& kernel) {
     std::vector<vec4> texels(size_t(kernel.components()) * (kSphereRings / 4) * kSphereRings * 3);
     RELUME_CHECK_EQ(kernel.values.size() * 3, texels.size() * 4);
@@ -44,7 +45,7 @@ std::vector<vec4> packed(const SphereKernel& kernel) {
     return texels;
 }
 
-// Two vec4 a node: its direction, and the side that azimuth 0 is at.
+// Returns two vec4 per node: its direction, and the direction of azimuth 0.
 template <typename Nodes>
 std::vector<vec4> gridFrames(const Nodes& nodes) {
     std::vector<vec4> frames;
@@ -71,7 +72,7 @@ vk::ImageOptions imageOptions(uint32_t width, uint32_t height, uint32_t layers) 
                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
 }
 
-// Black, and ready to be read.
+// Makes a black image, ready to be read by shaders.
 vk::Image emptyImage(const vk::Device& device, uint32_t width, uint32_t height, uint32_t layers,
                      const char* name) {
     return vk::uploadImage(device, imageOptions(width, height, layers),
@@ -84,7 +85,7 @@ vk::Buffer makeTexels(const vk::Device& device, uint64_t count, const char* name
 
 vk::Binding texels(const vk::Buffer& buffer) { return vk::Binding::texelsOf(buffer, kTexelFormat); }
 
-// All layers of an image that is ready to be read, and is so again.
+// Reads all layers of an image that shaders can read, and leaves it in that state.
 std::vector<vec4> readImage(const vk::Device& device, const vk::Image& image) {
     const vk::ImageOptions& options = image.options();
     const uint64_t count = uint64_t(options.width) * options.height * options.layers;
@@ -166,7 +167,7 @@ void LitSpheres::addSet(const ResidualSet& set, const FactoredBrdf& factors, std
                             makeViewMapTexture(mDevice, lights, "light maps"), 0});
     for (const vec3& weight : set.irradianceWeights)
         weights.insert(weights.end(), {weight.x, weight.y, weight.z});
-    weights.resize(roundUp(uint32_t(weights.size()), 12) * 12, 0); // whole quads of terms
+    weights.resize(roundUp(uint32_t(weights.size()), 12) * 12, 0); // pad to whole groups of four terms
     for (const auto& layer : set.layers) {
         if (!mKernelNumbers.emplace(layer.get(), uint32_t(mKernels.size())).second) continue;
         mKernels.push_back({{0, uint32_t(layer->frequencies), uint32_t(layer->harmonics)},
@@ -217,7 +218,7 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
     });
 }
 
-// Slots for as many spheres as a view needs, and some to spare.
+// Makes room for as many spheres as a view needs, and some to spare.
 void LitSpheres::makeRoom(size_t spheres) {
     if (spheres <= mSlotCount) return;
     const uint32_t most = mDevice.limits().maxImageArrayLayers;
@@ -252,7 +253,7 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
         wanted += missing.back().size();
     }
     if (wanted == 0) return;
-    // Spheres of other views are evicted if there is no room.
+    // Evict spheres of other views if there is no room.
     if (mFreeSlots.size() < wanted)
         for (uint32_t& slot : mSlotTable)
             if (slot != kNone && !used.contains(slot)) {
@@ -282,7 +283,7 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<
     SpherePush push = kernel.push;
     push.nodes = uint32_t(nodes.size());
     const std::vector<vec4> frames = gridFrames(nodes);
-    // The batch before may still be reading its nodes, and copying its spheres.
+    // The previous batch may still be reading its nodes and copying its spheres.
     commands.barrier(Stage::Compute, Stage::Transfer);
     commands.barrier(Stage::Transfer, Stage::Compute);
     commands.update(mBatchNodes, std::as_bytes(std::span(frames)));
@@ -303,7 +304,7 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<
         uint32_t& slot = mSlotTable[number * kGridNodes + nodes[i]];
         slot = mFreeSlots.back();
         mFreeSlots.pop_back();
-        // A kernel that has fewer parts than others leaves rows below them that nobody reads.
+        // A kernel with fewer parts than others leaves rows below them that nothing reads.
         commands.copy(mParts, i * kernel.parts() * kSphereTexels * sizeof(vec4), mImage, slot);
     }
 }

@@ -7,16 +7,16 @@ namespace relume {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-// Triangles after which devices no longer hold what was made of a vertex: about what they hold, and the
-// least vertices on lavapipe.
+// Triangles after which a device's vertex cache is assumed to have lost a vertex: about what devices hold; on
+// lavapipe it gives the fewest vertices.
 constexpr uint32_t kHeld = 32;
 
-// A copy of a vertex that begins a triangle, or none does.
+// Copy of a vertex, by its index; kNone if none has been made.
 struct Copy {
     uint32_t number = kNone, lastTriangle = 0;
 };
 
-// Per triangle the next one that begins with the same vertex, per vertex the first.
+// Lists the triangles that begin with a vertex: the first one per vertex, the next one per triangle.
 struct Beginnings {
     explicit Beginnings(const std::vector<uvec3>& triangles, size_t vertices)
         : next(triangles.size(), kNone), first(vertices, kNone) {
@@ -28,7 +28,7 @@ struct Beginnings {
     std::vector<uint32_t> next, first;
 };
 
-// The corners of every triangle turned so that few vertices begin none.
+// Returns the triangles with their corners rotated so that few vertices begin none.
 std::vector<uvec3> turned(const Mesh& mesh) {
     std::vector<uvec3> triangles;
     triangles.reserve(mesh.triangleCount());
@@ -49,7 +49,7 @@ NumberedTriangles numberTriangles(const Mesh& mesh) {
     NumberedTriangles numbered{{}, turned(mesh)};
     for (const uvec3& triangle : numbered.triangles) numbered.positions.push_back(mesh.positions[triangle.x]);
     auto [next, coming] = Beginnings(numbered.triangles, mesh.vertexCount());
-    std::vector<Copy> copies(mesh.vertexCount()); // that were used last
+    std::vector<Copy> copies(mesh.vertexCount()); // most recently used copy of each vertex
     for (uint32_t t = 0; t < numbered.triangles.size(); t++) {
         uvec3& triangle = numbered.triangles[t];
         copies[triangle.x] = {t, t};

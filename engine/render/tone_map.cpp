@@ -7,14 +7,14 @@ namespace relume {
 
 namespace {
 
-// Brighter than anything a curve tells from white; its square is a finite float.
+// Brighter than any value that a curve distinguishes from white; its square is a finite float.
 constexpr float kBrightest = 1e15f;
 
 vec3 aces(vec3 x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); }
 
-// Display light, linear. AgX works on logarithms in primaries drawn in towards white.
+// Returns linear display light. AgX works on logarithms, in primaries that are drawn in towards white.
 vec3 agx(vec3 x) {
-    const mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, // columns
+    const mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, // by columns
                      0.0784335999999992f, 0.878468636469772f, 0.0784336f, 0.0792237451477643f,
                      0.0791661274605434f, 0.879142973793104f);
     constexpr float kLowestStop = -12.47393f, kHighestStop = 4.026069f;
@@ -23,7 +23,7 @@ vec3 agx(vec3 x) {
     const vec3 t2 = t * t, t4 = t2 * t2;
     const vec3 contrast = 15.5f * t4 * t2 - 40.14f * t4 * t + 31.96f * t4 - 6.868f * t2 * t + 0.4298f * t2 +
                           0.1191f * t - 0.00232f;
-    // The sigmoid's values are meant for a display of gamma 2.2.
+    // The sigmoid is meant for a display of gamma 2.2.
     return glm::pow(glm::max(glm::inverse(inset) * contrast, vec3(0)), vec3(2.2f));
 }
 

@@ -10,9 +10,9 @@ namespace relume {
 
 namespace {
 
-// Of fewer more are hidden, in more draws: docs/view_speed.md.
+// Smaller clusters cull more triangles but take more draws (docs/view_speed.md).
 constexpr uint32_t kClusterTriangles = 64;
-// Of what is added up in a clip coordinate: beyond what rounding it, and computing with it, can take.
+// Bound on rounding errors relative to the terms of a clip coordinate, including errors of computing with it.
 constexpr float kRounding = 0x1p-20f;
 
 struct Triangle {
@@ -29,7 +29,8 @@ Triangle triangleOf(const Mesh& mesh, uint32_t number) {
         {glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z])}};
 }
 
-// Of a triangle in a single place nothing is ever seen.
+// Returns the plane of a triangle. A triangle that is a single point is never visible, so it gets a plane
+// that always shows its back.
 vec4 planeOf(const Triangle& triangle) {
     const auto& [a, b, c] = triangle.corners;
     const double edge = triangle.longestEdge();
@@ -38,7 +39,8 @@ vec4 planeOf(const Triangle& triangle) {
     return vec4(vec3(normal), float(glm::dot(normal, a)));
 }
 
-// Of unit length; what is seen is before them, rounding and all. Cameras have everything before the far one.
+// Returns normalized planes with all that is visible in front of them, enlarged for rounding. The far plane
+// is left out, since cameras put everything in front of it.
 std::array<vec4, 5> frustumPlanes(const mat4& clipFromWorld) {
     const mat4 rows = glm::transpose(clipFromWorld);
     std::array<vec4, 5> planes{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
@@ -70,20 +72,20 @@ TriangleClusters::TriangleClusters(const Mesh& mesh) {
     }
 }
 
-// A triangle's area in the image is focal length² · (its plane's product with the eye) / (product of its
-// corners' depths). The device rounds each corner's place by up to `away`, which changes twice the area by
-// less than 6 · away · longest edge + 8 · away², and where it is larger, not the sign.
+// Twice a triangle's area in the image is focal length² · (its plane's height above the eye) / (product of
+// its corners' depths). The device rounds each corner's position by up to `away`, which changes twice the
+// area by less than 6 · away · longest edge + 8 · away². Where the area is larger, its sign is certain.
 bool TriangleClusters::showsBacksAlone(size_t number, const ClusterView& view) const {
     const size_t first = number * kClusterTriangles;
     const size_t end = std::min(first + kClusterTriangles, mPlanes.size());
     const auto height = [&](size_t t) { return mPlanes[t].w - glm::dot(vec3(mPlanes[t]), view.eye); };
-    if (!(height(first) > 0)) return false; // most that show fronts are done
+    if (!(height(first) > 0)) return false; // rejects most clusters that show fronts
     const Cluster& cluster = mClusters[number];
     const vec3 forward(glm::row(view.clipFromWorld, 3));
     const float depth = glm::dot(forward, cluster.center - view.eye);
     const float nearest = depth - cluster.radius, farthest = depth + cluster.radius;
     if (!(nearest > 0)) return false;
-    // How much longer places are in the image than the depth says.
+    // Factor by which lengths in the image may exceed those that depth alone gives.
     const float aslant = 1 + (glm::distance(cluster.center, view.eye) + cluster.radius) / nearest;
     const float reach = glm::length(view.eye) + glm::length(cluster.center) + cluster.radius;
     const float away = view.pixelFraction / view.focalLength + kRounding * aslant * reach / nearest;

@@ -12,7 +12,7 @@ VkFormatFeatureFlags featuresOf(const vk::Device& device, VkFormat format) {
     return properties.optimalTilingFeatures;
 }
 
-// Returns the sample counts that the device has for optimal images of a format and use.
+// Returns the sample counts that the device supports for optimal images of a format and usage.
 VkSampleCountFlags sampleCounts(const vk::Device& device, VkFormat format, VkImageUsageFlags usage) {
     VkImageFormatProperties properties{};
     if (vkGetPhysicalDeviceImageFormatProperties(device.physical(), format, VK_IMAGE_TYPE_2D,
@@ -30,8 +30,8 @@ VkFormat viewDepthFormat(const vk::Device& device) {
     return hasSmall ? kSmall : kLarge;
 }
 
-// The formats are asked one by one, since limits may promise less: lavapipe's
-// framebufferIntegerColorSampleCounts is 1 alone, and it draws 4 of these.
+// Queries each format, since limits may promise less: lavapipe's framebufferIntegerColorSampleCounts is 1,
+// yet it draws these with 4.
 int supportedViewSamples(const vk::Device& device, VkFormat depthFormat, int wanted) {
     expectSamples(wanted);
     const bool addsColors =

@@ -13,7 +13,7 @@ constexpr auto kCells = int(shared::kGridCells), kSide = int(shared::kGridSide);
 
 struct GridPlace {
     int face;
-    vec2 place; // in cells
+    vec2 place; // position in cells
 };
 
 GridPlace placeOf(vec3 direction) {
@@ -49,10 +49,9 @@ GridCell gridCell(vec3 direction) {
 
 void addGridNodes(std::set<uint32_t>& nodes, vec3 corner, vec3 right, vec3 down, vec2 leftTop,
                   vec2 rightBottom) {
-    // Directions that are sampled are nearer to each other than a cell is wide, so that cells between them
-    // are next to theirs.
+    // Sampled directions are less than a cell apart, so that cells between two of them are next to theirs.
     constexpr int kSteps = 24;
-    constexpr float kReach = 0.5f; // of a cell
+    constexpr float kReach = 0.5f; // in cells
     const vec2 step = (rightBottom - leftTop) / float(kSteps);
     for (int j = 0; j <= kSteps; j++)
         for (int i = 0; i <= kSteps; i++) {

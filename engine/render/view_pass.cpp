@@ -31,13 +31,13 @@ using vk::Stage;
 
 namespace {
 
-constexpr uint32_t kEdgeBit = 0x80; // of the stencil, where pixels have several samples
+constexpr uint32_t kEdgeBit = 0x80; // of the stencil: marks edges where pixels have several samples
 
 float pixelFraction(const vk::Device& device) {
     return std::exp2(-float(device.limits().subPixelPrecisionBits));
 }
 
-// `orElse`: what helps besides.
+// Throws unless the device can read `texels` of a buffer; `orElse` continues the advice.
 void expectTexels(const vk::Device& device, uint64_t texels, uint64_t texelBytes, const std::string& name,
                   const std::string& orElse = "") {
     if (texels > device.mostTexels(texelBytes))
@@ -47,7 +47,7 @@ void expectTexels(const vk::Device& device, uint64_t texels, uint64_t texelBytes
             name, texels, device.name(), device.mostTexels(texelBytes), orElse));
 }
 
-// Options of passes that shade pixels whose stencil equals the part's value in these bits.
+// Returns options of passes that shade pixels whose stencil equals the part's value in these bits.
 vk::GraphicsOptions shadeOptions(VkFormat depthFormat, uint32_t stencilBits = 0xff) {
     return {.colorFormat = kViewColorFormat,
             .depthFormat = depthFormat,
@@ -57,7 +57,7 @@ vk::GraphicsOptions shadeOptions(VkFormat depthFormat, uint32_t stencilBits = 0x
             .stencilCompared = stencilBits};
 }
 
-// The most that lit spheres of any layer have; 0 where there are none.
+// Returns the most harmonics of any layer's lit spheres; 0 if there are none.
 uint32_t mostHarmonics(const ResidualSet* residual) {
     int most = 0;
     if (residual)
@@ -110,7 +110,7 @@ shared::ViewDetail detailOf(const AssetPart& part) {
     return {part.detail.emission, part.detail.normalMap ? part.detail.normalScale : 0, part.tintedByColors};
 }
 
-// The least of the shader's ways that serves these layers, and what else there is to see.
+// Returns the cheapest of the shader's variants that handles these layers and the detail.
 uint32_t lookOf(const std::vector<shared::ViewLayer>& layers, bool isDetailed) {
     if (isDetailed) return shared::kSurfaceLook;
     for (const shared::ViewLayer& layer : layers)
@@ -321,7 +321,7 @@ void ViewPass::makeImages(int width, int height) {
 ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
     const auto width = int(mColor.options().width), height = int(mColor.options().height);
     const vec3 forward = glm::normalize(camera.target - camera.eye);
-    // At unit depth, where directions are linear in x and y.
+    // Use directions at unit depth, which are linear in x and y.
     const auto center = [&](int x, int y) {
         const vec3 direction = camera.pixelDirection(x, y, width, height);
         return direction / glm::dot(direction, forward);
@@ -404,7 +404,7 @@ void ViewPass::markEdges(vk::Commands& commands, const Frame& frame) const {
         commands.draw(6);
     };
     for (const Part& part : mParts) mark(part, part.bounds, stencilOf(part));
-    // Pixels whose first sample is empty are tested once, with the data of any part.
+    // Test pixels whose first sample is empty once, with the data of any part.
     const auto any = std::ranges::find_if(mParts, [](const Part& part) { return part.triangleCount > 0; });
     if (any != mParts.end()) mark(*any, mBounds, 0);
 }
@@ -512,7 +512,8 @@ void ViewPass::recordTriangleIds(vk::Commands& commands, const Frame& frame) con
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const Frame frame = frameOf(camera);
-    // What is unshadowed is soon replaced: its first picture must not wait for programs that it may not need.
+    // An unshadowed asset is soon replaced: its first image must not wait for programs that may not be
+    // needed.
     if (!mIsUnshadowed && !std::exchange(mHasShadePrograms, true)) makeShadePrograms(relighter);
     if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers

@@ -12,7 +12,7 @@ struct View {
 
 View viewOf(const Camera& camera) {
     const vec3 forward = glm::normalize(camera.target - camera.eye);
-    // Straight up or down, "up" in the image is away from or towards +Z.
+    // If the camera looks straight up or down, use ±Z as the up vector.
     const vec3 above = std::abs(forward.y) < 0.99999f ? vec3(0, 1, 0) : vec3(0, 0, forward.y);
     const vec3 right = glm::normalize(glm::cross(forward, above));
     return {right, glm::cross(right, forward), forward};
@@ -41,7 +41,7 @@ vec3 Camera::directionAt(vec2 place, int width, int height) const {
 
 Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float distance, float verticalFov,
                    float aspect) {
-    // Short of the poles, where the azimuth would lose its meaning.
+    // Stop short of the poles, where the azimuth is undefined.
     const float limit = glm::radians(89.5f);
     const float rise = std::clamp(elevation, -limit, limit);
     const vec3 towardsEye(std::sin(azimuth) * std::cos(rise), std::sin(rise),
@@ -52,11 +52,11 @@ Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float d
 }
 
 Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect) {
-    constexpr float kFilled = 0.94f; // of the image, by the box's projection
+    constexpr float kFilled = 0.94f; // share of the image that the box's projection fills
     Camera camera = orbitCamera(bounds, glm::radians(30.0f), glm::radians(12.0f), 1, verticalFov, aspect);
     const View view = viewOf(camera);
     const float tangent = kFilled * std::tan(0.5f * verticalFov);
-    float reach = 0; // from which every corner is seen
+    float reach = 0; // least distance from which every corner is seen
     for (int corner = 0; corner < 8; corner++) {
         const vec3 place = glm::mix(bounds.low, bounds.high, vec3(corner & 1, corner >> 1 & 1, corner >> 2)) -
                            bounds.center();

@@ -9,7 +9,7 @@ namespace relume {
 
 namespace {
 
-// For every vertex, the first in order of those in its place.
+// Returns, per vertex, the first vertex in sorted order at the same position.
 std::vector<uint32_t> weld(const Mesh& mesh) {
     const auto less = [&](uint32_t a, uint32_t b) {
         const vec3 &p = mesh.positions[a], &q = mesh.positions[b];
@@ -28,10 +28,10 @@ uint32_t root(std::vector<uint32_t>& pieces, uint32_t triangle) {
     return triangle;
 }
 
-// A side of a triangle, between two places; the one that sorts first is `low`.
+// A directed edge of a triangle between two welded vertices, of which `low` has the smaller index.
 struct Side {
     uint32_t low, high, triangle;
-    bool rises; // from low to high
+    bool rises; // whether the triangle goes from low to high
     auto edge() const { return std::pair(low, high); }
 };
 
@@ -47,7 +47,8 @@ std::vector<Side> sidesByEdge(const Mesh& mesh) {
     return sides;
 }
 
-// Six times the volume between a triangle and a point: positive where the point is behind it.
+// Returns six times the signed volume of the tetrahedron of a triangle and a point: positive where the point
+// is behind the triangle.
 double volumeBehind(const Mesh& mesh, uint32_t triangle, const glm::dvec3& point) {
     const uvec3 t = mesh.triangles[triangle];
     const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point, b = glm::dvec3(mesh.positions[t.y]) - point,
@@ -62,8 +63,8 @@ std::vector<bool> findClosedTriangles(const Mesh& mesh) {
     const auto endOfRun = [&](auto first, auto same) {
         return std::find_if_not(first, sides.end(), [&](const Side& side) { return same(side, *first); });
     };
-    // Pieces meet at edges of two triangles: those that touch at a place, or at an edge of more, may face
-    // different ways.
+    // Triangles belong to one piece only across edges that exactly two share. Pieces that touch at a vertex,
+    // or at an edge of more triangles, may be oriented differently.
     std::vector<uint32_t> pieces(mesh.triangleCount());
     std::iota(pieces.begin(), pieces.end(), 0u);
     for (auto first = sides.begin(); first != sides.end();) {
@@ -76,7 +77,7 @@ std::vector<bool> findClosedTriangles(const Mesh& mesh) {
     for (uint32_t t = 0; t < mesh.triangleCount(); t++)
         volumes[root(pieces, t)] += volumeBehind(mesh, t, middle);
 
-    // A piece goes along each edge as often one way as the other.
+    // A piece is closed if it uses each edge equally often in either direction.
     const auto edgeOfPiece = [&](const Side& side) {
         return std::tuple(side.low, side.high, root(pieces, side.triangle));
     };

@@ -11,7 +11,7 @@ namespace {
 
 using dvec3 = glm::dvec3;
 
-// Angle between two edges, in radians; 0 where one of them has no length.
+// Returns the angle between two edges in radians; 0 if one has no length.
 double cornerAngle(dvec3 a, dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 template <typename T>
@@ -23,7 +23,8 @@ void reorder(std::vector<T>& values, std::span<const uint32_t> order) {
     values = std::move(reordered);
 }
 
-// Appends one attribute of `otherCount` vertices to that of `count`, or drops it if either has none.
+// Appends an attribute of `otherCount` vertices to that of `count` vertices; drops it if either mesh lacks
+// it.
 template <typename T>
 void appendAttribute(std::vector<T>& values, size_t count, const std::vector<T>& others, size_t otherCount) {
     if (values.size() == count && others.size() == otherCount)
@@ -46,7 +47,7 @@ TangentFrame frameOf(const Mesh& mesh, size_t vertex) {
 }
 
 void makeNormals(Mesh& mesh) {
-    // In double precision: squared areas of tiny meshes vanish in single.
+    // In double precision, since squared areas of tiny meshes underflow in single.
     std::vector<dvec3> sums(mesh.vertexCount(), dvec3(0));
     std::vector<dvec3> fallback(mesh.vertexCount(), dvec3(0));
     for (const uvec3& triangle : mesh.triangles) {
@@ -64,7 +65,7 @@ void makeNormals(Mesh& mesh) {
     }
     mesh.normals.resize(mesh.vertexCount());
     for (size_t i = 0; i < mesh.vertexCount(); i++) {
-        // Faces that meet back to back cancel out: the first of them decides.
+        // Normals of back-to-back faces cancel out; the first face then decides.
         const double length = glm::length(sums[i]);
         const dvec3 normal = length > 1e-6 ? sums[i] / length : fallback[i];
         mesh.normals[i] = normal == dvec3(0) ? vec3(0, 1, 0) : glm::normalize(vec3(normal));

@@ -7,8 +7,8 @@ namespace relume {
 
 float concentrationOf(const SphereKernel& kernel) {
     constexpr size_t kRings = shared::kSphereRings;
-    // The first ring of mirror directions is 1.9° from the view direction: frequency 0 is the mean about
-    // that.
+    // The first row is of mirror directions 1.9° from the view direction; its frequency 0 is the mean over
+    // azimuths about that direction.
     double peak = 0, sum = 0, all = 0;
     for (size_t ring = 0; ring < kRings; ring++) {
         const vec3 value = kernel.values[ring];

@@ -8,7 +8,7 @@ vec3 mappedNormal(vec3 normal, const Mesh& mesh, const uvec3& corners, vec3 mapp
     const vec2 u = mesh.uvs[corners.y] - mesh.uvs[corners.x], v = mesh.uvs[corners.z] - mesh.uvs[corners.x];
     const float area = u.x * v.y - v.x * u.y;
     const vec3 right = (v.y * a - u.y * b) * (area < 0 ? -1.0f : 1.0f);
-    const vec3 up = (v.x * a - u.x * b) * (area < 0 ? -1.0f : 1.0f); // against v, which goes down
+    const vec3 up = (v.x * a - u.x * b) * (area < 0 ? -1.0f : 1.0f); // against v, which points down
     const vec3 s = right - glm::dot(right, normal) * normal;
     const float length = glm::length(s);
     if (!(length > 0) || area == 0) return normal;

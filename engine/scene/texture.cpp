@@ -12,7 +12,7 @@ namespace {
 // As in shaders/lib/texture_footprint.glsl.
 constexpr float kMostTaps = 16, kMostFootprint = 1e6f;
 
-// IEC 61966-2-1, of a byte.
+// Decodes an sRGB byte (IEC 61966-2-1).
 float decodeSrgb(int byte) {
     const float value = float(byte) / 255;
     return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
@@ -24,13 +24,13 @@ std::array<float, 256> makeSrgbTable() {
     return table;
 }
 
-// The nearest byte.
+// Returns the nearest byte of a linear value, sRGB-encoded if asked.
 uint32_t encode(float value, bool srgb) {
     if (srgb) value = value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
     return uint32_t(std::lround(255 * value));
 }
 
-// What a texel of a side half as long covers: up to three texels, and their shares.
+// The texels that one texel of half the resolution covers along an axis: up to three, with their shares.
 struct Cover {
     int first, count;
     std::array<float, 3> shares;
@@ -39,7 +39,7 @@ struct Cover {
 Cover cover(int index, int size) {
     const int half = std::max(size / 2, 1);
     Cover cover{index * size / half, 0, {}};
-    // In units of a texel's half-th.
+    // Positions are in units in which a texel is `half` long and one of half the resolution `size` long.
     for (int texel = cover.first; texel * half < (index + 1) * size; texel++) {
         const int low = std::max(texel * half, index * size),
                   high = std::min((texel + 1) * half, (index + 1) * size);
@@ -48,11 +48,10 @@ Cover cover(int index, int size) {
     return cover;
 }
 
-// Where along one axis of `size` texels a coordinate falls: the texel before it, and how far it is beyond
-// that texel's center.
+// Bilinear footprint of a coordinate along an axis: the texels whose centers are before and after it.
 struct Footprint {
     int before, after;
-    float weight; // of `after`
+    float weight; // weight of `after`
 };
 
 Footprint footprint(float coordinate, int size) {

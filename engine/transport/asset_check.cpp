@@ -129,7 +129,7 @@ void checkMaterials(const AssetPart& part, const std::string& where) {
     std::vector<std::string_view> names;
     for (const MaterialSet& set : part.sets) {
         expect(!set.materials.empty(), where, "at least one material in a set");
-        int layer = 0; // every layer belongs to one material, in order
+        int layer = 0; // layers belong to one material each, in order
         for (const AssetMaterial& material : set.materials) {
             names.push_back(material.name);
             expectRange(material.layer, layer, layer, where, "a material's layer");
@@ -157,7 +157,7 @@ void checkResidual(const ResidualSet& residual, const FactoredBrdf& brdf, const 
     expect(!residual.hasNonnegativeTerms || isNonnegative(brdf), where, "maps without negative texels");
 }
 
-// Sets that share a residual must be drawn alike.
+// Checks residuals: sets that share one must have the same factors and frames.
 void checkResiduals(const Asset& asset, const std::string& name) {
     std::map<const ResidualSet*, std::pair<const AssetPart*, const FactoredBrdf*>> owners;
     for (const AssetPart& part : asset.parts)

@@ -1,4 +1,4 @@
-// From an asset to the bytes of its file and back: docs/asset_format.md.
+// Encodes and decodes asset files: docs/asset_format.md.
 #include "engine/transport/asset_file.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -21,14 +21,14 @@ namespace {
 constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles};
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals,   kTriangles,   kUvs,       kColors,
                                   kTangents,  kBaseColor, kMaterialMap, kNormalMap, kEmissionMap};
-constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file too
+constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file, too
 constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kResidualKernels, kIrradianceWeights};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
 bool isOfSet(ChunkTag tag) { return isIn(tag, kSetTags) || isLayoutTag(tag); }
 const char* ownerOf(ChunkTag tag) { return isOfSet(tag) ? "set" : "part"; }
 
-// Every array but the transport is made of elements of one to four 32-bit words.
+// Every array but the transport has elements of one to four 32-bit words.
 constexpr size_t kElementsPerChunk = size_t(1) << 19;
 static_assert(kElementsPerChunk * sizeof(vec4) <= kLargestChunk);
 
@@ -87,10 +87,10 @@ void readFactors(const ChunkFile& file, uint32_t number, MaterialSet& set) {
         readArray<std::array<float, 3>>(file, kEigenvalues, number, uint64_t(set.brdf.terms));
 }
 
-// Residuals with values, by those without.
+// Maps residuals without values to the same with values.
 using Residuals = std::map<std::shared_ptr<const ResidualSet>, std::shared_ptr<const ResidualSet>>;
 
-// Values of a residual that no set before has.
+// Reads the values of a residual unless an earlier set shared it.
 void readResidual(const ChunkFile& file, uint32_t number, bool isBounced, Residuals& residuals,
                   MaterialSet& set) {
     if (!set.residual) return;
@@ -116,7 +116,7 @@ void readResidual(const ChunkFile& file, uint32_t number, bool isBounced, Residu
     set.residual = read;
 }
 
-// A set has transport in its own layout alone.
+// Throws if the set has transport in another layout than its own.
 void expectNoOtherLayout(const ChunkFile& file, uint32_t set, TransportLayout own) {
     for (const LayoutFacts& other : kLayoutFacts)
         if (other.tag != layoutTag(own) && !file.find(other.tag, set).empty())
@@ -132,7 +132,7 @@ AssetMeta readMeta(const ChunkFile& file) {
     return decodeMeta(file.load(runs[0]), file.name());
 }
 
-// Whether every required chunk is one that this program reads, of a part or set that there is.
+// Throws unless every required chunk is one that this program reads, and belongs to an existing part or set.
 void checkTags(const ChunkFile& file, AssetFileKind kind, size_t parts, size_t sets) {
     const bool isShard = file.findRun(kShard, kWholeFile, 0);
     if (isShard && kind == AssetFileKind::Bake)

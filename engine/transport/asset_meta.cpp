@@ -15,10 +15,10 @@ namespace relume {
 
 namespace {
 
-constexpr uint64_t kAnyCount = 0xffffffff;          // of vertices or triangles
-constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // of transport
+constexpr uint64_t kAnyCount = 0xffffffff;          // upper bound for vertices or triangles
+constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // upper bound for entries of transport
 
-// Fields one after the other, as docs/asset_format.md lists them.
+// Writes fields consecutively, as docs/asset_format.md lists them.
 class FieldWriter {
   public:
     void flag(bool value) { mBytes.put(uint8_t(value)); }
@@ -36,7 +36,7 @@ class FieldWriter {
     ByteWriter mBytes;
 };
 
-// Reads them; what does not fit a field is an Error that names it.
+// Reads fields. Throws an Error that names the field if a value is out of range.
 class FieldReader {
   public:
     FieldReader(std::span<const std::byte> bytes, const std::string& where)
@@ -88,7 +88,7 @@ class FieldReader {
     const std::string& mWhere;
 };
 
-// The number of the first set that has a residual, by residual.
+// Maps a residual to the index of the first set that has it.
 using ResidualOwners = std::map<const ResidualSet*, uint32_t>;
 
 void write(FieldWriter& out, const SphereKernel& kernel) {
@@ -105,7 +105,7 @@ void writeResidual(FieldWriter& out, const MaterialSet& set, uint32_t number, Re
     for (const auto& kernel : set.residual->layers) write(out, *kernel);
 }
 
-// Fields that META has of a set's transport, besides its chunks.
+// Fields of a set's transport that META has besides the chunks.
 void writeLayout(FieldWriter&, const SparseTransport&) {}
 void readLayout(FieldReader&, SparseTransport&) {}
 
@@ -151,7 +151,7 @@ void writeTexture(FieldWriter& out, const std::optional<Texture>& texture) {
     out.flag(texture->srgb);
 }
 
-// Returns whether a part has fields that came within version 3.
+// Returns whether a part has fields that were added within version 3.
 bool isDetailed(const AssetPart& part) { return part.tintedByColors || part.detail.isAny(); }
 
 void writeDetail(FieldWriter& out, const AssetPart& part) {
@@ -201,7 +201,7 @@ void readDetail(FieldReader& in, AssetPart& part) {
     part.detail.emissionMap = readTexture(in, "emissionMap");
 }
 
-// `before`: those of all sets that came before, of whatever part. Kernels have no values yet.
+// Reads a residual. `before` has those of all earlier sets, of any part. Kernels have no values yet.
 void readResidual(FieldReader& in, std::span<const std::shared_ptr<const ResidualSet>> before,
                   MaterialSet& set) {
     if (!in.flag("residual")) return;

@@ -16,11 +16,11 @@ using Bytes = std::vector<uint8_t>;
 
 static_assert(std::endian::native == std::endian::little); // words of bits are the device's
 
-constexpr int kLevels = 3; // of flags: 512 bytes of bits to one of the last
+constexpr int kLevels = 3; // levels of flags: 512 bytes of bits per byte of the last
 
 uint64_t bitBytes(uint64_t vertices, uint32_t size) { return vertices * 6 * size * size / 8; }
 
-// The bytes that are not zero, and a flag a byte that says which these are.
+// The nonzero bytes, and one flag per byte that tells which these are.
 struct Sparse {
     Bytes flags, kept;
 };
@@ -35,7 +35,7 @@ Sparse sparse(const Bytes& bytes) {
         for (size_t b = 0; b < 8; b++) {
             const uint8_t byte = bytes[8 * i + b];
             result.flags[i] = uint8_t(result.flags[i] | (byte != 0) << b);
-            result.kept[count] = byte; // overwritten where it is zero
+            result.kept[count] = byte; // overwritten if it is zero
             count += byte != 0;
         }
     }
@@ -43,7 +43,7 @@ Sparse sparse(const Bytes& bytes) {
     return result;
 }
 
-// Undoes it, taking the bytes off the front of `rest`.
+// Reverses sparse(), taking the bytes from the front of `rest`.
 Bytes spread(const Bytes& flags, std::span<const std::byte>& rest, const std::string& where) {
     size_t count = 0;
     for (uint8_t flag : flags) count += size_t(std::popcount(flag));
@@ -71,7 +71,7 @@ uint64_t smallestVisibilityChunk(uint64_t vertices, uint32_t size) {
     return bitBytes(vertices, size) >> 3 * kLevels;
 }
 
-// Most rows are as the one above them: their difference is nearly all zero.
+// Stores each row's difference from the one above. Most rows are equal, so that nearly all bits are zero.
 std::vector<std::byte> encodeVisibility(std::span<const uint32_t> bits, uint32_t size) {
     const size_t rowWords = size / 32, vertexWords = 6 * size * rowWords;
     RELUME_CHECK(size % kSmallestKeptVisibility == 0 && bits.size() % vertexWords == 0);

@@ -9,7 +9,7 @@ namespace relume::vk {
 
 namespace {
 
-// The thread may be put aside within a reading: of a few the narrowest is taken.
+// The thread may be preempted within a reading, so the narrowest of a few is used.
 constexpr int kTries = 8;
 
 template <typename Read>

@@ -14,9 +14,9 @@ namespace {
 
 constexpr uint32_t kSetsPerPool = 256;
 constexpr uint32_t kMaxTimedPasses = 512;
-constexpr size_t kMostBindings = 32; // of a program
+constexpr size_t kMostBindings = 32; // per program
 
-// Of a texel of a buffer.
+// Returns the size of a texel of a buffer.
 uint64_t texelBytes(VkFormat format) {
     switch (format) {
     case VK_FORMAT_R32_SFLOAT:
@@ -135,8 +135,8 @@ void Commands::pass(const char* name, const std::function<void()>& work) {
     mDevice.endLabel(mCommands);
 }
 
-// Nothing that follows starts before everything that came before is done, the timestamp included:
-// without it a pass's work may run ahead of its first timestamp (lavapipe's always does).
+// Orders all later commands after all earlier ones, timestamps included. Otherwise a pass's work may run
+// ahead of its first timestamp (lavapipe's always does).
 void Commands::orderAllCommands() {
     VkMemoryBarrier2 order{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     order.srcStageMask = order.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -161,7 +161,7 @@ void Commands::dispatchBytes(const ComputeProgram& program, std::initializer_lis
 void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
                          std::initializer_list<Binding> bindings, std::span<const std::byte> push) {
     RELUME_CHECK_EQ(bindings.size(), program.bindings().size());
-    // An empty struct still has a byte: programs without push constants take anything.
+    // An empty struct has a size of one byte, so programs without push constants accept any size.
     if (program.pushConstantBytes() > 0) RELUME_CHECK_EQ(push.size(), size_t(program.pushConstantBytes()));
     vkCmdBindPipeline(mCommands, point, program.pipeline());
     if (program.pushConstantBytes() > 0)
@@ -357,7 +357,7 @@ void Commands::fill(const Buffer& buffer, uint32_t value) {
 
 void Commands::update(const Buffer& buffer, std::span<const std::byte> bytes) {
     RELUME_CHECK_LE(bytes.size(), buffer.bytes());
-    constexpr size_t kMost = 65536; // that Vulkan takes at once
+    constexpr size_t kMost = 65536; // Vulkan's limit per update
     for (size_t start = 0; start < bytes.size(); start += kMost)
         vkCmdUpdateBuffer(mCommands, buffer.handle(), start, std::min(kMost, bytes.size() - start),
                           bytes.data() + start);
@@ -379,7 +379,7 @@ static VkBufferImageCopy wholeLayers(const Image& image, uint32_t layers) {
 void Commands::copy(const Buffer& from, const Image& to) {
     const ImageOptions& options = to.options();
     std::vector<VkBufferImageCopy> regions;
-    uint64_t texels = 0; // before the level
+    uint64_t texels = 0; // before this level
     for (uint32_t level = 0; level < options.mips; level++) {
         VkBufferImageCopy region = wholeLayers(to, options.layers);
         region.bufferOffset = texels;

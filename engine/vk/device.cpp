@@ -53,7 +53,7 @@ std::vector<VkExtensionProperties> extensionsOf(VkPhysicalDevice physical) {
     return extensions;
 }
 
-// Whether the device's clock can be read together with CLOCK_MONOTONIC.
+// Returns whether the device's clock can be read together with CLOCK_MONOTONIC.
 bool canReadClocks(VkInstance instance, VkPhysicalDevice physical) {
     if (!hasExtension(extensionsOf(physical), VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
     const auto domainsOf = reinterpret_cast<PFN_vkGetPhysicalDeviceCalibrateableTimeDomainsEXT>(
@@ -68,7 +68,7 @@ bool canReadClocks(VkInstance instance, VkPhysicalDevice physical) {
     return has(VK_TIME_DOMAIN_DEVICE_EXT) && has(VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT);
 }
 
-// The layer's optional checks that "core,sync,gpu,best" asks for.
+// Parses names such as "core,sync,gpu,best" into the validation layer's optional checks.
 std::vector<VkValidationFeatureEnableEXT> parseValidation(const std::string& text) {
     std::vector<VkValidationFeatureEnableEXT> enabled;
     std::stringstream stream(text);
@@ -213,7 +213,7 @@ void Device::createInstance(const DeviceOptions& options) {
     RELUME_VK(createMessenger(mInstance, &messenger, nullptr, &mMessenger));
 }
 
-// The functions are null without the extension.
+// Loads the debug functions, which are null without the extension.
 void Device::loadDebugUtils() {
     const auto load = [&](const char* name) { return vkGetInstanceProcAddr(mInstance, name); };
     mSetName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));

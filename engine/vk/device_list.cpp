@@ -1,4 +1,4 @@
-// Which devices there are, and what each can do.
+// Lists devices and their capabilities.
 #include "engine/vk/device_list.h"
 
 #include "engine/vk/result.h"
@@ -56,10 +56,10 @@ static std::string whyUnsuitable(VkPhysicalDevice physical, uint32_t apiVersion)
     vkGetPhysicalDeviceFeatures2(physical, &features);
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
-    constexpr uint32_t kSharedMemory = 20 << 10; // of select.comp, rounded up; Vulkan promises 16 KiB only
+    constexpr uint32_t kSharedMemory = 20 << 10; // for select.comp, rounded up; Vulkan guarantees only 16 KiB
     if (properties.limits.maxComputeSharedMemorySize < kSharedMemory)
         return "20 KiB of shared memory are needed";
-    constexpr uint32_t kStorageBuffers = 9; // of relight_combine.comp, PORTABLE
+    constexpr uint32_t kStorageBuffers = 9; // for relight_combine.comp, PORTABLE
     if (properties.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
         return "9 storage buffers a shader are needed";
     if (!features12.scalarBlockLayout) return "scalarBlockLayout is needed";
@@ -111,8 +111,8 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
 }
 
 bool DeviceInfo::takesPortableShaders() const {
-    constexpr uint32_t kUsualTexels = 1u
-                                      << 26; // of GPUs for the desk; others have the 65,536 that are promised
+    // Desktop GPUs have as many texels; others have the guaranteed 65,536.
+    constexpr uint32_t kUsualTexels = 1u << 26;
     return !hasBallots() || largestTexelBuffer < kUsualTexels;
 }
 

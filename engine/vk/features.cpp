@@ -12,7 +12,7 @@ namespace relume::vk {
 
 namespace {
 
-// A feature as one of Vulkan's structs has it: where, and how far from its start.
+// Identifies a feature in Vulkan's structs: the struct's type and the member's offset.
 struct Place {
     VkStructureType type;
     size_t offset;
@@ -32,7 +32,8 @@ struct Place {
 struct Feature {
     std::string_view name;
     bool isNeeded;
-    std::array<Place, 2> places; // of its Vulkan version, and of what came before where there is one
+    // In the struct of its Vulkan version, and in that of the extension before it if there is one.
+    std::array<Place, 2> places;
 };
 
 const Feature kFeatures[] = {

@@ -20,7 +20,7 @@ struct MemoryPool::Block {
     // Takes the first gap that fits and returns its offset.
     std::optional<uint64_t> take(uint64_t size, uint64_t alignment) {
         for (const auto& gap : gaps) {
-            const auto [offset, length] = gap; // a copy: the gap goes
+            const auto [offset, length] = gap; // a copy, since the gap is erased
             const uint64_t start = (offset + alignment - 1) / alignment * alignment;
             if (start + size > offset + length) continue;
             gaps.erase(offset);
@@ -79,7 +79,7 @@ MemoryPool::Range MemoryPool::allocate(const VkMemoryRequirements& requirements,
     range.mPool = this;
     range.mBytes = requirements.size;
 #ifdef RELUME_SANITIZE
-    const bool isShared = false; // so that a sanitizer sees accesses beyond the end of a buffer
+    const bool isShared = false; // so that a sanitizer detects accesses beyond the end of a buffer
 #else
     const bool isShared = requirements.size <= kLargestShared;
 #endif
@@ -108,7 +108,7 @@ MemoryPool::Block& MemoryPool::makeBlock(uint64_t bytes, uint32_t type, MemoryKi
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = bytes;
     allocate.memoryTypeIndex = type;
-    mBlocks.reserve(mBlocks.size() + 1); // nothing throws between allocation and ownership
+    mBlocks.reserve(mBlocks.size() + 1); // nothing may throw between allocation and ownership
     RELUME_VK(vkAllocateMemory(mDevice, &allocate, nullptr, &block->memory));
     mBlocks.push_back(std::move(block));
     if (kind == MemoryKind::MappedBuffer) {
@@ -128,7 +128,7 @@ void MemoryPool::free(const Range& range) {
     const std::scoped_lock lock(mMutex);
     range.mBlock->giveBack(range.mOffset, range.mBytes);
     if (!range.mBlock->isEmpty()) return;
-    // One empty block of a kind is kept, so that one buffer that comes and goes does not allocate each time.
+    // Keep one empty block of a kind, so that a buffer which comes and goes does not allocate each time.
     const auto isSpare = [&](const auto& block) {
         return block.get() != range.mBlock && block->isShared && block->isEmpty() &&
                block->type == range.mBlock->type && block->kind == range.mBlock->kind;

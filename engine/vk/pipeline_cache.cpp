@@ -14,11 +14,12 @@ namespace relume::vk {
 
 namespace {
 
-constexpr size_t kMostBytes = size_t(64) << 20; // of a file; what is larger is nothing that we wrote
+constexpr size_t kMostBytes = size_t(64) << 20; // per file; larger files are not ours
 constexpr char kMagic[] = {'R', 'L', 'M', 'P', 'I', 'P', 'E', 'S'};
 constexpr uint32_t kVersion = 1;
 
-// Begins the file. What Vulkan's own header leaves out: the driver's version, and whether the data is whole.
+// Header of the file. It adds what Vulkan's own header lacks: the driver's version, and a check that the data
+// is whole.
 struct Header {
     char magic[8];
     uint32_t version;
@@ -41,8 +42,8 @@ Header headerOf(const VkPhysicalDeviceProperties& driver, std::span<const std::b
     return header;
 }
 
-// Whether the data begins as Vulkan says, with this device. Compared as bytes: a damaged version may be none
-// of those that its enumeration has, and no such value may be looked at.
+// Returns whether the data starts with Vulkan's header for this device. Compares bytes, since a damaged
+// version may not be a valid enumerator, and such a value must not be read.
 bool isOfDevice(const VkPhysicalDeviceProperties& driver, std::span<const std::byte> data) {
     VkPipelineCacheHeaderVersionOne expected{
         sizeof expected, VK_PIPELINE_CACHE_HEADER_VERSION_ONE, driver.vendorID, driver.deviceID, {}};
@@ -50,11 +51,11 @@ bool isOfDevice(const VkPhysicalDeviceProperties& driver, std::span<const std::b
     return data.size() >= sizeof expected && std::memcmp(data.data(), &expected, sizeof expected) == 0;
 }
 
-// Empty: there is none, or it cannot be read.
+// Returns empty if there is no file, or it cannot be read.
 std::vector<std::byte> readIfThere(const std::filesystem::path& path) {
     try {
         return readFile(path, kMostBytes);
-    } catch (const std::exception& error) { // a lost device is no reason to fail once more
+    } catch (const std::exception& error) { // the program works without a cache
         log(LogLevel::Debug, fmt::format("pipeline cache: {}", error.what()));
         return {};
     }
@@ -118,10 +119,10 @@ void PipelineCache::save() const {
             log(LogLevel::Debug, fmt::format("pipeline cache: {} bytes are too many to keep", file.size()));
             return;
         }
-        std::error_code failure; // writing says what is wrong with the folder
+        std::error_code failure; // the write below reports the folder's problem
         if (mPath.has_parent_path()) std::filesystem::create_directories(mPath.parent_path(), failure);
         writeFileAtomically(mPath, file);
-    } catch (const std::exception& error) { // a lost device is no reason to fail once more
+    } catch (const std::exception& error) { // after a lost device, do not fail a second time
         log(LogLevel::Warning, fmt::format("pipelines are not kept for the next start: {}", error.what()));
     }
 }

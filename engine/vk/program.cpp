@@ -12,7 +12,7 @@ namespace relume::vk {
 
 namespace {
 
-// A shader module for the time of a pipeline's creation.
+// A shader module that lives for the creation of a pipeline.
 class Module {
   public:
     Module(const Device& device, std::span<const uint32_t> spirv, std::string_view name) : mDevice(device) {

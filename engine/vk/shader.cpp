@@ -79,7 +79,7 @@ ShaderInterface reflect(std::span<const uint32_t> spirv, const Constants& consta
                 interface);
     addBindings(compiler, resources, SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,
                 VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, interface);
-    // SPIR-V 1.6 has no samplers for buffers; of images without samplers the shaders have no others.
+    // SPIR-V 1.6 has no samplers for buffers; the shaders use no other images without samplers.
     addBindings(compiler, resources, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
                 VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, interface);
     interface.pushConstantBytes = pushConstantBytes(compiler, resources);

@@ -10,7 +10,7 @@ namespace relume::vk {
 
 namespace {
 
-// One module, read by SPIRV-Cross.
+// The interface of one module, read by SPIRV-Cross.
 class Reflection {
   public:
     explicit Reflection(std::span<const uint32_t> spirv) {
@@ -36,7 +36,7 @@ class Reflection {
                 fmt::format("cannot be read as SPIR-V: {}", spvc_context_get_last_error_string(mContext)));
     }
 
-    // Shared by two of the same binding, say.
+    // Appends to an entry, since two bindings may share a number.
     void add(const std::string& what, const std::string& text) {
         std::string& part = mParts[what];
         part += part.empty() ? text : " and " + text;
@@ -115,7 +115,7 @@ class Reflection {
         }
     }
 
-    // A block's own members are the shader's affair; those of the structs in it are C++'s too.
+    // Member names of a block itself are the shader's own; those of nested structs are shared with C++.
     enum class Names { Nested, All };
 
     std::string typeText(spvc_type_id id, spvc_type_id baseId, Names names) const {

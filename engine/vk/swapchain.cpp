@@ -21,7 +21,8 @@ VkSurfaceFormatKHR formatOf(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     throw NoDeviceError("the window takes no images of 8 bits a channel without conversion");
 }
 
-// Where nobody waits for the display: the newest image at its next turn, or any at once.
+// Returns the mode for presenting without waiting: the newest image at the next refresh, else any
+// immediately, else as if waiting.
 VkPresentModeKHR modeOf(VkPhysicalDevice physical, VkSurfaceKHR surface, bool waitsForDisplay) {
     if (waitsForDisplay) return VK_PRESENT_MODE_FIFO_KHR;
     uint32_t count = 0;
@@ -57,7 +58,7 @@ void Swapchain::destroy() {
     if (!mSwapchain) return;
     {
         const auto lock = mDevice.lockQueue();
-        vkQueueWaitIdle(mDevice.queue()); // what was presented last
+        vkQueueWaitIdle(mDevice.queue()); // for the last present
     }
     mImages.clear();
     vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
@@ -109,7 +110,7 @@ bool Swapchain::resize(uint32_t width, uint32_t height) {
                                 ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                 : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     create.presentMode = modeOf(mDevice.physical(), mSurface, mWaitsForDisplay);
-    create.clipped = VK_FALSE; // screenshots show what is behind other windows too
+    create.clipped = VK_FALSE; // screenshots include areas behind other windows
     RELUME_VK(vkCreateSwapchainKHR(mDevice.handle(), &create, nullptr, &mSwapchain));
     uint32_t count = 0;
     RELUME_VK(vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, &count, nullptr));

@@ -25,14 +25,14 @@ void TickClock::calibrate(uint64_t ticks, int64_t cpu) {
         return;
     }
     const Calibration next{sinceFirst(ticks, cpu), cpu}, &last = mCalibrations.back();
-    // Two readings within a tick of a coarse counter make no line.
+    // Calibrations within one tick of a coarse counter define no line.
     if (next.ticks > last.ticks && next.cpu >= last.cpu) mCalibrations.push_back(next);
 }
 
 int64_t TickClock::sinceFirst(uint64_t ticks, int64_t near) const {
     RELUME_CHECK(!mCalibrations.empty());
     const auto expected = std::llround(double(near - mCalibrations[0].cpu) / mNanosecondsPerTick);
-    // What the reading differs from what is expected, as a signed number of validBits bits.
+    // Difference between the reading and the expected value, as a signed number of validBits bits.
     const uint64_t difference = ticks - mFirst - uint64_t(expected);
     const uint32_t unused = 64 - mValidBits;
     return int64_t(uint64_t(expected) + uint64_t(int64_t(difference << unused) >> unused));

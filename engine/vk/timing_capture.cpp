@@ -11,7 +11,7 @@ namespace relume::vk {
 
 namespace {
 
-// Clocks drift apart by some tens of microseconds a second.
+// Recalibrate this often: clocks drift apart by some tens of microseconds a second.
 constexpr int64_t kCalibrationAge = 1'000'000'000;
 
 } // namespace
@@ -64,7 +64,7 @@ TimingTrace TimingCapture::trace() const {
         const int64_t start = mClock->nanoseconds(pass.start), end = mClock->nanoseconds(pass.end);
         trace.spans.push_back({Track::Gpu, pass.frame, pass.name, start - mStart, end - start});
     };
-    // Frames go first, so that they stay before a pass that is as long.
+    // Frames go first, so that they stay ahead of a pass of equal length.
     for (const Pass& frame : gpuFrames()) addGpu(frame);
     for (const Pass& pass : mPasses) addGpu(pass);
     std::stable_sort(trace.spans.begin(), trace.spans.end(), [](const TimingSpan& a, const TimingSpan& b) {

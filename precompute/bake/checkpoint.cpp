@@ -25,7 +25,7 @@ constexpr std::array<char, 8> kMagic = {'R', 'E', 'L', 'U', 'M', 'E', 'C', 'P'};
 constexpr uint32_t kVersion = 2;
 constexpr size_t kIdentityBytes = 32;
 constexpr size_t kHeaderBytes = kMagic.size() + 4 + kIdentityBytes + 8;
-constexpr uint32_t kScale = 0xffffffff; // in place of a block's number
+constexpr uint32_t kScale = 0xffffffff; // marks the scale, in place of a block's number
 constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kLossBytes = 4 * 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
 
 // Time between flushes to disk: what a crash of the machine may lose. A crash of the program loses nothing

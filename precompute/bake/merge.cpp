@@ -23,7 +23,7 @@ void expectSameBake(const ShardFile& first, const ShardFile& other) {
                                 other.name(), other.shard().count, first.name(), first.shard().count));
 }
 
-// All shards of one bake, shard 0 first.
+// Returns all shards of one bake in order of index. Throws if one is missing or of another bake.
 std::vector<const ShardFile*> inOrder(std::span<const ShardFile> shards) {
     if (shards.empty()) throw UsageError("expected the shards of a bake, found none");
     std::vector<const ShardFile*> ordered;
@@ -55,7 +55,7 @@ std::vector<const ShardFile*> inOrder(std::span<const ShardFile> shards) {
                             missing, absent > named ? ", …" : ""));
 }
 
-// The blocks of all shards, each read from its own.
+// The blocks of all shards, each read from its shard.
 class ShardBlocks : public StoredBlocks {
   public:
     ShardBlocks(const BakePlan& plan, std::vector<const ShardFile*> shards)
@@ -105,7 +105,7 @@ void ShardBlocks::addShard(const ShardFile& file) {
             file.name(), found, file.shard().index, file.shard().count, used));
 }
 
-// Checks everything that a reader of the whole would refuse.
+// Checks everything that a reader of the whole file would refuse.
 std::vector<std::byte> ShardBlocks::load(uint32_t block, const ChunkEntry& entry) const {
     const ShardFile& file = fileOf(block);
     std::vector<std::byte> stored = file.chunks().loadStored(entry);

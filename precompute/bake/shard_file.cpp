@@ -72,7 +72,7 @@ void writeShard(const BakePlan& plan, const Shard& shard, const StoredBlocks& bl
     ChunkWriter chunks;
     addShard(chunks, plan, shard);
     addLosses(chunks, losses);
-    // META as in the identity: without numbers of entries and errors, which no shard knows.
+    // META as in the identity: without entry counts and errors, which no shard knows.
     const auto addStored = [&](const std::vector<Run>& stored) {
         for (const Run& run : stored)
             chunks.addStored(run.entry, [&blocks, run] { return blocks.load(run.block, run.entry); });
@@ -108,7 +108,7 @@ BakePlan ShardFile::plan() const {
     AssetMeta meta = mMeta;
     readArrays(mChunks, meta);
     checkSkeleton(meta.asset, name());
-    for (const AssetPart& part : meta.asset.parts) // which no chunk of transport contains
+    for (const AssetPart& part : meta.asset.parts) // no chunk of transport contains these
         for (const MaterialSet& set : part.sets)
             std::visit(
                 [&](const auto& layout) {

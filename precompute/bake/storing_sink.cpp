@@ -49,7 +49,7 @@ StoringSink::~StoringSink() {
     mTasks->cancel();
     try {
         mTasks->wait();
-    } catch (...) { // whoever destroys this has an error of its own
+    } catch (...) { // whoever destroys this is handling an error already
     }
 }
 

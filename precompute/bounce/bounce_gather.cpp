@@ -17,7 +17,7 @@ namespace {
 
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr int kTogether = 16; // hits that are multiplied out together: their rows fit a core's cache
+constexpr int kTogether = 16; // hits that are multiplied together; their rows fit in a core's cache
 
 int termsOf(const AssetPart& part) {
     int terms = 0;
@@ -46,7 +46,7 @@ uint16_t coefficientOfBounce(uint16_t coefficient, int size) {
 }
 
 vec3 reflectedShare(const FactoredBrdf& brdf, int layer) {
-    // (1 / π) ∫∫ f cosθi cosθo dωi dωo, the terms' integrals apart.
+    // (1 / π) ∫∫ f cosθi cosθo dωi dωo, where the integrals of each term separate.
     std::vector<vec3> in(size_t(brdf.terms), vec3(0)), out = in;
     for (BounceRays rays(0, 0); rays.next();) {
         const MapPlace place = placeInMap(brdf.size, brdf.mapping, rays.direction());
@@ -79,14 +79,14 @@ std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance&
     return gains;
 }
 
-// A surface that a ray meets: the vertex whose rows stand for it, and how much of each is seen.
+// A surface that a ray hits: the vertex whose rows represent it, and the view maps' values per term.
 struct BounceGather::Hit {
     size_t part;
     uint32_t vertex;
     std::array<vec3, kMostTerms> views;
 };
 
-// What a thread needs, for one vertex after another.
+// A thread's buffers, reused from vertex to vertex.
 struct BounceGather::Room {
     explicit Room(int mostTerms) : sum(kBounceCoefficients) {
         for (int channel = 0; channel < 3; channel++) {
@@ -96,8 +96,8 @@ struct BounceGather::Room {
         }
     }
 
-    std::array<Matrix, 3> light;    // per term and hit: g, times what the ray stands for
-    std::array<Matrix, 3> outgoing; // per hit: what leaves it towards the vertex
+    std::array<Matrix, 3> light;    // per term and hit: g, times the ray's weight
+    std::array<Matrix, 3> outgoing; // per hit: radiance that leaves it towards the vertex
     std::array<Matrix, 3> total;    // per term
     RowSum sum;
 };
@@ -114,8 +114,8 @@ BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
     }
 }
 
-// Attributes are interpolated as in the view pass. Rows are those of one corner, chosen as often as it
-// counts.
+// Attributes are interpolated as in the view pass. Rows are those of one corner, chosen with its weight as
+// probability.
 bool BounceGather::find(vec3 origin, vec3 direction, float choice, Hit& hit) const {
     const std::optional<RayHit> met = mTracer.intersect(origin, direction);
     if (!met || !meetsFront(mAsset.parts[met->mesh].mesh, *met, direction)) return false;
@@ -127,7 +127,7 @@ bool BounceGather::find(vec3 origin, vec3 direction, float choice, Hit& hit) con
         return weights.x * values[corners.x] + weights.y * values[corners.y] + weights.z * values[corners.z];
     };
     const vec3 normal = interpolate(mesh.normals);
-    if (glm::dot(normal, normal) < 1e-12f) return false; // opposite ones on a fold
+    if (glm::dot(normal, normal) < 1e-12f) return false; // normals cancel on a fold
     const vec3 tangent = mesh.tangents.empty() ? vec3(0) : interpolate(mesh.tangents);
     const TangentFrame frame = tangentFrame(glm::normalize(normal), tangent);
     const vec3 outgoing = liftAboveHorizon(frame.toLocal(-direction));
@@ -159,7 +159,7 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
     const int terms = termsOf(part);
     for (Matrix& total : room.total) total.topRows(terms).setZero();
 
-    int count = 0; // of hits in hand
+    int count = 0; // number of hits not yet added
     bool isAny = false;
     const auto multiplyOut = [&] {
         for (size_t channel = 0; channel < 3; channel++)
@@ -215,7 +215,7 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
 
 std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const SparseTransport> from,
                                                                const Report& report) const {
-    constexpr uint32_t kBlock = 32, kBatch = 1024; // vertices of a task, and between two reports
+    constexpr uint32_t kBlock = 32, kBatch = 1024; // vertices per task and between reports
     int mostTerms = 0;
     for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termsOf(part));
     tbb::enumerable_thread_specific<Room> rooms(mostTerms);

@@ -19,7 +19,7 @@ vec3 BounceRays::direction() const {
 }
 
 float BounceRays::choice() const {
-    constexpr double kGoldenRatio = 0.6180339887498949; // its multiples are spread evenly
+    constexpr double kGoldenRatio = 0.6180339887498949; // its multiples are evenly distributed
     const double place = double(mShift.z) + mRay * kGoldenRatio;
     return float(place - std::floor(place));
 }

@@ -15,7 +15,7 @@ class AshikhminShirley final : public Brdf {
         : mDiffuse(diffuse), mSpecular(specular), mExponentU(exponentU), mExponentV(exponentV) {}
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
-        // Lifted, so that neither the half vector nor a denominator can vanish.
+        // Lift directions so that neither the half vector nor a denominator can vanish.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         return specular(wi, wo) + diffuse(wi, wo);
     }
@@ -38,7 +38,7 @@ class AshikhminShirley final : public Brdf {
     // Equation 4 of the paper.
     vec3 specular(vec3 wi, vec3 wo) const {
         const auto [half, cosine] = HalfVector(wi, wo);
-        // cosʲ of the half angle as exp(j/2 · log(1 - sin²)), which keeps its digits near the peak.
+        // cosʲ of the half angle as exp(j/2 · log(1 - sin²)), which stays precise near the peak.
         const float sineSquared = half.x * half.x + half.y * half.y;
         const float weighted = mExponentU * half.x * half.x + mExponentV * half.y * half.y;
         const float slope =
@@ -48,7 +48,7 @@ class AshikhminShirley final : public Brdf {
         return schlickFresnel(mSpecular, cosine) * (scale * lobe / (cosine * std::max(wi.z, wo.z)));
     }
 
-    // Equation 5: not Lambertian, so that diffuse and specular together keep within the energy received.
+    // Equation 5. It is not Lambertian, so that diffuse and specular together conserve energy.
     vec3 diffuse(vec3 wi, vec3 wo) const {
         const auto transmitted = [](float cosine) {
             const float rest = 1 - cosine / 2;

@@ -39,7 +39,7 @@ std::unique_ptr<Brdf> makeFromJson(const std::string& text, const std::filesyste
     return makeModel(name, object);
 }
 
-// A material given as a path; none if it does not look like one.
+// Makes a material given as a path; returns null if it does not look like one.
 std::unique_ptr<Brdf> makeFromFile(const std::string& material, const std::filesystem::path& folder) {
     if (const auto file = readMaterialFile(material, folder)) {
         try {

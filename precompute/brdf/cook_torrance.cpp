@@ -12,7 +12,7 @@ class CookTorrance final : public Brdf {
         : mDiffuse(diffuse), mReflectance(reflectance), mRoughness(roughness) {}
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
-        // Lifted, so that neither the half vector nor a denominator can vanish.
+        // Lift directions so that neither the half vector nor a denominator can vanish.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         const auto [half, cosine] = HalfVector(wi, wo);
         const float facets = distribution(half) * visibility(wi.z, wo.z, half.z, cosine);
@@ -31,7 +31,7 @@ class CookTorrance final : public Brdf {
     }
 
   private:
-    // Beckmann's, Walter et al. 2007, equation 25.
+    // Beckmann's distribution (Walter et al. 2007, equation 25).
     float distribution(vec3 half) const {
         const float squared = mRoughness * mRoughness, cosineSquared = half.z * half.z;
         const float slope = (half.x * half.x + half.y * half.y) / (squared * cosineSquared);

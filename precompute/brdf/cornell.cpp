@@ -15,10 +15,10 @@ namespace relume {
 
 namespace {
 
-// Fewer cells than a MERL table has: some thousand samples say no more.
+// Fewer cells than a MERL table has, since some thousand samples determine no more.
 constexpr int kHalves = 60, kDifferences = 30, kAzimuths = 36;
 constexpr size_t kNeighbors = 12;
-// How much faster a BRDF changes with √θh than with θd, and with φd.
+// How much faster a BRDF varies with √θh than with θd, and with φd.
 constexpr float kHalfWeight = 4, kAzimuthWeight = 1;
 
 struct Point {
@@ -26,8 +26,8 @@ struct Point {
     vec3 logarithm;
 };
 
-// Angles as a point, so that distances are sensible: φd = 0 and φd = π meet, and φd is no matter where θh = 0
-// or θd = 0.
+// Maps angles to a point such that distances are meaningful: φd = 0 and φd = π coincide, and φd has no effect
+// where θh = 0 or θd = 0.
 vec4 positionOf(const HalfDifference& angles) {
     const float half = std::sqrt(angles.half * (2 / kPi)), difference = angles.difference * (2 / kPi);
     const float radius = kAzimuthWeight * half * difference;
@@ -48,7 +48,7 @@ vec3 colorOf(const CornellSample& sample, const std::vector<vec3>& weights, size
     return color;
 }
 
-// The samples and their mirror images in the plane of incidence.
+// Returns the samples and their mirror images in the plane of incidence.
 std::vector<Point> pointsOf(const CornellText& text, const std::string& name) {
     const std::vector<vec3> weights = srgbWeights(text.wavelengths);
     std::vector<vec3> colors;
@@ -70,7 +70,7 @@ std::vector<Point> pointsOf(const CornellText& text, const std::string& name) {
             name, text.samples.size(), weights.size(), negativeValues,
             100 * double(negativeValues) / double(text.samples.size() * weights.size()), outsideGamut,
             100 * double(outsideGamut) / double(text.samples.size())));
-    // Zero has no logarithm: a thousandth of the middle sample stands for it.
+    // Zero has no logarithm, so values are at least a thousandth of the median sample.
     const vec3 floor(std::max(1e-3f * brightness[brightness.size() / 2], 1e-9f * brightness.back()));
     std::vector<Point> points;
     for (size_t i = 0; i < colors.size(); i++) {
@@ -84,7 +84,8 @@ std::vector<Point> pointsOf(const CornellText& text, const std::string& name) {
     return points;
 }
 
-// Shepard's weights ((R - d) / d)² of the points nearest to `position`, R the distance of the next one.
+// Interpolates with Shepard's weights ((R - d) / d)² of the points nearest to `position`, where R is the
+// distance of the next nearest.
 vec3 interpolate(const std::vector<Point>& points, vec4 position) {
     struct Near {
         float squared;

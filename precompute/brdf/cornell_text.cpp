@@ -13,7 +13,7 @@ namespace relume {
 namespace {
 
 constexpr size_t kMaxWavelengths = 1000, kMaxSamples = 20'000, kMinSamples = 16;
-constexpr float kMaxValue = 1e6f; // sr⁻¹: no surface comes near it
+constexpr float kMaxValue = 1e6f; // sr⁻¹, far above any surface
 
 class Reader {
   public:
@@ -45,7 +45,7 @@ class Reader {
             fmt::format("{}, line {}: {}", mName, mLine, fmt::format(text, std::forward<Args>(args)...)));
     }
 
-    // Splits the next line into numbers. False at the end.
+    // Splits the next line into numbers. Returns false at the end.
     bool nextLine() {
         if (mText.empty()) return false;
         mLine++;

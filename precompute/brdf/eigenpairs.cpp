@@ -19,24 +19,24 @@ using Eigen::VectorXf;
 
 namespace {
 
-constexpr int kOversampling = 8; // pairs iterated beyond the wanted ones
-// A glossy BRDF in a polar map has a cluster of S values that differ by 1e-4, the rim's mirror pairs: a
-// smaller block would separate it slowly.
+constexpr int kOversampling = 8; // pairs iterated beyond those wanted
+// A glossy BRDF in a polar map has a cluster of S eigenvalues that differ by 1e-4, from mirror pairs at the
+// rim. A smaller block would separate it slowly.
 constexpr int kLeastBlock = 40;
 constexpr int kBasisBlocks = 4; // size of a full basis, in blocks
 constexpr int kMaxRounds = 300;
 
-// Unit columns, uniform in direction up to the cube's corners; from bits, so that every standard library
-// gives the same.
+// Returns unit columns, uniform in direction up to the cube's corners. Made from bits, so that every standard
+// library gives the same.
 MatrixXf randomBlock(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
     const MatrixXf block =
         MatrixXf::NullaryExpr(rows, columns, [&] { return float(random() >> 8) * 0x1p-23f - 1.0f; });
     return block.colwise().normalized();
 }
 
-// An orthonormal basis of the block's columns, of norm 1 at most, without what depends on others or is too
-// short to have a direction: by the eigenvectors of its Gram matrix (Stathopoulos and Wu, 2002), which is
-// nearly all matrix products. One pass leaves an error of up to 1e-2, the second rounding only.
+// Returns an orthonormal basis of the span of the block, whose columns have norm 1 at most; drops directions
+// that are dependent or too short. Uses the eigenvectors of the Gram matrix (Stathopoulos and Wu, 2002),
+// which is nearly all matrix products. One pass leaves an error of up to 1e-2, the second only rounding.
 MatrixXf orthonormalized(const MatrixXf& block) {
     constexpr double kDependent = 1e-5;
     const MatrixXd gram = (block.transpose() * block).cast<double>();
@@ -49,7 +49,7 @@ MatrixXf orthonormalized(const MatrixXf& block) {
     return block * scaled.cast<float>();
 }
 
-// Directions of the block that the basis lacks, orthonormal and orthogonal to it.
+// Returns an orthonormal basis of what the block adds to the span of `basis`, orthogonal to it.
 MatrixXf orthonormalizedAgainst(const Eigen::Ref<const MatrixXf>& basis, MatrixXf block) {
     for (int pass = 0; pass < 2 && block.cols() > 0; pass++) {
         block.noalias() -= basis * (basis.transpose() * block).eval();
@@ -100,7 +100,7 @@ class BlockEigensolver {
         mSize += directions.cols();
     }
 
-    // The best approximations that the basis holds to the mBlock pairs of largest magnitude.
+    // Returns the basis's best approximations to the mBlock pairs of largest magnitude.
     RitzPairs rayleighRitz() {
         const MatrixXd projected = (basis().transpose() * product()).cast<double>();
         const Eigen::SelfAdjointEigenSolver<MatrixXd> solver((projected + projected.transpose()) / 2);
@@ -137,8 +137,8 @@ class BlockEigensolver {
         mSize = mBlock;
     }
 
-    // The sign is that of the first of the components whose magnitude is within 0.1 % of the largest: an
-    // antisymmetric vector has two of equal magnitude, and rounding must not choose between them.
+    // Fixes the signs of vectors by their first component whose magnitude is within 0.1 % of the largest. An
+    // antisymmetric vector has two of equal magnitude, and rounding must not decide between them.
     Eigenpairs result(const RitzPairs& ritz) const {
         Eigenpairs pairs{ritz.values.head(mCount), ritz.vectors.leftCols(mCount)};
         for (auto vector : pairs.vectors.colwise()) {
@@ -154,8 +154,8 @@ class BlockEigensolver {
     int mDimension, mCount;
     float mTolerance;
     int mBlock;
-    MatrixXf mBasis, mProduct; // room for V, orthonormal, and MV
-    Eigen::Index mSize = 0;    // columns of V so far
+    MatrixXf mBasis, mProduct; // allocated for V, orthonormal, and MV
+    Eigen::Index mSize = 0;    // columns of V in use
     MatrixXf mRotation;        // from V to the latest Ritz vectors
 };
 

@@ -21,29 +21,28 @@ using Eigen::VectorXf;
 
 namespace {
 
-constexpr float kReciprocalAsymmetry = 1e-3f; // rounding and tabulated fits stay below
-constexpr float kDroppedTerm = 1e-5f;         // relative to the first
+constexpr float kReciprocalAsymmetry = 1e-3f; // rounding and tabulated fits stay below this
+constexpr float kDroppedTerm = 1e-5f;         // relative to the first term
 
 constexpr std::string_view kNames[] = {"paper", "cosine", "environment", "nonnegative", "normalized"};
 
-// M_j ≈ Σk light_k view_jkᵀ of one channel.
+// Factors of one channel: per layer j, M_j ≈ Σk light_k view_jkᵀ.
 struct ChannelFactors {
     VectorXf values;
-    MatrixXf light;             // n × values
-    std::vector<MatrixXf> view; // per layer, n × values
+    MatrixXf light;             // n × terms
+    std::vector<MatrixXf> view; // per layer, n × terms
 
-    // How many are worth keeping.
+    // Returns the number of terms worth keeping.
     int terms() const {
         const auto counts = values.cwiseAbs().array() > kDroppedTerm * std::abs(values[0]);
         return int(counts.count());
     }
 };
 
-// Square roots of the weights of errors of f: ‖light · error · diag(view)‖ is what a factorization makes
-// least.
+// Square roots of the weights of errors of f. A factorization minimizes ‖light · error · diag(view)‖.
 struct Weights {
-    MatrixXf light;     // n × n, upper triangular; empty where it is diagonal
-    VectorXf lightRoot; // its diagonal then
+    MatrixXf light;     // n × n, upper triangular; empty if diagonal
+    VectorXf lightRoot; // its diagonal, if `light` is empty
     VectorXf view;
 
     MatrixXf apply(const MatrixXf& matrix) const {
@@ -64,7 +63,7 @@ Weights weightsOf(const BrdfTable& table, Factorization method) {
     return {{}, root, root};
 }
 
-// The map of largest magnitude is positive where it is largest: the same sign whatever the rounding.
+// Makes each light map positive where its magnitude is largest, so that rounding does not decide signs.
 void settleSigns(ChannelFactors& factors) {
     for (Index k = 0; k < factors.light.cols(); k++) {
         const auto map = factors.light.col(k);
@@ -79,7 +78,7 @@ void settleSigns(ChannelFactors& factors) {
 
 ChannelFactors factorizeSymmetric(const MatrixXf& matrix, const VectorXf& root, int terms) {
     const MatrixXf weighted = root.asDiagonal() * matrix * root.asDiagonal();
-    const MatrixXf symmetric = (weighted + weighted.transpose()) / 2; // rounding errors of the model removed
+    const MatrixXf symmetric = (weighted + weighted.transpose()) / 2; // removes rounding errors of the model
     const Eigenpairs pairs = largestEigenpairs(symmetric, terms);
     ChannelFactors factors;
     factors.values = pairs.values;
@@ -96,7 +95,7 @@ ChannelFactors factorizeGeneral(const std::vector<const MatrixXf*>& matrices, co
     for (const MatrixXf* matrix : matrices) {
         blocks.push_back(weights.apply(*matrix));
         const float norm = blocks.back().norm();
-        sizes.push_back(norm > 0 ? norm : 1); // black
+        sizes.push_back(norm > 0 ? norm : 1); // 1 for black
         blocks.back() /= sizes.back();
     }
     const bool nonNegative = method == Factorization::NonNegative;
@@ -110,7 +109,7 @@ ChannelFactors factorizeGeneral(const std::vector<const MatrixXf*>& matrices, co
     if (nonNegative)
         factors.light = weights.lightRoot.cwiseInverse().asDiagonal() * found.left * root.asDiagonal();
     else
-        // The light factors for these view factors, without dividing by the light's weights.
+        // Compute light factors for these view factors without dividing by the light's weights.
         factors.light = MatrixXf::Zero(found.left.rows(), terms);
     for (size_t j = 0; j < matrices.size(); j++) {
         if (!nonNegative)
@@ -156,8 +155,7 @@ void writeChannel(const ChannelFactors& factors, const std::vector<int>& nearest
     }
 }
 
-// For each channel the first channel with the same values in all tables: itself unless it repeats an earlier
-// one.
+// Returns, per channel, the first channel that has the same values in all tables; this may be itself.
 std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
     const auto equal = [&](size_t a, size_t b) {
         return std::all_of(tables.begin(), tables.end(),
@@ -169,8 +167,8 @@ std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
     return first;
 }
 
-// Factors all channels with one set of gray light maps. A nonnegative factorization has many local optima:
-// channels factored one by one end in different ones, and the errors of their terms color what is gray.
+// Factors all channels with one set of gray light maps. Nonnegative factorization has many local optima:
+// channels factored separately end in different ones, and errors of their terms then tint gray materials.
 // Transport of gray light maps also takes less than half the bytes.
 std::array<ChannelFactors, 3> factorizeTogether(std::span<const BrdfTable> tables,
                                                 const std::array<size_t, 3>& first, const Weights& weights,
@@ -182,7 +180,7 @@ std::array<ChannelFactors, 3> factorizeTogether(std::span<const BrdfTable> table
     const ChannelFactors all = factorizeGeneral(matrices, weights, Factorization::NonNegative, terms);
     const size_t distinct = matrices.size() / tables.size();
     std::array<ChannelFactors, 3> factors;
-    size_t next = 0; // channel of those that are factored
+    size_t next = 0; // index of the next factored channel
     for (size_t c = 0; c < 3; c++) {
         if (first[c] != c) {
             factors[c] = factors[first[c]];
@@ -232,7 +230,7 @@ FactoredBrdf assemble(std::span<const BrdfTable> tables, const std::array<Channe
     return brdf;
 }
 
-// The least number of terms whose error is at or below `wanted`, for every layer.
+// Returns the smallest number of terms whose error is at most `wanted` for every layer.
 int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf& brdf) {
     std::vector<float> worst(size_t(brdf.terms), 0);
     for (const std::vector<float>& errors : expectedErrors(tables, brdf))
@@ -288,7 +286,7 @@ FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOpt
     }
     const int wanted = std::min(options.terms, int(tables[0].directions.size()));
     const std::array<ChannelFactors, 3> channels = factorizeChannels(tables, options.method, wanted);
-    int terms = 1; // a black BRDF has one, of zeros
+    int terms = 1; // a black BRDF has one term of zeros
     for (const ChannelFactors& factors : channels) terms = std::max(terms, factors.terms());
     FactoredBrdf brdf = assemble(tables, channels, terms);
     if (!options.wantedError) return brdf;

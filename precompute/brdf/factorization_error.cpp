@@ -34,7 +34,8 @@ ChannelMaps mapsOf(const BrdfTable& table, const FactoredBrdf& factored, int lay
     return maps;
 }
 
-// ‖target - Σ left_k right_kᵀ‖² after each term, without forming a sum: from its products with the factors.
+// Returns ‖target - Σ left_k right_kᵀ‖² after each term. Uses products with the factors, without forming the
+// sum.
 VectorXd squaredResiduals(const MatrixXf& target, const ChannelMaps& maps) {
     const MatrixXd left = maps.light.cast<double>(), right = maps.view.cast<double>();
     const MatrixXd grams = (left.transpose() * left).cwiseProduct(right.transpose() * right);
@@ -91,7 +92,7 @@ std::vector<float> expectedErrors(const BrdfTable& table, const FactoredBrdf& fa
 std::vector<std::vector<float>> expectedErrors(std::span<const BrdfTable> tables,
                                                const FactoredBrdf& factored) {
     RELUME_CHECK_EQ(tables.size(), size_t(factored.layers));
-    const MatrixXf lights = lightMetric(tables[0]); // the same for all
+    const MatrixXf lights = lightMetric(tables[0]); // the same for all tables
     const VectorXf views = viewMetric(tables[0]);
     std::vector<std::vector<float>> errors;
     for (size_t layer = 0; layer < tables.size(); layer++)

@@ -11,7 +11,7 @@ class GgxConductor final : public Brdf {
     GgxConductor(vec3 reflectance, Ggx facets) : mReflectance(reflectance), mFacets(facets) {}
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
-        // Lifted, so that neither the half vector nor a denominator can vanish.
+        // Lift directions so that neither the half vector nor a denominator can vanish.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         const auto [half, cosine] = HalfVector(wi, wo);
         return schlickFresnel(mReflectance, cosine) *

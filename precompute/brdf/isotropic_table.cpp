@@ -6,8 +6,8 @@
 namespace relume {
 
 HalfDifference halfDifference(vec3 incoming, vec3 outgoing) {
-    // The difference of the two stands for the incoming direction: it has its azimuth about the half vector,
-    // and only changes its sign when the two are exchanged.
+    // The difference of both directions represents the incoming one: it has the same azimuth about the half
+    // vector, and swapping the directions only changes its sign.
     const vec3 sum = incoming + outgoing, difference = incoming - outgoing;
     const float sine = std::sqrt(sum.x * sum.x + sum.y * sum.y), length = glm::length(sum);
     const vec2 axis = sine > 0 ? vec2(sum.x, sum.y) / sine : vec2(1, 0);
@@ -54,7 +54,7 @@ vec3 IsotropicTable::interpolate(vec3 incoming, vec3 outgoing) const {
     const vec3 at = place(incoming, outgoing) - 0.5f;
     const float half = std::clamp(at.x, 0.0f, float(mHalves - 1));
     const float difference = std::clamp(at.y, 0.0f, float(mDifferences - 1));
-    const float azimuth = at.z < 0 ? at.z + float(mAzimuths) : at.z; // φd is a circle
+    const float azimuth = at.z < 0 ? at.z + float(mAzimuths) : at.z; // φd is periodic
     const int h = std::min(int(half), mHalves - 2), d = std::min(int(difference), mDifferences - 2);
     const int a = std::min(int(azimuth), mAzimuths - 1), next = a + 1 == mAzimuths ? 0 : a + 1;
     const auto row = [&](int atHalf, int atDifference) {

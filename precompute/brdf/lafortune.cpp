@@ -10,12 +10,12 @@ namespace relume {
 
 namespace {
 
-// Large enough for any fit in the literature, small enough that every sum stays finite.
+// Large enough for any fit in the literature, small enough to keep sums finite.
 constexpr size_t kMaxLobes = 16;
 constexpr float kMaxPeak = 1e6f;
 
 struct Lobe {
-    vec3 x, y, z, exponent; // one of each per color channel
+    vec3 x, y, z, exponent; // each per color channel
 };
 
 class Lafortune final : public Brdf {
@@ -64,7 +64,8 @@ Lobe readLobe(MaterialParameters& parameters) {
     return lobe;
 }
 
-// The base of a lobe is at most the largest of |cx|, |cy| and cz: ωi.z ωo.z is never negative.
+// Throws if a lobe peaks too high. Its base is at most the largest of |cx|, |cy| and cz, since ωi.z ωo.z is
+// never negative.
 void checkPeak(const Lobe& lobe) {
     for (int c = 0; c < 3; c++) {
         const float base = std::max({std::abs(lobe.x[c]), std::abs(lobe.y[c]), lobe.z[c], 0.0f});

@@ -17,9 +17,10 @@ namespace {
 constexpr int kDegrees = 30; // of the power law; finer detail counts as white
 constexpr double kExponent = -1.5;
 constexpr double kWhite = 0.02;
-constexpr int kKernelSamples = 4096; // of the cosine; linear between them
+constexpr int kKernelSamples = 4096; // of the cosine; linear interpolation between them
 
-// E[L(ω) L(ω')] without the white part as a function of ω·ω': Σ (2l + 1) / 4π · power(l) · Legendre_l.
+// Returns E[L(ω) L(ω')] without the white part as a function of ω·ω': Σ (2l + 1) / 4π · power(l) ·
+// Legendre_l.
 std::vector<float> autocorrelation() {
     std::vector<float> kernel(kKernelSamples + 1);
     for (int i = 0; i <= kKernelSamples; i++) {
@@ -54,8 +55,8 @@ MatrixXf lightMetric(const BrdfTable& table) {
             correlation(i, j) = lookup(kernel, glm::dot(table.directions[size_t(i)], direction));
         correlation(j, j) += float(kWhite) / table.solidAngles[size_t(j)];
     });
-    const Eigen::LLT<Eigen::Ref<MatrixXf>> cholesky(correlation); // in place, of the lower half
-    RELUME_CHECK_EQ(int(cholesky.info()), int(Eigen::Success));   // the white part keeps it definite
+    const Eigen::LLT<Eigen::Ref<MatrixXf>> cholesky(correlation); // in place, in the lower half
+    RELUME_CHECK_EQ(int(cholesky.info()), int(Eigen::Success));   // the white part keeps it positive definite
     MatrixXf metric = cholesky.matrixU();
     for (Eigen::Index i = 0; i < n; i++)
         metric.col(i) *= table.directions[size_t(i)].z * table.solidAngles[size_t(i)];

@@ -15,7 +15,7 @@ using Eigen::VectorXf;
 
 namespace {
 
-// Of the products, not of their factors: enough, since an error of a subspace enters squared.
+// Tolerance of the iteration's eigenpairs. Their errors enter the result squared, so this suffices.
 constexpr float kTolerance = 1e-5f;
 
 float inverseOrZero(double value) { return value > 0 ? float(1 / value) : 0; }
@@ -24,7 +24,7 @@ float inverseOrZero(double value) { return value > 0 ? float(1 / value) : 0; }
 
 LowRank lowRank(std::span<const MatrixXf> blocks, int terms) {
     const Index n = blocks[0].rows();
-    // Left vectors of [B₀ | B₁ | …] are eigenvectors of Σ Bⱼ Bⱼᵀ.
+    // The left singular vectors of [B₀ | B₁ | …] are eigenvectors of Σ Bⱼ Bⱼᵀ.
     const auto apply = [&](const MatrixXf& vectors) -> MatrixXf {
         MatrixXf sum = MatrixXf::Zero(n, vectors.cols());
         for (const MatrixXf& block : blocks) sum.noalias() += block * (block.transpose() * vectors).eval();
@@ -32,8 +32,9 @@ LowRank lowRank(std::span<const MatrixXf> blocks, int terms) {
     };
     const Eigenpairs pairs = largestEigenpairs(apply, int(n), terms, kTolerance);
 
-    // Squaring cost the small values half their digits. The products Bᵀu have them: a last Rayleigh-Ritz step
-    // on their Gram matrix, in double precision, gives values and vectors to float's rounding.
+    // Squaring halved the precision of small values, but the products Bᵀu still have it. A final
+    // Rayleigh–Ritz step on their Gram matrix, in double precision, gives values and vectors to float
+    // rounding.
     LowRank result;
     MatrixXd gram = MatrixXd::Zero(terms, terms);
     for (const MatrixXf& block : blocks) {

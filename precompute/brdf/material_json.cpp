@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-// Materials are a few lines: anything longer or deeper is a mistake.
+// Materials are a few lines; anything longer or deeper is a mistake.
 constexpr size_t kMaxTextSize = 1 << 16;
 constexpr int kMaxDepth = 8;
 constexpr size_t kMaxPathLength = 4096;

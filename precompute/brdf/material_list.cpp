@@ -13,14 +13,15 @@ using nlohmann::json;
 
 namespace {
 
-// A material's JSON, or its name as a JSON string; and where paths in it start.
+// A material's JSON, or its name as a JSON string, and the folder that its paths are relative to.
 struct Source {
     json value;
     std::filesystem::path folder;
-    std::string file; // that it was read from, for names and errors; empty for none
+    std::string file; // file it was read from, for names and errors; empty if none
 };
 
-// Reads a .json file once: what it holds is JSON and cannot name another file in its own place.
+// Resolves the name of a .json file to its content, which is an object and so cannot name another file in its
+// place.
 Source resolve(const json& value, const std::filesystem::path& folder) {
     if (!value.is_string()) return {value, folder, ""};
     const std::string text = value;
@@ -37,7 +38,7 @@ Source resolve(const json& value, const std::filesystem::path& folder) {
     }
 }
 
-// Names are printed, and written on command lines.
+// Checks a name, which will be printed and written on command lines.
 void checkName(const std::string& name) {
     const auto isControl = [](char letter) { return uint8_t(letter) < 0x20 || letter == 0x7f; };
     if (name.empty() || std::ranges::any_of(name, isControl))
@@ -58,7 +59,7 @@ class ListReader {
     }
 
   private:
-    // The value of an object's only key, if it is this one.
+    // Returns the list under `key` if the object has this key, which must then be its only one; else null.
     static const json* listOf(const json& value, const char* key) {
         if (!value.is_object() || !value.contains(key)) return nullptr;
         const json& list = value[key];

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-// The value as text, short enough for a message.
+// Returns the value as text, shortened for a message.
 std::string excerpt(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
     if (text.size() > 60) text = text.substr(0, 57) + "...";

@@ -35,7 +35,7 @@ class Measured final : public Brdf {
     std::string mPath, mHash;
 };
 
-// The path as text, if a description can hold it.
+// Returns the path; throws unless a description can hold it as text.
 std::filesystem::path readPath(MaterialParameters& parameters) {
     const std::string text = parameters.requiredText("measured");
     if (text.empty() || text.size() > kMaxPathLength || text.find('\0') != std::string::npos)
@@ -58,7 +58,7 @@ IsotropicTable parse(const std::vector<std::byte>& bytes, const std::filesystem:
 } // namespace
 
 std::unique_ptr<Brdf> makeMeasured(MaterialParameters& parameters, const std::filesystem::path& folder) {
-    // Absolute, so that a bake finds its material from any folder.
+    // Make it absolute, so that a bake finds its material from any folder.
     const std::filesystem::path path =
         std::filesystem::absolute(folder / readPath(parameters)).lexically_normal();
     const float scale = parameters.number("scale", 1, {0, 1000});

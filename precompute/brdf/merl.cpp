@@ -19,7 +19,7 @@ constexpr std::array<int32_t, 3> kCells = {90, 90, 180};
 constexpr size_t kCellCount = 90 * 90 * 180;
 constexpr size_t kFileSize = sizeof(kCells) + 3 * kCellCount * sizeof(double);
 constexpr std::array<double, 3> kScales = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
-constexpr double kMaxValue = 1e6; // sr⁻¹: no surface comes near it
+constexpr double kMaxValue = 1e6; // sr⁻¹, far above any surface
 
 // Reads all values; a negative one in any channel makes its cell missing.
 std::vector<bool> readValues(std::span<const std::byte> bytes, const std::string& name,

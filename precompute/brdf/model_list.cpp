@@ -16,7 +16,7 @@ struct Model {
     const char* name;
     const char* description;
     std::unique_ptr<Brdf> (*make)(MaterialParameters& parameters);
-    const char* least = "{}"; // the parameters that cannot be left out
+    const char* least = "{}"; // the parameters that are mandatory
 };
 
 constexpr Model kModels[] = {

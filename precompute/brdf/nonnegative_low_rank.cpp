@@ -12,8 +12,9 @@ using Eigen::VectorXf;
 
 namespace {
 
-constexpr float kLeastValue = 1e-5f; // of the largest, that a term of the matrix has at least
-constexpr int kSweeps = 60;          // the error falls by less than a thousandth over the last twenty
+// Least singular value that counts towards the rank, relative to the largest.
+constexpr float kLeastValue = 1e-5f;
+constexpr int kSweeps = 60; // over the last twenty the error falls by less than a thousandth
 
 using Blocks = std::vector<MatrixXf>;
 
@@ -23,8 +24,8 @@ double squaredNorm(const Blocks& blocks, Index column) {
     return sum;
 }
 
-// The positive or the negative halves of a singular pair, whichever product is larger; zeros would stay zero
-// for ever and become small values instead.
+// Initializes a term by the positive or negative part of a singular pair, whichever product is larger. Zeros
+// would stay zero, so they become small values.
 void startFromHalf(LowRank& start, Index k) {
     const auto half = [](const auto& vector, float sign) { return (sign * vector).cwiseMax(0.0f).eval(); };
     const auto size = [&](float sign) {
@@ -42,7 +43,7 @@ void startFromHalf(LowRank& start, Index k) {
     start.left.col(k) *= start.values[k];
 }
 
-// One sweep over the columns of `factor`, each its own least-squares optimum for `target` ≈ factor · otherᵀ,
+// Sweeps over the columns of `factor`, making each the least-squares optimum for `target` ≈ factor · otherᵀ,
 // given product = target · other and gram = otherᵀ · other.
 void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
     for (Index k = 0; k < factor.cols(); k++) {
@@ -52,7 +53,7 @@ void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
     }
 }
 
-// Unit columns, ordered by the sizes of their products.
+// Normalizes columns and sorts terms by the sizes of their products.
 void normalize(LowRank& factors) {
     const Index terms = factors.left.cols();
     for (Index k = 0; k < terms; k++) {
@@ -72,7 +73,7 @@ void normalize(LowRank& factors) {
     for (MatrixXf& block : factors.right) block = block(Eigen::all, order).eval();
 }
 
-// Appends terms of zeros.
+// Appends terms of zeros, up to `terms`.
 LowRank padded(LowRank factors, int terms) {
     const auto widen = [&](MatrixXf& columns) {
         columns.conservativeResizeLike(MatrixXf::Zero(columns.rows(), terms));
@@ -88,9 +89,9 @@ LowRank padded(LowRank factors, int terms) {
 LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
     LowRank factors = lowRank(blocks, terms);
     // A matrix of rank 1 or 2 has a nonnegative factorization of as many terms (Cohen, Rothblum: Nonnegative
-    // ranks, 1993); more terms would only split these.
+    // ranks, 1993); further terms would only split these.
     const Index count = (factors.values.array() > kLeastValue * factors.values[0]).count();
-    const Index rank = std::max<Index>(count, 1); // what is black has a term of zeros
+    const Index rank = std::max<Index>(count, 1); // black has one term of zeros
     if (rank <= 2 && rank < terms) return padded(nonNegativeLowRank(blocks, int(rank)), terms);
     for (Index k = 0; k < terms; k++) startFromHalf(factors, k);
     for (int round = 0; round < kSweeps; round++) {

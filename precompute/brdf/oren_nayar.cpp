@@ -16,7 +16,7 @@ class OrenNayar final : public Brdf {
     }
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
-        // Lifted, so that the quotient stays finite.
+        // Lift directions so that the quotient stays finite.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         const float alignment = wi.x * wo.x + wi.y * wo.y;
         const float scaled = alignment > 0 ? alignment / std::max(wi.z, wo.z) : alignment;

@@ -40,7 +40,7 @@ std::unique_ptr<Brdf> makePhong(MaterialParameters& parameters) {
     const vec3 diffuse = parameters.color("kd", vec3(0.4f), {0, 1});
     const vec3 specular = parameters.color("ks", vec3(0.3f), {0, 1});
     for (int c = 0; c < 3; c++)
-        if (diffuse[c] + specular[c] > 1.00001f) // what decimals that add to one may round to
+        if (diffuse[c] + specular[c] > 1.00001f) // tolerates rounding of decimals that add to one
             throw UsageError(
                 fmt::format("material phong: \"kd\" + \"ks\" must be at most 1 per channel, but is {} + {}",
                             diffuse[c], specular[c]));

@@ -13,7 +13,7 @@ class Plastic final : public Brdf {
         : mDiffuse(diffuse), mReflectance(reflectance), mRoughness(roughness) {}
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
-        // Lifted, so that neither the half vector nor a denominator can vanish.
+        // Lift directions so that neither the half vector nor a denominator can vanish.
         const vec3 wi = liftAboveHorizon(incoming), wo = liftAboveHorizon(outgoing);
         const auto [half, cosine] = HalfVector(wi, wo);
         const Ggx facets{mRoughness, mRoughness};

@@ -4,13 +4,13 @@ namespace relume {
 
 namespace {
 
-// Metals' F0 are Adobe's, in linear Rec. 709 ("Metal material references" of the Standard Material: Ag, Al,
-// Au, Cr, Cu), iron's is that of Google's Filament ("Material properties"). Highlights are as wide as maps of
-// 48 by 48 texels and some terms can hold; the narrowest, chrome's, wants 16 terms or more. Colors of
-// paints, woods and stones are by eye.
+// F0 of metals: Adobe's, in linear Rec. 709 ("Metal material references" of the Standard Material: Ag, Al,
+// Au, Cr, Cu); iron's is from Google's Filament ("Material properties"). Highlights are as wide as maps of 48
+// × 48 texels and a few terms can represent; the narrowest, chrome's, needs 16 terms or more. Colors of
+// paints, woods and stones are chosen by eye.
 //
 // Clay and skin: fits of Lafortune's model (Lafortune et al. 1997) to measurements at Cornell, attributed to
-// Westin; the values as in pbrt, version 1.
+// Westin; values as in pbrt, version 1.
 constexpr PresetDefinition kPresets[] = {
     {"gray-diffuse", "Lambertian, albedo 0.5", R"({"model": "diffuse", "albedo": 0.5})"},
     {"white-diffuse", "Lambertian, albedo 0.8, for grounds", R"({"model": "diffuse", "albedo": 0.8})"},

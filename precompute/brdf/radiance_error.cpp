@@ -11,11 +11,11 @@ namespace relume {
 
 namespace {
 
-constexpr int kViews = 40; // of each orientation
+constexpr int kViews = 40; // per orientation
 
-// The lights above one orientation's horizon, texel by texel.
+// The lights above an orientation's horizon, texel by texel.
 struct LocalLights {
-    std::vector<vec3> directions;              // in the local frame, unit length
+    std::vector<vec3> directions;              // unit vectors in the local frame
     std::vector<std::vector<vec3>> irradiance; // per light: radiance · cosine · solid angle
 };
 
@@ -39,7 +39,7 @@ LocalLights turnLights(std::span<const LightCube> lights, const mat3& localFromW
     return local;
 }
 
-// Per light.
+// Returns the radiance of the exact BRDF, per light.
 std::vector<vec3> exactRadiance(const Brdf& brdf, const LocalLights& lights, vec3 view) {
     std::vector<glm::dvec3> sums(lights.irradiance.size(), glm::dvec3(0));
     for (size_t i = 0; i < lights.directions.size(); i++) {
@@ -49,8 +49,8 @@ std::vector<vec3> exactRadiance(const Brdf& brdf, const LocalLights& lights, vec
     return {sums.begin(), sums.end()};
 }
 
-// Every light spread over the texels of a map by the weights that lookups read them with: Σ texel · spread is
-// the sum over the light of irradiance times lookup, for any map.
+// Distributes every light over a map's texels with the weights of bilinear lookups: for any map, Σ texel ·
+// weight is the sum over the light of irradiance times lookup.
 std::vector<std::vector<vec3>> spreadOverMap(const LocalLights& lights, int size, DiskMapping mapping) {
     std::vector<std::vector<vec3>> spread(lights.irradiance.size(),
                                           std::vector<vec3>(size_t(size) * size_t(size), vec3(0)));
@@ -65,7 +65,8 @@ std::vector<std::vector<vec3>> spreadOverMap(const LocalLights& lights, int size
     return spread;
 }
 
-// Squared errors of one orientation under one light, after each term. `exact` is the radiance per view.
+// Returns the squared errors of one orientation under one light after each term. `exact` is the radiance per
+// view.
 std::vector<double> squaredErrors(const LayerOf& approximation, const std::vector<vec3>& spread,
                                   const std::vector<MapPlace>& views, const std::vector<vec3>& exact) {
     const FactoredBrdf& factored = *approximation.factored;

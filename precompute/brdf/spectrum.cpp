@@ -7,13 +7,13 @@ namespace relume {
 
 namespace {
 
-// A Gaussian of different widths (as their inverse) below and above its peak.
+// Returns a Gaussian with different inverse widths below and above its peak.
 float lobe(float wavelength, float peak, float below, float above) {
     const float t = (wavelength - peak) * (wavelength < peak ? below : above);
     return std::exp(-0.5f * t * t);
 }
 
-// The multi-lobe fit of the paper's listing 1.
+// Returns the multi-lobe fit of the paper's listing 1.
 vec3 matchingFunctions(float w) {
     return {0.362f * lobe(w, 442.0f, 0.0624f, 0.0374f) + 1.056f * lobe(w, 599.8f, 0.0264f, 0.0323f) -
                 0.065f * lobe(w, 501.1f, 0.0490f, 0.0382f),
@@ -21,8 +21,8 @@ vec3 matchingFunctions(float w) {
             1.217f * lobe(w, 437.0f, 0.0845f, 0.0278f) + 0.681f * lobe(w, 459.0f, 0.0385f, 0.0725f)};
 }
 
-// From XYZ under equal energy to linear sRGB: to Bradford's cone responses, scaled from those of (1, 1, 1) to
-// those of D65, and back. Matrices are written row by row.
+// Converts XYZ under equal energy to linear sRGB: to Bradford's cone responses, scaled from those of (1, 1,
+// 1) to those of D65, and back. Matrices are written by rows.
 mat3 adaptedToSrgb() {
     const mat3 bradford = glm::transpose(
         mat3(0.8951f, 0.2664f, -0.1614f, -0.7502f, 1.7135f, 0.0367f, 0.0389f, -0.0685f, 1.0296f));
@@ -45,7 +45,7 @@ std::vector<vec3> srgbWeights(std::span<const float> wavelengths) {
         total += weights[i];
     }
     const mat3 toSrgb = adaptedToSrgb();
-    vec3 white(0); // one, but for rounding
+    vec3 white(0); // one, except for rounding
     for (vec3& weight : weights) {
         weight = toSrgb * (weight / total);
         white += weight;

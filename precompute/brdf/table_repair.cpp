@@ -8,7 +8,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kReliableCosine = 0.17364818f; // of 80 degrees
+constexpr float kReliableCosine = 0.17364818f; // cosine of 80 degrees
 constexpr float kFresnelRise = 2.6f;
 
 // Calls visit(cell) for up to six neighbors.
@@ -28,8 +28,8 @@ void forNeighbors(const IsotropicTable& table, size_t cell, const Visit& visit) 
 } // namespace
 
 void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
-    // A layer is of cells that are missing beside some that are not. Each looks at the one before alone: a
-    // file that lacks almost all may have hundreds.
+    // A layer is the missing cells next to known ones. Each search looks only at the previous layer, since a
+    // file that lacks most cells may have hundreds of layers.
     std::vector<size_t> layer, next;
     std::vector<bool> isFound(isMissing.size());
     const auto findMissing = [&](size_t cell, std::vector<size_t>& found) {
@@ -52,7 +52,7 @@ void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
             });
             table[cell] = sum / count;
         }
-        // Only now, so that a layer does not feed on itself.
+        // Update only now, so that a layer does not use its own values.
         for (const size_t cell : layer) isMissing[cell] = false;
         next.clear();
         for (const size_t cell : layer) findMissing(cell, next);
@@ -61,7 +61,8 @@ void fillMissing(IsotropicTable& table, std::vector<bool> isMissing) {
 
 GrazingRepair limitGrazing(IsotropicTable& table) {
     GrazingRepair repair;
-    // Per φd, of the last reliable cell: where a θh has none, that of the θh before.
+    // Per φd, the last reliable cell's value times its larger cosine; kept for a θh that has no reliable
+    // cell.
     std::vector<vec3> reliable(size_t(table.azimuths()), vec3(0));
     for (int half = 0; half < table.halves(); half++)
         for (int difference = 0; difference < table.differences(); difference++)

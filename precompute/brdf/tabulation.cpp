@@ -26,8 +26,8 @@ void listDirections(BrdfTable& table) {
         }
 }
 
-// Which places of two texels are paired for a mean: a rank-1 lattice (Roberts' R4), shifted at random per
-// pair of texels.
+// For a mean, points of two texels are paired by a rank-1 lattice (Roberts' R4), shifted randomly per pair of
+// texels.
 constexpr int kMeanSamples = 4;
 constexpr glm::dvec4 kLattice(0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101);
 
@@ -43,7 +43,7 @@ class Tabulator {
     Tabulator(const Brdf& brdf, BrdfPart part, TexelValue value, BrdfTable& table)
         : mBrdf(brdf), mPart(part), mValue(value), mTable(table) {}
 
-    // Every value of one outgoing direction; of a reciprocal BRDF those up to the diagonal, and their mirror
+    // Tabulates one outgoing direction; for a reciprocal BRDF, the values up to the diagonal and their mirror
     // images.
     void tabulateColumn(int outgoing) const {
         const bool mirrors = mBrdf.isReciprocal();
@@ -53,7 +53,7 @@ class Tabulator {
                                                           : evaluate(mTable.directions[size_t(i)],
                                                                      mTable.directions[size_t(outgoing)]);
             for (int c = 0; c < 3; c++) {
-                RELUME_CHECK_LE(0.0f, value[c]); // fails for NaN too
+                RELUME_CHECK_LE(0.0f, value[c]); // fails for NaN, too
                 RELUME_CHECK_LT(value[c], std::numeric_limits<float>::infinity());
                 mTable.channels[size_t(c)](i, outgoing) = value[c];
                 if (mirrors) mTable.channels[size_t(c)](outgoing, i) = value[c];
@@ -65,12 +65,12 @@ class Tabulator {
     vec3 evaluate(vec3 incoming, vec3 outgoing) const {
         if (mPart == BrdfPart::Base) return mBrdf.evaluateBase(incoming, outgoing);
         const vec3 all = mBrdf.evaluate(incoming, outgoing);
-        // Rounding must not leave less than nothing.
+        // Rounding must not make a difference negative.
         return mPart == BrdfPart::All ? all : glm::max(all - mBrdf.evaluateBase(incoming, outgoing), vec3(0));
     }
 
     vec3 mean(int incoming, int outgoing) const {
-        // The places are those of the swapped pair, swapped: what is nearly reciprocal stays nearly
+        // The points of a swapped pair of texels are swapped, so that nearly reciprocal BRDFs stay nearly
         // symmetric.
         const auto [first, second] = std::minmax(incoming, outgoing);
         const uint64_t bits = mix(uint64_t(first) << 32 | uint64_t(second));
@@ -89,8 +89,8 @@ class Tabulator {
         return vec3(sum / weights);
     }
 
-    // Of a place in a texel's unit square; its center's where the place is outside the disk or all but
-    // grazing.
+    // Returns the direction of a point in a texel's unit square; the texel center's if the point is outside
+    // the disk or nearly grazing.
     vec3 directionIn(int texel, vec2 place) const {
         const auto direction = diskMapDirection(mTable.mapping, (vec2(mTable.texels[size_t(texel)]) + place) /
                                                                     float(mTable.size));
@@ -103,7 +103,7 @@ class Tabulator {
     BrdfTable& mTable;
 };
 
-// ‖M - Mᵀ‖ / ‖M‖, summed in double precision column by column.
+// Returns ‖M - Mᵀ‖ / ‖M‖, summed in double precision column by column.
 float asymmetryOf(const Eigen::MatrixXf& matrix) {
     double difference = 0, total = 0;
     for (Eigen::Index i = 0; i < matrix.cols(); i++) {

@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-// The light as a value per coefficient.
+// The light as one value per coefficient.
 class DenseLight {
   public:
     explicit DenseLight(const LightVector& light)
@@ -51,7 +51,7 @@ class CpuRowsRelighter : public CpuRelighter {
     const SparseTransport& mTransport;
 };
 
-// Works on the vertices of a cluster side by side, which the order of the sums allows.
+// Processes the vertices of a cluster side by side, which keeps the order of each sum.
 class CpuBasesRelighter : public CpuRelighter {
   public:
     explicit CpuBasesRelighter(const BasisTransport& transport) : mTransport(transport) {
@@ -123,7 +123,7 @@ class CpuBasesRelighter : public CpuRelighter {
     }
 
     const BasisTransport& mTransport;
-    std::vector<std::vector<int8_t>> mWeights; // of a cluster: component after component
+    std::vector<std::vector<int8_t>> mWeights; // per cluster: component after component
 };
 
 std::unique_ptr<CpuRelighter> make(const SparseTransport& transport) {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kBlock = CpuCoefficients::kBlock;
 
-// `count` (1 to 64, a power of two) bits of the curve from `first`, a multiple of it.
+// Returns `count` bits of the curve from `first` on. `count` is a power of two up to 64, `first` a multiple
+// of it.
 uint64_t bitsAt(std::span<const uint64_t> bits, size_t first, int count) {
     const uint64_t word = bits[first / 64] >> (first % 64);
     return count == 64 ? word : word & ((uint64_t(1) << count) - 1);
@@ -26,8 +27,8 @@ bool isAnySet(std::span<const uint64_t> bits, size_t first, int count) {
                                [](uint64_t word) { return word != 0; });
 }
 
-// What 16 evaluations read of the light maps, and its weights: bilinear, times cosine, solid angle and
-// visible fraction.
+// Texels and weights of 16 light map lookups: bilinear weights times cosine, solid angle and visible
+// fraction.
 struct Lookups {
     alignas(64) int texels[4][kBlock];
     alignas(64) float weights[4][kBlock];
@@ -37,9 +38,9 @@ struct Locals {
     alignas(64) float x[kBlock], y[kBlock], z[kBlock];
 };
 
-// diskMapCoordinates and placeInMap, 16 at a time.
+// Vectorized diskMapCoordinates() and placeInMap(), 16 at a time.
 void findPlaces(DiskMapping mapping, int size, const Locals& local, const float* weight, Lookups& lookups) {
-    if (isPolar(mapping)) { // its arc tangents are not worth vectors
+    if (isPolar(mapping)) { // vectorizing its arc tangents does not pay
         for (int i = 0; i < kBlock; i++) {
             if (!(weight[i] > 0)) {
                 for (int corner = 0; corner < 4; corner++) lookups.weights[corner][i] = 0;
@@ -80,7 +81,7 @@ void findPlaces(DiskMapping mapping, int size, const Locals& local, const float*
     }
 }
 
-// Adds evaluation `i` to a texel of one group.
+// Adds lookup `i` to a texel of one group.
 template <int Stride>
 void addLookup(const float* map, const Lookups& lookups, int i, float* texel) {
     const float* a = map + lookups.texels[0][i] * Stride;
@@ -92,10 +93,10 @@ void addLookup(const float* map, const Lookups& lookups, int i, float* texel) {
     for (int j = 0; j < Stride; j++) texel[j] += (wa * a[j] + wb * b[j]) + (wc * c[j] + wd * d[j]);
 }
 
-// One Haar step on four neighbors of the curve, as in haarForward: three details and the average.
+// Applies one Haar step to four neighbors on the curve, as haarForward() does: three details and the average.
 template <int Stride>
 void haarStep(const float* quad, float* details, float* average) {
-    float copy[4 * Stride]; // details may lie where the quad does
+    float copy[4 * Stride]; // details may overlap the quad
     std::copy_n(quad, 4 * Stride, copy);
     for (int j = 0; j < Stride; j++) {
         const float a = copy[j], b = copy[Stride + j], c = copy[2 * Stride + j], d = copy[3 * Stride + j];
@@ -106,7 +107,7 @@ void haarStep(const float* quad, float* details, float* average) {
     }
 }
 
-// The largest and the sum of each lane's keys over a block.
+// Computes the maximum and the sum of each lane's keys over a block.
 template <int Stride>
 void measure(const float* values, float* maxima, double* energy) {
     constexpr int kLanes = Stride == 4 ? 1 : 4;
@@ -131,7 +132,7 @@ CpuTransport::CpuTransport(std::span<const FactoredBrdf* const> brdfs, int faceS
     : mSamples(samples) {
     RELUME_CHECK(!brdfs.empty());
     RELUME_CHECK(faceSize >= 16 && std::has_single_bit(unsigned(faceSize)));
-    const int cells = int(std::lround(std::sqrt(double(samples)))); // a side of a lighting texel
+    const int cells = int(std::lround(std::sqrt(double(samples)))); // cells per side of a lighting texel
     const int cellSide = visibilitySize / (faceSize * cells);
     RELUME_CHECK_EQ(cells * cells, samples);
     RELUME_CHECK(cellSide >= 1 && cellSide <= 8 && cellSide * faceSize * cells == visibilitySize);
@@ -276,7 +277,7 @@ void CpuTransport::transformBlocks(CpuCoefficients& result) const {
             measure<Stride>(result.block(group, block),
                             &result.maxima[(size_t(group) * result.capacity + block) * kLanes], energy);
         };
-        // Two levels of a block: its average goes to `average`.
+        // Transforms two levels of a block; its average goes to `average`.
         const auto twoLevels = [&](float* values, float* average) {
             float quads[4 * Stride];
             for (int quad = 0; quad < 4; quad++)

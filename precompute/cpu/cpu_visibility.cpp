@@ -18,10 +18,10 @@ constexpr size_t kTile = RayTracer::kStream; // 16 × 16 texels
 static_assert(kTile % 64 == 0);
 using Reach = std::array<float, kTile>;
 
-// Bit 8i of `bytes` to bit i.
+// Packs bit 8i of `bytes` into bit i.
 uint64_t gather(uint64_t bytes) { return bytes * 0x0102040810204080ull >> 56; }
 
-// One bit a ray: whether its reach is still positive.
+// Packs one bit per ray: whether its reach is still positive.
 void packFree(const Reach& reach, uint64_t* bits) {
     std::array<uint8_t, kTile> isFree;
     for (size_t i = 0; i < kTile; i++) isFree[i] = reach[i] > 0;
@@ -58,7 +58,7 @@ uint64_t CpuVisibility::trace(vec3 origin, vec3 normal, std::span<uint64_t> bits
         const float *x = &mX[tile], *y = &mY[tile], *z = &mZ[tile];
         int above = 0;
         for (size_t i = 0; i < kTile; i++) {
-            // Evaluated as glm::dot is: the horizon's texels must be the twin's.
+            // Evaluated like glm::dot, so that texels at the horizon agree with the twin.
             const bool isAbove = x[i] * normal.x + y[i] * normal.y + z[i] * normal.z > 0;
             reach[i] = isAbove ? kTraced : kLeftOut;
             above += isAbove;

@@ -127,7 +127,7 @@ const FactoredBrdf& boundFactors(const Asset& asset, const Appearance& appearanc
     return asset.parts[part].sets[appearance[part].set].brdf;
 }
 
-// Returns a value per term.
+// Returns the bound view maps' values at a point, per term.
 std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size_t part,
                           const SurfacePoint& point) {
     return pointViews(boundFactors(asset, appearance, part), boundLayers(asset.parts[part], appearance[part]),

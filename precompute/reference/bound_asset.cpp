@@ -46,8 +46,7 @@ BoundAsset::BoundAsset(const Asset& asset, const Appearance& appearance, Referen
     }
 }
 
-// Returns a mapped normal, turned towards the eye where it would look away from it. GLSL twin:
-// shaders/lib/normal_map.glsl.
+// Returns a mapped normal, bent towards the eye if it faces away. GLSL twin: shaders/lib/normal_map.glsl.
 static vec3 facingNormal(vec3 normal, vec3 view) {
     constexpr float kLeastCosine = 0.05f;
     return glm::normalize(normal + std::max(kLeastCosine - glm::dot(normal, view), 0.0f) * view);

@@ -44,7 +44,7 @@ LightDistribution::Draw LightDistribution::draw(double choice, float across, flo
 }
 
 float LightDistribution::density(vec3 direction, size_t texel) const {
-    // dA / dω on a face at distance 1 is the cube of the ray's length to it.
+    // dA / dω at a point of a face at unit depth is the cube of the point's distance.
     const vec3 m = glm::abs(direction);
     const float depth = std::max({m.x, m.y, m.z});
     return mTexels[texel].density / (depth * depth * depth);

@@ -52,8 +52,8 @@ void ProgressiveReference::findSurfaces(int y) {
     mRowsSeen[size_t(y)] = true;
 }
 
-// The even passes of a pixel go through its samples in turn, and so do the odd ones, each from a random
-// start: no half's mean favors some samples before all have had their turn.
+// A pixel's even passes cycle through its samples, and so do its odd passes, each from a random start, so
+// that neither half's mean favors some samples.
 size_t ProgressiveReference::sampleOf(size_t pixel) const {
     if (mSamples == 1) return 0;
     HashedNumbers random{uint32_t(pixel), ~uint32_t(mPasses % 2)};
@@ -140,7 +140,7 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     }
     if (count == 0) return std::nullopt;
     const auto root = [&](double sum) { return std::sqrt(std::max(sum / count, 0.0)); };
-    // Of one pass: the variance of A - B over 1 / even + 1 / odd.
+    // The variance of one pass is that of A - B over (1 / even + 1 / odd).
     return ReferenceError{.rmse = root(errors),
                           .level = root(squares),
                           .noise = root(differences * even * odd) / double(mPasses),

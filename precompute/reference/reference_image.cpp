@@ -19,39 +19,39 @@ namespace relume {
 
 namespace {
 
-// A direction that light comes from, with radiance · solid angle.
+// A direction of incident light, with radiance · solid angle.
 struct LightSample {
     vec3 direction;
     vec3 energy;
 };
 
-// Texels a side of the light cube that paths sample where the light is an environment.
+// Side, in texels, of the light cube that paths sample if the light is an environment.
 constexpr int kPathFaceSize = 128;
 
 int bouncesOf(const ReferenceOptions& options, const Asset& asset) {
     return options.bounces.value_or(options.brdf == ReferenceBrdf::Exact ? asset.bounces : 0);
 }
 
-// What all pixels share.
+// Data shared by all pixels.
 struct Renderer {
     const Camera& camera;
     const ReferenceOptions& options;
     std::vector<LightSample> lights;
     BoundAsset asset;
-    std::optional<BoundAsset> terms;       // with ReferenceBrdf::Residual: the asset in its K terms
+    std::optional<BoundAsset> terms;       // for ReferenceBrdf::Residual: the asset with its K terms as BRDFs
     std::vector<bool> hasNonnegativeTerms; // per part, of its bound set
     RayTracer surfaces;                    // one mesh per part
     RayTracer occluder;
     float shadowOffset;
     int bounces;
-    std::optional<LightDistribution> bounced; // the light that paths find, where light bounces
+    std::optional<LightDistribution> bounced; // light that paths sample, if it bounces
     std::vector<const Mesh*> meshes;
 
     vec4 pixelAt(int x, int y) const;
     vec3 radianceAt(const RayHit& hit) const;
-    // By paths whose numbers are those of the pixel.
+    // Returns bounced radiance by path tracing; the pixel seeds the random numbers.
     vec3 bouncedRadiance(const RayHit& hit, uint32_t pixel) const;
-    // The share of the surface that is there.
+    // Returns the coverage of a surface: less than 1 where the ground fades.
     float coverageAt(const RayHit& hit) const;
     vec3 reflectedRadiance(const SurfacePoint& point) const;
     vec3 estimateRadiance(const RayHit& hit) const;
@@ -89,17 +89,17 @@ vec4 Renderer::pixelAt(int x, int y) const {
         if (!*hit || std::any_of(hits.begin(), hit, isSame)) continue;
         const float covered = float(std::ranges::count_if(hits, isSame)) / float(options.samples);
         const float share = covered * coverageAt(**hit);
-        // A factored BRDF can go negative.
         if (!(share > 0)) continue;
         vec3 radiance = radianceAt(**hit);
         if (bounced) radiance += bouncedRadiance(**hit, uint32_t(y * options.width + x));
         const vec3 emitted = asset.pointAt(**hit, camera.eye).emitted;
+        // A factored BRDF can be negative.
         sum += share * vec4(glm::max(radiance, vec3(0)) + emitted, 1);
     }
     return sum;
 }
 
-// Sums over the lights above the horizon that nothing blocks, a batch of shadow rays at a time.
+// Sums over the unblocked lights above the horizon, tracing shadow rays in batches.
 vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
     constexpr size_t kBatch = 1024;
     std::array<vec3, kBatch> directions;
@@ -124,7 +124,7 @@ vec3 Renderer::reflectedRadiance(const SurfacePoint& point) const {
     return vec3(sum);
 }
 
-// The sums that a residual's estimate is made of, each exact.
+// Computes the residual's estimate from exact sums.
 vec3 Renderer::estimateRadiance(const RayHit& hit) const {
     const SurfacePoint point = asset.pointAt(hit, camera.eye), ofTerms = terms->pointAt(hit, camera.eye);
     const bool isMapped = point.frame.n != ofTerms.frame.n;
@@ -164,7 +164,7 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
     return image;
 }
 
-// `cube`: the light as paths find it.
+// Renders an image; `cube` is the light that paths sample.
 Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const Asset& asset,
                   const Camera& camera, const ReferenceOptions& options,
                   const std::function<void(int)>& progress) {
@@ -179,7 +179,7 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
     const std::vector<const Mesh*> meshes = partMeshes(asset);
     const std::vector<const Mesh*> occluders =
         options.bakedOccluder ? std::vector<const Mesh*>{&asset.occluder} : meshes;
-    // A full mesh needs no more than to clear rounding; a simplified one must clear its own error.
+    // On a full mesh the offset only needs to exceed rounding; on a simplified one, its error.
     const float offset =
         options.bakedOccluder ? asset.visibilityOffset : kFullMeshShadowOffset * boundsOf(asset).radius();
     const Appearance appearance = options.appearance.empty() ? defaultAppearance(asset) : options.appearance;
@@ -208,7 +208,7 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
     return render(renderer, progress);
 }
 
-// Each lit texel as side × side equal squares of its face.
+// Returns samples of the lit texels, each divided into side × side equal squares of its face.
 std::vector<LightSample> lightSamples(const LightCube& light, int side) {
     std::vector<LightSample> samples;
     const int fineSize = light.size * side;
@@ -224,7 +224,7 @@ std::vector<LightSample> lightSamples(const LightCube& light, int side) {
     return samples;
 }
 
-// Each lit pixel of a latlong map, with its exact solid angle: Δlongitude · Δ sin latitude.
+// Returns a sample per lit pixel of a latlong map, with its exact solid angle: Δlongitude · Δ sin latitude.
 std::vector<LightSample> lightSamples(const Environment& map, float rotation) {
     const float cosine = std::cos(rotation), sine = std::sin(rotation);
     std::vector<LightSample> samples;

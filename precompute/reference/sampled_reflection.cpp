@@ -9,14 +9,14 @@ namespace relume {
 
 namespace {
 
-// Counts that come to the same noise in the same time are many; these give the first picture early.
+// Many choices of these counts give equal noise in equal time; these give an early first image.
 constexpr int kFromLight = 8, kFromCosine = 4, kRays = 8;
 constexpr size_t kCandidates = kFromLight + kFromCosine + kLobeWidths.size();
 
 struct Candidate {
     vec3 direction;
-    vec3 share;   // radiance · BRDF · cosine, over its size
-    float weight; // that size / the sum of all densities
+    vec3 share;   // radiance · BRDF · cosine, divided by the sum of its channels' magnitudes
+    float weight; // that sum over the sum of all sampling densities
 };
 
 class Resampling {
@@ -42,8 +42,8 @@ class Resampling {
         }
     }
 
-    // Calls `take` with kRays candidates, in order and some repeatedly: those at equal distances, the first
-    // at `offset` of one, along all weights laid end to end.
+    // Calls `take` with kRays candidates, in order and some repeatedly, by systematic resampling: equidistant
+    // points on the cumulative weights, the first at `offset` of the distance.
     void choose(float offset, const auto& take) const {
         if (!(mSum > 0)) return;
         float end = 0;
@@ -80,7 +80,7 @@ class Resampling {
 
     const SurfacePoint& mPoint;
     const LightDistribution& mLight;
-    vec3 mMirror; // the mirror direction of the view's, in the frame
+    vec3 mMirror; // mirror direction of the view, in the frame
     std::array<Candidate, kCandidates> mCandidates;
     size_t mCount = 0;
     float mSum = 0;

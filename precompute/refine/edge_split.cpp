@@ -12,8 +12,8 @@ namespace {
 
 float squaredLength(vec3 v) { return glm::dot(v, v); }
 
-// Cuts a triangle, whose corners are all but the two edges that meet in the first, split at `ab` and `ca`.
-// The quadrilateral that is left gets its shorter diagonal.
+// Cuts a triangle whose first corner's two edges are split at `ab` and `ca`. The remaining quadrilateral is
+// cut along its shorter diagonal.
 void splitTwo(const Mesh& mesh, uvec3 corners, uint32_t ab, uint32_t ca, std::vector<uvec3>& triangles) {
     const auto [a, b, c] = std::array{corners.x, corners.y, corners.z};
     triangles.push_back({a, ab, ca});
@@ -27,7 +27,8 @@ void splitTwo(const Mesh& mesh, uvec3 corners, uint32_t ab, uint32_t ca, std::ve
     }
 }
 
-// `middles`: of the edges from x to y, y to z and z to x; none where an edge stays whole.
+// Splits a triangle. `middles` are those of the edges from x to y, y to z and z to x; none where an edge
+// stays whole.
 void split(const Mesh& mesh, uvec3 triangle, std::array<std::optional<uint32_t>, 3> middles,
            std::vector<uvec3>& triangles) {
     const auto count = std::ranges::count_if(middles, [](const auto& middle) { return middle.has_value(); });
@@ -41,7 +42,7 @@ void split(const Mesh& mesh, uvec3 triangle, std::array<std::optional<uint32_t>,
                          {{triangle.x, xy, zx}, {xy, triangle.y, yz}, {zx, yz, triangle.z}, {xy, yz, zx}});
         return;
     }
-    // Turned until the first edge is split, and of two the last as well.
+    // Rotate until the first edge is split; of two split edges, the last must be the other.
     while (!middles[0] || (count == 2 && !middles[2])) {
         triangle = {triangle.y, triangle.z, triangle.x};
         middles = {middles[1], middles[2], middles[0]};
@@ -59,11 +60,11 @@ void split(const Mesh& mesh, uvec3 triangle, std::array<std::optional<uint32_t>,
 EdgeMiddle middleOf(const Mesh& mesh, Edge edge) {
     const vec3 sum = mesh.normals[edge.first] + mesh.normals[edge.second];
     const float length = glm::length(sum);
-    constexpr float kOpposite = 1e-3f; // of unit normals, whose sum points nowhere
+    constexpr float kOpposite = 1e-3f; // below this a sum of unit normals has no direction
     EdgeMiddle middle{0.5f * (mesh.positions[edge.first] + mesh.positions[edge.second]),
                       length > kOpposite ? sum / length : mesh.normals[edge.first]};
     if (!mesh.tangents.empty()) {
-        // Opposite tangents, too, have a sum that points nowhere.
+        // Opposite tangents also sum to no direction.
         const vec3 tangents = mesh.tangents[edge.first] + mesh.tangents[edge.second];
         const bool isAny = glm::length(glm::cross(tangents, middle.normal)) > kOpposite;
         middle.tangent = tangentFrame(middle.normal, isAny ? tangents : mesh.tangents[edge.first]).s;

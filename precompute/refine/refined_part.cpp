@@ -47,7 +47,7 @@ RefinedPart::RefinedPart(AssetPart& part, const CpuVisibility& visibility, const
 void RefinedPart::probe(const std::function<void(size_t, size_t)>& report) {
     const Mesh& mesh = mPart.mesh;
     std::vector<EdgeMiddle> points;
-    if (mOfVertices.empty()) { // others were middles
+    if (mOfVertices.empty()) { // later vertices were probed as middles of edges
         for (size_t i = 0; i < mesh.vertexCount(); i++)
             points.push_back(
                 {mesh.positions[i], mesh.normals[i], mesh.tangents.empty() ? vec3(0) : mesh.tangents[i]});
@@ -87,7 +87,7 @@ void RefinedPart::probe(std::span<const EdgeMiddle> points,
     report(points.size(), points.size());
 }
 
-// Edges that are there still keep what is known of them; they go only by being split.
+// Finds the edges. Those that existed before keep their data; an edge only disappears by being split.
 void RefinedPart::findEdges() {
     std::vector<std::pair<Edge, double>> sides;
     for (const uvec3& t : mPart.mesh.triangles) {

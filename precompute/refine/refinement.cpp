@@ -16,22 +16,23 @@ namespace relume {
 
 namespace {
 
-// Of the error, what is worked on in one round: the edges that make most of it.
+// Share of the error that is worked on per round, by the edges that contribute most.
 constexpr double kRoundShare = 0.35;
-// A round leaves so much of the squared error that is wanted, that the last rounds are few.
+// A round aims at this share of the wanted squared error, so that few last rounds are needed.
 constexpr double kAim = 0.9;
-// It ends as well where edges that may be split make less than this of the squared error that is wanted.
+// Refinement also ends if splittable edges contribute less than this share of the wanted squared error.
 constexpr double kLeastShare = 0.1;
-// In visibility offsets. What lies closer is told apart by the offset rather than by the scene.
+// Shortest edge that is split, in visibility offsets. Closer points differ by the offset rather than by the
+// scene.
 constexpr float kShortestEdge = 8;
 
-// Numbers positions, whichever part they belong to.
+// Assigns numbers to positions, across all parts.
 class Places {
   public:
     uint32_t number(vec3 position) {
         return mNumbers.try_emplace(keyOf(position), uint32_t(mNumbers.size())).first->second;
     }
-    // None: no position there was numbered.
+    // Returns none if the position has no number.
     std::optional<uint32_t> find(vec3 position) const {
         const auto found = mNumbers.find(keyOf(position));
         return found == mNumbers.end() ? std::nullopt : std::optional(found->second);
@@ -40,18 +41,18 @@ class Places {
   private:
     using Key = std::array<uint32_t, 3>;
     static Key keyOf(vec3 position) {
-        const auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); }; // -0 is 0
+        const auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); }; // turns -0 into 0
         return {bits(position.x), bits(position.y), bits(position.z)};
     }
 
     std::map<Key, uint32_t> mNumbers;
 };
 
-// Edges that lie on each other, and what they add up to. Errors are squared and times area.
+// Edges of all parts that coincide, and their total error: squared, times area.
 struct EdgeGain {
     Edge places;
     double error = 0;
-    uint32_t sides = 0; // as many vertices does a split take
+    uint32_t sides = 0; // number of coinciding edges; a split adds as many vertices
 };
 
 class Refiner {
@@ -116,7 +117,7 @@ class Refiner {
         }
     }
 
-    // Keeps the edges of a mesh that is not refined whole, where edges of refined parts lie on them.
+    // Keeps edges of refined parts whole where they coincide with those of an unrefined mesh.
     void keepEdges(const Mesh& mesh) {
         std::vector<std::optional<uint32_t>> places;
         for (const vec3& position : mesh.positions) places.push_back(mNumbers.find(position));
@@ -154,8 +155,7 @@ class Refiner {
         for (const auto& [places, gain] : gains) mGains.push_back(gain);
     }
 
-    // Splits the edges that make most of the error for the vertices that it takes. False if that leads
-    // nowhere.
+    // Splits the edges of largest error per added vertex. Returns false if there is nothing worth splitting.
     bool splitWorst(double wanted) {
         std::ranges::stable_sort(mGains, std::greater(), [](const EdgeGain& g) { return g.error / g.sides; });
         double within = 0, sum = 0;
@@ -188,9 +188,9 @@ class Refiner {
     std::vector<RefinedPart> mParts;
     Places mNumbers;
     std::vector<std::vector<uint32_t>> mPlaces; // per part and vertex
-    std::set<Edge> mKept;                       // places of edges that stay whole
+    std::set<Edge> mKept;                       // edges that stay whole, by places
     uint64_t mMostVertices = 0;
-    double mError = 0, mEnergy = 0; // squared and times area
+    double mError = 0, mEnergy = 0; // squared, times area
     std::vector<EdgeGain> mGains;
 };
 

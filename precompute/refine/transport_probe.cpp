@@ -13,7 +13,7 @@ namespace relume {
 
 namespace {
 
-// Root mean square of a term's view maps, over all layers.
+// Returns the root mean square of a term's view maps over all layers.
 float shownOf(const FactoredBrdf& brdf, int term) {
     double sum = 0;
     for (int layer = 0; layer < brdf.layers; layer++)
@@ -45,7 +45,7 @@ CpuTransport weightedTransport(const AssetPart& part) {
 ProbeLights::ProbeLights() : mValues(size_t(kCubeFaces * kFaceSize * kFaceSize) * kProbeLights) {
     constexpr size_t kFaceTexels = size_t(kFaceSize) * kFaceSize;
     const std::vector<float> spectrum = lightSpectrum(kFaceSize);
-    std::mt19937 random; // the same everywhere
+    std::mt19937 random; // default seed: the same on every machine
     std::vector<vec3> face(kFaceTexels);
     for (size_t light = 0; light < kProbeLights; light++)
         for (size_t f = 0; f < kCubeFaces; f++) {
@@ -79,7 +79,8 @@ ProbeResponses TransportProbe::responses(vec3 origin, const TangentFrame& frame,
     mTransport.evaluate(frame, workspace.bits, texels);
     const auto stride = size_t(texels.stride);
     ProbeResponses responses{};
-    std::mt19937_64 random; // a sign for every term and channel of every light: they must not add up
+    // Random signs per light, term and channel, so that terms and channels do not add up.
+    std::mt19937_64 random;
     for (int group = 0; group < texels.groups; group++) {
         std::ranges::fill(workspace.sums, 0.0f);
         for (size_t block = 0; block < texels.blocks.size(); block++)

@@ -5,7 +5,7 @@
 namespace relume {
 
 std::vector<vec3> irradianceWeights(const FactoredBrdf& factors) {
-    // Directions in equal steps of the squared sine, which is in proportion to cosine · solid angle.
+    // Equal steps of the squared sine sample directions in proportion to the cosine.
     constexpr int kAngles = 48, kAzimuths = 96;
     const int terms = factors.terms;
     std::vector<vec3> directions;
@@ -25,7 +25,7 @@ std::vector<vec3> irradianceWeights(const FactoredBrdf& factors) {
             for (int term = 0; term < terms; term++)
                 maps(i, term) = double(lookupMap(factors.lightMap(term), place)[channel]);
         }
-        // Terms may repeat each other, and a channel may be black.
+        // Regularize, since terms may be linearly dependent and a channel may be black.
         Eigen::MatrixXd normal = maps.transpose() * maps;
         normal.diagonal().array() += 1e-9 * std::max(normal.trace(), 1e-30);
         const Eigen::VectorXd weights = normal.ldlt().solve(maps.transpose() * Eigen::VectorXd::Ones(count));

@@ -6,9 +6,9 @@ namespace relume {
 
 namespace {
 
-constexpr float kLeastShare = 0.25f;                      // of r E, that an estimate has at least
-constexpr float kLeastView = 1e-4f;                       // of every view map, in ratios
-constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // of a channel's ratio, of that of luminance
+constexpr float kLeastShare = 0.25f;                      // least estimate, relative to r E
+constexpr float kLeastView = 1e-4f;                       // added to every view map in ratios
+constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // bounds of a channel's ratio over luminance's
 
 } // namespace
 

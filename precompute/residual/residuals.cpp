@@ -14,15 +14,16 @@ namespace relume {
 
 namespace {
 
-constexpr double kExactTerms = 1e-5; // of the squared sum, that terms may miss and be exact
+constexpr double kExactTerms = 1e-5; // squared error, relative to f², below which terms count as exact
 
-// A layer of a set's view maps.
+// A layer of a set's view maps: its exact BRDF.
 struct Layer {
     Reflectance exact;
     bool isIsotropic;
 };
 
-// They are f of a material, or f without and then with what a base color texture multiplies.
+// Returns the layers of a set. A material has f as its layer, or f without the part that a base color texture
+// multiplies, and then that part.
 std::vector<Layer> layersOf(const MaterialSet& set, MaterialBrdfs& brdfs) {
     std::vector<Layer> layers(static_cast<size_t>(set.brdf.layers));
     for (const AssetMaterial& material : set.materials) {
@@ -46,7 +47,7 @@ std::vector<Layer> layersOf(const MaterialSet& set, MaterialBrdfs& brdfs) {
     return layers;
 }
 
-// Whether the terms of a layer are its BRDF: where a few hundred pairs of directions are tried.
+// Returns whether the terms of a layer equal its BRDF, tested at a few hundred pairs of directions.
 bool isExact(const Reflectance& exact, const FactoredBrdf& factors, int layer) {
     constexpr int kDirections = 24;
     const auto direction = [](int i, float turn) {
@@ -81,7 +82,7 @@ std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, bool isOfAll,
     return residual;
 }
 
-// Whether two sets are of the same materials and factors.
+// Returns whether two sets have the same materials and factors.
 bool isSame(const MaterialSet& a, const MaterialSet& b) {
     return std::ranges::equal(a.materials, b.materials, {}, &AssetMaterial::description,
                               &AssetMaterial::description) &&
@@ -95,7 +96,8 @@ bool isSame(const MaterialSet& a, const MaterialSet& b) {
 
 void makeResiduals(Asset& asset, bool isOfAll) {
     MaterialBrdfs brdfs;
-    std::vector<const MaterialSet*> ofTangents, ofNormals; // made, of parts whose frames follow these
+    // Sets that have a residual, of parts whose frames follow tangents or normals.
+    std::vector<const MaterialSet*> ofTangents, ofNormals;
     const auto knownOf = [&](const AssetPart& part) -> auto& {
         return part.mesh.tangents.empty() ? ofNormals : ofTangents;
     };

@@ -15,20 +15,20 @@ namespace {
 
 constexpr int kRings = kSphereRings, kAzimuths = kSphereAzimuths;
 constexpr int kHarmonics = kMostHarmonics, kFrequencies = kMostFrequencies;
-constexpr int kViewAzimuths = 2 * (kHarmonics + 1); // over half a turn, where BRDFs repeat
-constexpr int kSamplesPerSide = 2;                  // of a cell of the light
+constexpr int kViewAzimuths = 2 * (kHarmonics + 1); // over half a turn, after which BRDFs repeat
+constexpr int kSamplesPerSide = 2;                  // per side of a cell of the light
 
-// Reflected directions in the plane of incidence of a mirror direction at angle ρ from the view direction,
-// turned by the view's azimuth a: where the light at (ρ', φ' - φ) is in the tangent frame.
+// Directions in the tangent frame of a normal whose mirror direction is at angle ρ from the view direction,
+// which has azimuth a in that frame. incoming() is the direction of light at (ρ', φ' - φ).
 struct Geometry {
-    float sine, cosine; // of half of ρ, which is the view's angle from the normal
+    float sine, cosine; // of half of ρ, which is the view's angle to the normal
 
     explicit Geometry(float mirrorAngle)
         : sine(std::sin(mirrorAngle / 2)), cosine(std::cos(mirrorAngle / 2)) {}
     vec3 outgoing(float azimuth) const {
         return liftAboveHorizon({sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
     }
-    // Above the horizon where z > 0.
+    // Returns a direction above the horizon if its z > 0.
     vec3 incoming(float angle, float azimuth, float viewAzimuth) const {
         const float s = std::sin(angle), c = std::cos(angle);
         const float x = -cosine * s * std::cos(azimuth) + sine * c, y = -s * std::sin(azimuth);
@@ -40,7 +40,7 @@ struct Geometry {
 float ringAngle(float ring) { return ring * kPi / float(kRings); }
 float azimuthAngle(float azimuth) { return azimuth * 2 * kPi / float(kAzimuths); }
 
-// The mean of f cos over a cell of the light, by side² samples.
+// Returns the mean of f cos over a cell of the light, by side² samples.
 template <typename Function>
 vec3 cellMean(const Geometry& geometry, int ring, int azimuth, float viewAzimuth, int side,
               Function&& reflected) {
@@ -59,7 +59,7 @@ vec3 cellMean(const Geometry& geometry, int ring, int azimuth, float viewAzimuth
     return sum / weights;
 }
 
-// All components that the azimuths can tell apart, before the small ones are dropped.
+// All components that the sampled azimuths resolve, before small ones are dropped.
 class WholeKernel {
   public:
     WholeKernel(const Reflectance& exact, bool isIsotropic)
@@ -78,7 +78,7 @@ class WholeKernel {
     // Samples of a row: [view azimuth · rings · channels][azimuth of the light].
     using Samples = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    // `views`: azimuths of the view over half a turn; one of an isotropic BRDF.
+    // Fills a row. `views` is the number of view azimuths over half a turn; 1 for an isotropic BRDF.
     void fill(const Reflectance& exact, int views, int row) {
         const Geometry geometry(ringAngle(float(row) + 0.5f));
         Samples samples(views * kRings * 3, kAzimuths);
@@ -96,8 +96,8 @@ class WholeKernel {
         transform(samples, views, row);
     }
 
-    // Fourier coefficients Σ_δ f e^(imδ) over the light's azimuth, then e^(-2ica) over the view's: their real
-    // part, which is all of them where the BRDF has mirror symmetry.
+    // Computes Fourier coefficients Σ_δ f e^(imδ) over the light's azimuth, then e^(-2ica) over the view's.
+    // Keeps their real part, which is everything if the BRDF has mirror symmetry.
     void transform(const Samples& samples, int views, int row) {
         Eigen::MatrixXf cosines(kAzimuths, kFrequencies + 1), sines(kAzimuths, kFrequencies + 1);
         for (int m = 0; m <= kFrequencies; m++)
@@ -128,7 +128,7 @@ class WholeKernel {
     std::vector<std::vector<std::vector<vec3>>> mValues;
 };
 
-// The squared sum over rings of either side, weighted by their solid angles.
+// Returns the squared sum over both rings, weighted by their solid angles.
 double energyOf(const std::vector<vec3>& component) {
     double energy = 0;
     for (int row = 0; row < kRings; row++)
@@ -149,13 +149,14 @@ std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact, b
     std::vector<double> byHarmonic(kHarmonics + 1, 0), byFrequency(kFrequencies + 1, 0);
     for (int harmonic = 0; harmonic <= kHarmonics; harmonic++)
         for (int m = -kFrequencies; m <= kFrequencies; m++) {
-            // Harmonic -c is the conjugate of c.
+            // Harmonic -c is the conjugate of harmonic c.
             const double energy = (harmonic == 0 ? 1 : 2) * energyOf(whole.component(harmonic, m));
             all += energy;
             byHarmonic[size_t(harmonic)] += energy;
             byFrequency[size_t(std::abs(m))] += energy;
         }
-    // The least that loses no more than half of what may be lost each.
+    // Returns the smallest order that loses at most half of the allowed loss; the other dimension may lose
+    // the other half.
     const auto needed = [&](const std::vector<double>& energies) {
         double lost = 0;
         int last = int(energies.size()) - 1;
@@ -169,7 +170,7 @@ std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact, b
     const auto add = [&](int harmonic, int m, float weight) {
         for (const vec3& value : whole.component(harmonic, m)) kernel->values.push_back(weight * value);
     };
-    // Twice for what stands for its conjugate as well.
+    // Weights are doubled for components that also stand for their conjugates.
     for (int m = 0; m <= kernel->frequencies; m++) add(0, m, (m == 0 ? 1.0f : 2.0f) / float(kAzimuths));
     for (int harmonic = 1; harmonic <= kernel->harmonics; harmonic++)
         for (int m = -kernel->frequencies; m <= kernel->frequencies; m++)

@@ -11,8 +11,9 @@ namespace relume {
 
 namespace {
 
-// Root mean square of Haar coefficients by level: of the average, then of the wavelets of 1, 2, 4, … a side,
-// relative to the first. Mean over nine environments, three of them indoors, at 64 texels a side.
+// Root mean square of environments' Haar coefficients by level, relative to the average: first the average,
+// then wavelets of 1, 2, 4, … a side. Mean over nine environments, three of them indoors, at 64 texels a
+// side.
 constexpr std::array<double, 7> kAmplitudes = {1, 0.53, 0.25, 0.163, 0.114, 0.085, 0.043};
 constexpr double kPower = 0.7;
 

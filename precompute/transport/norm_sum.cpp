@@ -7,7 +7,8 @@
 
 namespace relume {
 
-// Of a set whose vertices are all alike, relative to what they hold: errors stay far below what is seen.
+// Least variation that a norm assumes, relative to the total, for a set whose vertices are all alike; errors
+// then stay far below visibility.
 static constexpr double kLeastVariation = 0.1;
 
 NormSum::NormSum(uint32_t terms, std::span<const float> spectrum)

@@ -13,11 +13,11 @@ std::vector<uint16_t> indicesOfLargest(const std::vector<vec3>& coefficients, in
     constexpr uint64_t kLastIndex = 0xffff;
     RELUME_CHECK(count >= 0);
     RELUME_CHECK_LE(coefficients.size(), kLastIndex + 1);
-    // Positive floats are ordered as their bits are; below these, a lower index makes a larger number.
+    // Positive floats order like their bits; for equal ones the lower index ranks higher.
     std::vector<uint64_t> ranks;
     for (size_t i = 0; i < coefficients.size(); i++) {
         const vec3& c = coefficients[i];
-        const float energy = c.x * c.x + c.y * c.y + c.z * c.z; // in the kernel's order
+        const float energy = c.x * c.x + c.y * c.y + c.z * c.z; // in the kernel's order of operations
         if (energy > 0) ranks.push_back(uint64_t(std::bit_cast<uint32_t>(energy)) << 16 | (kLastIndex - i));
     }
     if (ranks.size() > size_t(count)) {

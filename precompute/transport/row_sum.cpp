@@ -11,7 +11,7 @@ namespace relume {
 RowSum::RowSum(size_t coefficients) : mSums(coefficients, vec3(0)), mTouched((coefficients + 63) / 64) {}
 
 PackedRow RowSum::pack(int kept, Energies* energies) {
-    std::vector<uint16_t> indices; // rising, so that the packers' ties are as among all coefficients
+    std::vector<uint16_t> indices; // ascending, so that ties are broken as among all coefficients
     std::vector<vec3> values;
     for (size_t word = 0; word < mTouched.size(); word++)
         for (; mTouched[word] != 0; mTouched[word] &= mTouched[word] - 1) {

@@ -8,7 +8,7 @@ namespace relume {
 
 namespace {
 
-// The row of a vertex's term, times `factor`, added to `sum`.
+// Adds the row of a vertex's term, times `factor`, to `sum`.
 void addRow(const SparseTransport& rows, uint32_t vertex, uint32_t term, vec3 factor,
             std::vector<vec3>& sum) {
     const size_t row = size_t(vertex) * rows.terms + term;
@@ -17,7 +17,7 @@ void addRow(const SparseTransport& rows, uint32_t vertex, uint32_t term, vec3 fa
             factor * rows.scales[row] * kCoefficientUnit * vec3(unpackCoefficient(rows.values[entry]));
 }
 
-// The outgoing radiance of a hit against `direction`, in coefficients, times `factor`.
+// Adds the coefficients of the radiance that leaves a hit against `direction`, times `factor`.
 void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const std::vector<vec3>> gains,
                  std::span<const SparseTransport> from, const RayHit& hit, vec3 direction, vec3 factor,
                  std::vector<vec3>& sum) {
@@ -33,7 +33,7 @@ void addOutgoing(const Asset& asset, const Appearance& bound, std::span<const st
         if (!mesh.uvs.empty()) uv += hit.weights[i] * mesh.uvs[corners[i]];
         if (!mesh.colors.empty()) color += hit.weights[i] * mesh.colors[corners[i]];
     }
-    if (glm::dot(normal, normal) < 1e-12f) return; // opposite ones on a fold
+    if (glm::dot(normal, normal) < 1e-12f) return; // normals cancel on a fold
     const TangentFrame frame = tangentFrame(glm::normalize(normal), tangent);
     const vec3 outgoing = liftAboveHorizon(frame.toLocal(-direction));
     const size_t set = bound[hit.mesh].set;

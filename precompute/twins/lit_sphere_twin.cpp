@@ -93,7 +93,7 @@ std::vector<vec3> unshadowedTuples(const std::vector<CellLight>& lights, const F
 }
 
 std::vector<vec3> polarLight(const std::vector<vec3>& cube, vec3 direction) {
-    constexpr int kSide = 2; // samples of a cell on either side
+    constexpr int kSide = 2; // samples per side of a cell
     const TangentFrame frame = tangentFrame(direction);
     const auto lookup = [&](vec3 d) {
         const int face = cubeTexel(d, 1).face;

@@ -7,7 +7,7 @@ namespace relume {
 
 namespace {
 
-// The light as a value per coefficient.
+// Returns the light as one value per coefficient.
 std::vector<ivec3> expand(const LightVector& light) {
     std::vector<ivec3> dense(size_t(kCubeFaces) * size_t(light.faceSize) * size_t(light.faceSize), ivec3(0));
     for (size_t i = 0; i < light.indices.size(); i++)
@@ -35,7 +35,7 @@ std::vector<vec3> tuplesOf(const BasisTransport& transport, const LightVector& l
                 sum += int(cluster.basis[column * cluster.components + i]) * dense[cluster.indices[column]];
             projections.push_back(vec3(sum) * light.scale);
         }
-        size_t scale = 0, weight = 0; // the next
+        size_t scale = 0, weight = 0; // where the next kind's begin
         for (size_t kind = 0; kind < transport.kinds.size(); kind++) {
             const auto& [term, color] = transport.kinds[kind];
             for (size_t v = 0; v < transport.verticesOf(number); v++) {

@@ -12,7 +12,7 @@
 namespace relume {
 
 std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 normal, int size) {
-    // Ray by ray in tiles of 16 x 16: neighbors trace faster together.
+    // Trace in tiles of 16 × 16: neighboring rays trace faster together.
     const int tile = std::min(size, 16);
     RELUME_CHECK(size > 0 && size % tile == 0);
     std::vector<uint8_t> visibility(size_t(kCubeFaces) * size_t(size) * size_t(size), 0);
@@ -38,7 +38,7 @@ std::vector<uint8_t> visibilityCube(const RayTracer& tracer, vec3 origin, vec3 n
 
 namespace {
 
-// The share of ones in a square of `side` texels whose first is (x, y).
+// Returns the share of ones in a square of `side` texels that starts at (x, y).
 float visibleFraction(const std::vector<uint8_t>& visibility, int size, int face, int x, int y, int side) {
     int visible = 0;
     for (int row = y; row < y + side; row++)
@@ -52,13 +52,13 @@ float visibleFraction(const std::vector<uint8_t>& visibility, int size, int face
 std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int visibilitySize, int faceSize,
                                   int samples, const FactoredBrdf& brdf, int term,
                                   const TangentFrame& frame) {
-    const int cells = int(std::lround(std::sqrt(double(samples)))); // a side of a lighting texel
+    const int cells = int(std::lround(std::sqrt(double(samples)))); // cells per side of a lighting texel
     RELUME_CHECK_EQ(cells * cells, samples);
-    const int cellFaceSize = faceSize * cells; // cells a side of a face
+    const int cellFaceSize = faceSize * cells; // cells per side of a face
     RELUME_CHECK(cellFaceSize > 0 && visibilitySize % cellFaceSize == 0);
     RELUME_CHECK_EQ(visibility.size(), size_t(kCubeFaces) * size_t(visibilitySize) * size_t(visibilitySize));
     RELUME_CHECK(term >= 0 && term < brdf.terms);
-    const int cellSide = visibilitySize / cellFaceSize; // visibility texels a side of a cell
+    const int cellSide = visibilitySize / cellFaceSize; // visibility texels per side of a cell
     const vec3* lightMap = &brdf.lightMaps[size_t(term) * brdf.mapTexels()];
 
     std::vector<vec3> transport(size_t(kCubeFaces) * size_t(faceSize) * size_t(faceSize), vec3(0));
@@ -79,7 +79,7 @@ std::vector<vec3> transportVector(const std::vector<uint8_t>& visibility, int vi
 std::vector<uint16_t> selectLargest(const std::vector<vec3>& coefficients, int count) {
     RELUME_CHECK(count >= 0);
     RELUME_CHECK_LE(coefficients.size(), size_t(std::numeric_limits<uint16_t>::max()) + 1);
-    // Evaluated in float from left to right, as the kernel does: both must break ties alike.
+    // Evaluate in float from left to right, as the kernel does, so that both break ties alike.
     const auto key = [&](uint16_t index) {
         const vec3& c = coefficients[index];
         return c.x * c.x + c.y * c.y + c.z * c.z;

@@ -25,7 +25,7 @@ namespace relume {
 
 namespace {
 
-// Σ|a - b|² and Σ|b|² of a relative error.
+// Accumulates Σ|a - b|² and Σ|b|² for a relative error.
 struct ErrorSum {
     double difference = 0, reference = 0;
     void add(vec3 value, vec3 expected) {
@@ -41,7 +41,7 @@ struct Sums {
     double brdf = 0;
 };
 
-// What the device makes of some points of a part: bits and all coefficients, back on the host.
+// Runs the device's stages for some points of a part; reads back visibility bits and all coefficients.
 class DeviceStages {
   public:
     DeviceStages(const vk::Device& device, const Asset& asset, const AssetPart& part, const MaterialSet& set,
@@ -64,7 +64,7 @@ class DeviceStages {
         const auto visibility = makeVisibility(device, method, asset.occluder, size, batch,
                                                visibilityNearDistance(asset.visibilityOffset));
         TransportTuning tuning = TransportTuning::of(device);
-        tuning.coefficientBytes = ~0ull; // all points together, to see all of them
+        tuning.coefficientBytes = ~0ull; // all points at once, to read back all coefficients
         const TransportPass transport(device, set.brdf, options, batch, tuning);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
@@ -78,7 +78,7 @@ class DeviceStages {
                 points.map<shared::BakePoint>()[i] =
                     bakePoint(part.mesh, vertices[first + i], asset.visibilityOffset);
             commands.begin();
-            commands.fill(transport.coefficients(), 0); // what is zero is not written
+            commands.fill(transport.coefficients(), 0); // zeros are not written
             commands.barrier(vk::Stage::Transfer, vk::Stage::Compute);
             visibility->record(commands, points, count, bits);
             transport.record(commands, points, count, bits);
@@ -114,10 +114,10 @@ class DeviceStages {
     uint64_t mFaceCoefficients;
     uint32_t mTerms;
     std::vector<std::vector<uint8_t>> mVisibility;
-    std::vector<std::vector<vec3>> mCoefficients; // row by row
+    std::vector<std::vector<vec3>> mCoefficients; // by row
 };
 
-// Light by way of other surfaces, found anew, and what the last bounce was gathered from.
+// Bounced transport, computed anew, and the rows that its last bounce was gathered from.
 class Bounces {
   public:
     Bounces(const vk::Device& device, const Asset& asset)
@@ -131,9 +131,9 @@ class Bounces {
         mBounced->addTo(coefficients, part, set, row, mAsset.faceSize);
     }
 
-    // Of one bounced row: against the twin.
+    // Compares one bounced row with the twin's.
     void check(size_t part, size_t set, uint32_t vertex, int term, ErrorSum& sum) const {
-        constexpr int kDirections = 64; // a side of a face of their cube
+        constexpr int kDirections = 64; // per side of a face of their cube
         const std::vector<vec3> expected =
             bouncedVector(mAsset, mBound, mGains, mTracer, mFrom, part, vertex, set, term, kDirections);
         const SparseTransport& rows = mBounced->rows(part, set);
@@ -195,7 +195,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
     }
 }
 
-// Vertices of each part that were drawn, rising.
+// Draws vertices at random; returns those of each part, ascending.
 std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samples) {
     uint64_t vertices = 0;
     for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
@@ -212,7 +212,7 @@ std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samp
     return drawn;
 }
 
-// Vertices whose tuples differ from the CPU's.
+// Returns the number of vertices whose tuples differ from the CPU's.
 uint64_t countDifferences(const Transport& transport, const LightVector& light,
                           const std::vector<vec3>& found) {
     const std::vector<vec3> expected = relight(transport, light);
@@ -225,7 +225,7 @@ uint64_t countDifferences(const Transport& transport, const LightVector& light,
     return different;
 }
 
-// Mean over the materials of a set.
+// Returns the mean error over the materials of a set.
 double brdfError(const MaterialSet& set) {
     double sum = 0;
     for (const AssetMaterial& material : set.materials)

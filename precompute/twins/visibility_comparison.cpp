@@ -31,7 +31,7 @@ std::vector<shared::BakePoint> spreadPoints(const Asset& asset, uint64_t wanted)
 using Bits = std::vector<uint32_t>;
 bool isSet(const Bits& bits, int texel) { return bits[size_t(texel) / 32] >> texel % 32 & 1; }
 
-// One way to find visibility, for up to kBatch points at a time.
+// Finds visibility by one method, for up to kBatch points at a time.
 class Finder {
   public:
     Finder(const vk::Device& device, const Asset& asset, VisibilityMethod method)
@@ -72,7 +72,7 @@ bool hasSilhouette(const Bits& bits, int face, int x, int y, int size) {
     return false;
 }
 
-// A single texel is hard to find: a square ring about it, within the image.
+// Draws a square ring around a texel, which alone is hard to find.
 void drawRing(Image& image, ivec2 at, vec4 color) {
     constexpr int kRadius = 5;
     for (int dy = -kRadius; dy <= kRadius; dy++)

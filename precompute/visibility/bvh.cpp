@@ -16,7 +16,7 @@ namespace {
 
 constexpr unsigned kLeafTriangles = 8;
 
-// What Embree's builder makes: a node has children, a leaf has triangles.
+// A node as Embree's builder makes it: an inner node has children, a leaf has triangles.
 struct TreeNode {
     TreeNode* children[shared::kBvhWidth];
     RTCBounds bounds[shared::kBvhWidth];
@@ -48,7 +48,7 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     TreeNode* leaf = newNode(allocator);
     leaf->triangleCount = unsigned(count);
     for (size_t i = 0; i < count; i++) leaf->triangles[i] = primitives[i].primID;
-    // Embree's threads may hand primitives over in any order.
+    // Embree's threads may deliver primitives in any order.
     std::sort(leaf->triangles, leaf->triangles + count);
     return leaf;
 }
@@ -56,7 +56,8 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
 vec3 lowOf(const RTCBounds& b) { return {b.lower_x, b.lower_y, b.lower_z}; }
 vec3 highOf(const RTCBounds& b) { return {b.upper_x, b.upper_y, b.upper_z}; }
 
-// Gives every child the free slot whose octant points most towards it; those that care most choose first.
+// Assigns every child a free slot whose octant points most towards it; children with the largest dot product
+// choose first.
 std::array<int, shared::kBvhWidth> assignSlots(const TreeNode& node) {
     Bounds all;
     for (unsigned i = 0; i < node.childCount; i++) {
@@ -92,11 +93,11 @@ class Flattener {
     Flattener(const Mesh& mesh, Bvh& bvh) : mMesh(mesh), mBvh(bvh) {
         const Bounds bounds = boundsOf(mesh);
         const vec3 reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-        // Boxes grow so that rounding in the shader never culls what it should not.
+        // Enlarge boxes so that rounding in the shader never culls a hit.
         mMargin = 1e-6f * std::max({reach.x, reach.y, reach.z});
     }
 
-    // Appends the node and what is below it; returns its number.
+    // Appends a node and its descendants; returns the node's index.
     uint32_t addNode(const TreeNode& node, uint32_t depth) {
         mBvh.depth = std::max(mBvh.depth, depth);
         const auto number = uint32_t(mBvh.children.size() / shared::kBvhWidth);

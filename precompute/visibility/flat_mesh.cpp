@@ -13,14 +13,14 @@ using glm::dvec3;
 
 constexpr double kTolerance = 1e-5;
 
-// The surface seen along the normal of its plane.
+// A flat surface, projected along the normal of its plane.
 struct FlatMesh {
-    std::vector<dvec2> points; // one per vertex
+    std::vector<dvec2> points; // per vertex
     double area = 0;           // of all triangles
 };
 
 std::optional<FlatMesh> flatten(const Mesh& mesh) {
-    // The mean of all triangles' normals, by area: rounding tilts a single small one too much.
+    // Area-weighted mean normal, since rounding tilts that of a small triangle too much.
     dvec3 sum(0);
     for (const uvec3& t : mesh.triangles) {
         const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
@@ -45,7 +45,7 @@ std::optional<FlatMesh> flatten(const Mesh& mesh) {
     for (const uvec3& t : mesh.triangles) {
         const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
         const double area = 0.5 * glm::dot(glm::cross(b - a, c - a), normal);
-        if (area < 0) return {}; // seen from both sides: not a simple polygon
+        if (area < 0) return {}; // faces both ways: not a simple polygon
         flat.area += area;
     }
     return flat;
@@ -55,7 +55,7 @@ double area(dvec2 a, dvec2 b, dvec2 c) {
     return 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
-// Indices of the points' convex hull, counter-clockwise (Andrew's monotone chain, 1979).
+// Returns the indices of the convex hull, counter-clockwise (Andrew's monotone chain, 1979).
 std::vector<uint32_t> convexHull(const std::vector<dvec2>& points) {
     std::vector<uint32_t> order(points.size()), hull;
     std::iota(order.begin(), order.end(), 0u);
@@ -70,7 +70,7 @@ std::vector<uint32_t> convexHull(const std::vector<dvec2>& points) {
                 hull.pop_back();
             hull.push_back(i);
         }
-        hull.pop_back(); // it starts the other side
+        hull.pop_back(); // it also starts the other side
         std::reverse(order.begin(), order.end());
     }
     return hull;
@@ -83,7 +83,7 @@ double hullArea(const std::vector<dvec2>& points, const std::vector<uint32_t>& h
     return sum;
 }
 
-// Drops corners that rounding alone put there: those that change the area least, as long as that is nothing.
+// Drops corners that are due to rounding: those whose removal hardly changes the area.
 void dropStraightCorners(const std::vector<dvec2>& points, double total, std::vector<uint32_t>& hull) {
     const double limit = 0.01 * kTolerance * total;
     for (size_t i = 0; i < hull.size() && hull.size() > 3;) {

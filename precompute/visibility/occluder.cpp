@@ -10,10 +10,10 @@
 namespace relume {
 namespace {
 
-constexpr size_t kFewestTriangles = 4; // of a part that is simplified: a tetrahedron
+constexpr size_t kFewestTriangles = 4; // of a simplified part: a tetrahedron
 
-// The part's surface without what only shading needs: vertices are told apart by position alone, so that
-// creases of the normals do not tear when simplified.
+// Returns the part's surface without attributes that only shading needs. Vertices are welded by position
+// alone, so that creases of the normals do not tear when simplified.
 Mesh weldedSurface(const Mesh& mesh) {
     std::vector<unsigned> remap(mesh.vertexCount());
     const size_t count = meshopt_generateVertexRemap<uint32_t>(
@@ -35,11 +35,11 @@ float simplify(Mesh& mesh, size_t target) {
     const auto* source = &mesh.triangles[0].x;
     const float* positions = &mesh.positions[0].x;
     float error = 0;
-    // An error as large as the mesh itself: the budget alone decides.
+    // Allow an error as large as the mesh itself, so that the target alone decides.
     indices.resize(meshopt_simplify(indices.data(), source, indices.size(), positions, mesh.vertexCount(),
                                     sizeof(vec3), 3 * target, 1.0f, 0, &error));
     error *= meshopt_simplifyScale(positions, mesh.vertexCount(), sizeof(vec3));
-    if (indices.empty()) return 0; // smaller than its own error: better as it was
+    if (indices.empty()) return 0; // smaller than its own error; stays as it was
 
     Mesh fewer;
     fewer.positions.resize(mesh.vertexCount());

@@ -20,15 +20,16 @@ namespace {
 
 constexpr size_t kClusterVertices = 255;
 
-// Horizon margin over the occluder's radius: rounding must not clip what rises above the horizon.
+// Margin of horizon clipping, relative to the occluder's radius, so that rounding clips nothing above the
+// horizon.
 constexpr float kHorizonMargin = 0.01f;
 
-// Added to the cosine of a normal cone: rounding a corner may turn a triangle that is seen edge-on.
+// Added to the cosine of a normal cone, since rounding a corner may flip a triangle that is seen edge-on.
 constexpr float kConeMargin = 0.01f;
 
-// Returns the most triangles of a cluster: few enough that most of them show in a face where its box does.
-// With an occluder of 2,000 triangles clusters of 16 draw a quarter of what those of 256 do. Many small
-// clusters of large meshes cost more in draws than they leave out.
+// Returns the most triangles per cluster: so few that most of them are visible in a face where the cluster's
+// box is. With an occluder of 2,000 triangles, clusters of 16 draw a quarter of what those of 256 do. In
+// large meshes, many small clusters cost more in draws than they cull.
 size_t clusterTriangles(size_t triangles) {
     constexpr size_t kClusters = 128;
     return std::clamp<size_t>(triangles / kClusters / 4 * 4, 16, 128);
@@ -41,7 +42,7 @@ void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backF
     if (corners.empty()) return;
     const float* positions = &mesh.positions[0].x;
     const size_t most = clusterTriangles(mesh.triangleCount());
-    const float coneWeight = backFacesOnly ? 0.5f : 0.0f; // of similar normals, against compactness
+    const float coneWeight = backFacesOnly ? 0.5f : 0.0f; // weight of similar normals against compactness
     std::vector<meshopt_Meshlet> meshlets(meshopt_buildMeshletsBound(corners.size(), kClusterVertices, most));
     std::vector<unsigned> vertices(meshlets.size() * kClusterVertices);
     std::vector<unsigned char> triangles(meshlets.size() * most * 3);
@@ -59,8 +60,8 @@ void addClusters(const Mesh& mesh, std::span<const uint32_t> corners, bool backF
         shared::TriangleCluster& cluster = clusters.emplace_back();
         cluster = {box.center(), 0.5f * (box.high - box.low), vec3(0), vec3(0), 2, firstIndex, count};
         if (!backFacesOnly) continue;
-        // meshoptimizer's cone is where back faces only are seen: those of the reversed triangles are front
-        // faces.
+        // meshoptimizer's cone contains the viewpoints that see only back faces. Reversed triangles give
+        // those that see only front faces.
         std::vector<uint32_t> turned(indices.rbegin(), indices.rbegin() + count);
         const meshopt_Bounds cone =
             meshopt_computeClusterBounds(turned.data(), count, positions, mesh.vertexCount(), sizeof(vec3));
@@ -104,7 +105,7 @@ RasterVisibility::RasterVisibility(const vk::Device& device, const Mesh& occlude
     const std::span<const uint32_t> vertex =
         mIsLayered ? std::span<const uint32_t>(visibility_vert_spirv) : visibility_face_vert_spirv;
     mDraw = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw"};
-    options.cull = vk::Cull::Clockwise; // front faces, since the images of a cube's faces are mirrored
+    options.cull = vk::Cull::Clockwise; // culls front faces, since the images of a cube's faces are mirrored
     mDrawBackFaces = {device, vertex, visibility_frag_spirv, {}, options, "visibility draw back faces"};
 }
 
@@ -126,7 +127,7 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
     addClusters(occluder, closed, true, clusters, indices);
     mClosedCount = uint32_t(clusters.size());
     addClusters(occluder, open, false, clusters, indices);
-    // A cluster without triangles keeps the passes the same for an empty occluder.
+    // An empty cluster keeps the passes the same for an empty occluder.
     if (clusters.empty()) clusters.emplace_back();
     mClusterCount = uint32_t(clusters.size());
     const uint64_t ofBatch = mIsLayered ? uint64_t(mClusterCount) * 6 * mCapacity * sizeof(uint32_t)
@@ -149,8 +150,8 @@ void RasterVisibility::createGeometry(const vk::Device& device, const Mesh& occl
               "visibility draws"};
 }
 
-// Draws closed surfaces by their back faces: a ray that meets such a surface leaves it through a back face,
-// wherever the ray begins.
+// Draws closed surfaces by their back faces alone: a ray that meets such a surface leaves it through a back
+// face, wherever the ray starts.
 void RasterVisibility::drawClusters(vk::Commands& commands, std::initializer_list<vk::Binding> bindings,
                                     const shared::VisibilityPush& push, uint64_t firstDraw) const {
     if (mClosedCount > 0) {

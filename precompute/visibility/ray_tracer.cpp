@@ -13,7 +13,7 @@ namespace relume {
 
 namespace {
 
-// Embree reports failures once, through the device: RTCError of the first since the last call.
+// Throws if Embree has failed. Embree reports the first error since the last call, once, through the device.
 void throwOnError(RTCDevice device, const char* what) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
@@ -42,7 +42,7 @@ void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned id) {
     rtcAttachGeometryByID(scene, geometry.get(), id);
 }
 
-// Written in place: returned by value, rays take half as long again to trace.
+// Fills a ray in place: rays returned by value take 1.5 times as long to trace.
 void setRay(RTCRay& ray, vec3 origin, vec3 direction) {
     ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
     ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
@@ -79,7 +79,7 @@ RayTracer::RayTracer(std::span<const Mesh* const> meshes) : mImpl(std::make_uniq
     mImpl->device = rtcNewDevice(nullptr);
     if (!mImpl->device) throwOnError(nullptr, "starting");
     mImpl->scene = rtcNewScene(mImpl->device);
-    // Robust: no ray slips between two triangles that share an edge.
+    // Robust mode: no ray slips between two triangles that share an edge.
     rtcSetSceneFlags(mImpl->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(mImpl->scene, RTC_BUILD_QUALITY_HIGH);
     for (size_t i = 0; i < meshes.size(); i++)
@@ -117,12 +117,12 @@ void RayTracer::occluded(vec3 origin, std::span<const vec3> directions, std::spa
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    std::array<RTCRay, 256> rays; // A stream that stays in the first-level cache
+    std::array<RTCRay, 256> rays; // a batch that stays in the first-level cache
     for (size_t start = 0; start < directions.size(); start += rays.size()) {
         const size_t count = std::min(rays.size(), directions.size() - start);
         for (size_t i = 0; i < count; i++) setRay(rays[i], origin, directions[start + i]);
         rtcOccluded1M(mImpl->scene, &context, rays.data(), unsigned(count), sizeof(RTCRay));
-        // Embree sets tfar to minus infinity where something is hit.
+        // Embree sets tfar to minus infinity on a hit.
         for (size_t i = 0; i < count; i++) blocked[start + i] = rays[i].tfar < 0;
     }
 }
@@ -133,7 +133,8 @@ void RayTracer::occluded(vec3 origin, const float* x, const float* y, const floa
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    // What no ray changes; an occlusion query writes tfar alone, whatever Embree's signature says.
+    // Fields that no ray changes. An occlusion query writes only tfar, although Embree's signature takes all
+    // as writable.
     static const std::array<float, kStream> zeros{};
     static const std::array<unsigned, kStream> noFlags{};
     static const std::array<unsigned, kStream> allMasks = [] {

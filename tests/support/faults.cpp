@@ -1,11 +1,11 @@
-// Makes the operating system fail at a chosen call: a library for LD_PRELOAD, set by the environment.
-// RELUME_FAULT_PATH   what the paths of files concerned contain
-// RELUME_FAULT        full (ENOSPC), short (half of it is written, and the next write is full), kill (SIGKILL
-//                     before the call)
-// RELUME_FAULT_CALL   which call fails, from 1: of write, pwrite, fsync, fdatasync and rename to such files.
-//                     Every later write fails too where it is `full`, as on a full disk
-// RELUME_FAULT_SUBMIT which vkQueueSubmit2 fails with VK_ERROR_OUT_OF_DEVICE_MEMORY, from 1
-// RELUME_FAULT_EXTENSION       a device extension that is not there
+// Makes the operating system fail at a chosen call: a library for LD_PRELOAD, set by environment variables.
+// RELUME_FAULT_PATH   text that paths of affected files contain
+// RELUME_FAULT        full (ENOSPC), short (half is written, and the next write is full), kill (SIGKILL
+//                     instead of the call)
+// RELUME_FAULT_CALL   number of the call that fails, from 1, among write, pwrite, fsync, fdatasync and rename
+//                     on such files. All later calls fail, too, as on a full disk
+// RELUME_FAULT_SUBMIT number of the vkQueueSubmit2 that fails with VK_ERROR_OUT_OF_DEVICE_MEMORY, from 1
+// RELUME_FAULT_EXTENSION       a device extension to hide
 // RELUME_FAULT_TIMESTAMP_BITS  valid bits of every queue's timestamps
 #include <atomic>
 #include <cerrno>
@@ -47,7 +47,7 @@ bool concerns(int file) {
 
 enum class Fault { None, Full, Short };
 
-// Counts a call. Does not come back from the one that is to kill.
+// Counts a call and returns how it fails. Does not return from the call that is to be killed.
 Fault faultOf(bool isWrite) {
     const char* kind = std::getenv("RELUME_FAULT");
     if (!kind) return Fault::None;

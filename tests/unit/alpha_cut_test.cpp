@@ -1,4 +1,4 @@
-// Holes that alpha cuts into meshes.
+// Tests removal of the holes that alpha makes in meshes.
 #include "engine/import/alpha_cut.h"
 
 #include "tests/support/log_capture.h"

@@ -1,4 +1,4 @@
-// Materials bound to parts: names, blends, paint.
+// Tests binding of materials to parts: names, blends, paint.
 #include "engine/base/error.h"
 #include "engine/render/appearance.h"
 #include "tests/support/asset_sample.h"

@@ -1,4 +1,4 @@
-// The .relume file: what goes in comes out, and nothing else is believed.
+// Tests the .relume file: it round-trips, and anything malformed is refused.
 #include "engine/import/asset_info.h"
 #include "engine/import/old_asset.h"
 #include "engine/transport/asset_arrays.h"

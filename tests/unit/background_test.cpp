@@ -1,4 +1,4 @@
-// What is seen behind the object is the light that it is lit by.
+// Tests that the background shows the light that illuminates the object.
 #include "engine/light/background.h"
 #include "engine/math/cubemap.h"
 

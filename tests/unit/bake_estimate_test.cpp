@@ -1,4 +1,4 @@
-// Time left of a bake whose parts cost differently.
+// Tests the remaining time of a bake whose parts differ in cost.
 #include "precompute/bake/bake_estimate.h"
 
 #include <doctest/doctest.h>

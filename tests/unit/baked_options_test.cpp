@@ -1,4 +1,4 @@
-// What an asset says that it was baked with, and assets that do not say it.
+// Tests reading a bake's options from an asset, and assets without valid ones.
 #include "engine/base/error.h"
 #include "precompute/bake/bake_preset.h"
 #include "precompute/bake/baked_options.h"

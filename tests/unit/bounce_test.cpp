@@ -1,4 +1,4 @@
-// Light by way of other surfaces: one bounce against a closed form and against its twin.
+// Tests one bounce of light against a closed form and against its twin.
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/haar.h"
 #include "precompute/bounce/bounce_gather.h"

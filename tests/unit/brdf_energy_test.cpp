@@ -1,4 +1,4 @@
-// The energy of every BRDF preset and model, down to grazing angles.
+// Tests the energy of every BRDF preset and model, down to grazing angles.
 #include "precompute/brdf/brdf.h"
 
 #include <algorithm>

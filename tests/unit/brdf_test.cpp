@@ -1,4 +1,4 @@
-// Every BRDF model against closed forms, its energy, its reciprocity; materials from hostile text.
+// Tests every BRDF model against closed forms, its energy and reciprocity; and materials from hostile text.
 #include "engine/base/error.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/model_list.h"

@@ -1,4 +1,4 @@
-// The hierarchy that rays walk: nothing is lost, boxes hold what is below them.
+// Tests the bounding volume hierarchy: it holds every triangle, and boxes contain their descendants.
 #include "engine/import/builtin_mesh.h"
 #include "precompute/visibility/bvh.h"
 

@@ -1,4 +1,4 @@
-// Files that a command would destroy by writing are found, by whatever name.
+// Tests that outputs which would overwrite an input are found, whatever their name.
 #include "apps/relume/command_files.h"
 
 #include "engine/base/error.h"

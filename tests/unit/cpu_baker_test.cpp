@@ -1,4 +1,4 @@
-// The CPU baker against the naive twins, stage by stage.
+// Tests the CPU baker against the naive twins, stage by stage.
 #include "apps/bench/cpu_baker.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"

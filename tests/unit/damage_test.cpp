@@ -1,5 +1,5 @@
-// Bakes and checkpoints with any byte damaged, and cut at any length: refused, or harmless, and never another
-// picture.
+// Tests bakes and checkpoints with any byte changed or cut at any length: they are refused, or harmless, and
+// never give another image.
 #include "engine/transport/kept_visibility.h"
 #include "tests/support/checkpoint_sample.h"
 #include "tests/support/kept_sample.h"

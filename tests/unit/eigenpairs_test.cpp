@@ -1,4 +1,4 @@
-// The block eigensolver against constructed spectra, Eigen and Spectra.
+// Tests the block eigensolver against constructed spectra, Eigen and Spectra.
 #include "precompute/brdf/eigenpairs.h"
 #include "precompute/brdf/factorization.h"
 #include "precompute/brdf/tabulation.h"

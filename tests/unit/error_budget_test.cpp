@@ -1,4 +1,4 @@
-// How errors add up, and what they are errors of.
+// Tests how errors add up and are attributed to sources, and low-order light.
 #include "precompute/error/error_budget.h"
 #include "precompute/error/low_order_light.h"
 

@@ -1,4 +1,4 @@
-// How errors are measured: against brute force, and against BRDFs that a factorization holds exactly.
+// Tests measurement of errors against brute force, and with BRDFs that a factorization represents exactly.
 #include "engine/light/light.h"
 #include "precompute/brdf/factorization.h"
 #include "precompute/brdf/factorization_error.h"

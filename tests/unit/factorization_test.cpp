@@ -1,4 +1,5 @@
-// From tables to light and view maps: what the terms reproduce, and what the maps hold.
+// Tests factorization from tables to light and view maps: what the terms reproduce, and what the maps
+// contain.
 #include "engine/base/error.h"
 #include "precompute/brdf/factorization.h"
 #include "precompute/brdf/factorization_error.h"

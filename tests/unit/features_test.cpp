@@ -1,4 +1,4 @@
-// The features that a host's device must have been made with.
+// Tests the check for features that a host's device must have enabled.
 #include "engine/vk/features.h"
 
 #include "engine/base/error.h"

@@ -1,4 +1,4 @@
-// Visibility that a file keeps, read block by block, and files that only say so.
+// Tests reading kept visibility block by block, and files that only claim to have it.
 #include "engine/base/error.h"
 #include "engine/transport/kept_visibility.h"
 #include "tests/support/kept_sample.h"

@@ -1,4 +1,4 @@
-// Directions drawn from a light, against its energy.
+// Tests directions sampled from a light against its energy.
 #include "precompute/reference/light_distribution.h"
 
 #include "engine/math/cubemap.h"

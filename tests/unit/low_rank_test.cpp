@@ -1,4 +1,4 @@
-// Products of few factors against Eigen's full decompositions; factors without negative entries.
+// Tests low-rank factorizations against Eigen's full decompositions, and nonnegative ones.
 #include "precompute/brdf/low_rank.h"
 #include "precompute/brdf/tabulation.h"
 

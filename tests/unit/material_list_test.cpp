@@ -1,4 +1,4 @@
-// Lists of materials: sets, names, files.
+// Tests lists of materials: sets, names, files.
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "precompute/brdf/material_factory.h"

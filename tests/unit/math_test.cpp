@@ -1,4 +1,4 @@
-// Closed forms of the CPU definitions in engine/math.
+// Tests the CPU definitions in engine/math against closed forms.
 #include "engine/math/cubemap.h"
 #include "engine/math/disk_map.h"
 #include "engine/math/haar.h"

@@ -1,4 +1,4 @@
-// Measured BRDFs: the MERL format against a reading of it written here, Cornell's against known spectra;
+// Tests measured BRDFs: the MERL format against a reader written here, Cornell's against known spectra;
 // repairs; hostile files.
 #include "engine/base/error.h"
 #include "precompute/brdf/brdf.h"

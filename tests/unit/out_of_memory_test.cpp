@@ -1,4 +1,4 @@
-// Readers whose memory runs out, at every allocation.
+// Tests readers when memory runs out, at every allocation.
 #include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/image_codecs.h"

@@ -1,4 +1,4 @@
-// Which samples of a pixel are shaded as one.
+// Tests the positions of a pixel's samples, and which of them are shaded as one.
 #include "engine/render/pixel_samples.h"
 
 #include "engine/base/error.h"

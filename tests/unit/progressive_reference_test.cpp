@@ -1,4 +1,4 @@
-// The sampled reference against the exact one, and what it says of its own noise.
+// Tests the sampled reference against the exact one, and its estimate of its own noise.
 #include "precompute/reference/progressive_reference.h"
 
 #include "engine/import/builtin_mesh.h"

@@ -1,4 +1,4 @@
-// Rays against triangles whose hits are known.
+// Tests rays against triangles whose hits are known.
 #include "precompute/visibility/ray_tracer.h"
 
 #include "engine/import/builtin_mesh.h"

@@ -1,4 +1,4 @@
-// Images whose radiance is known without tracing a ray.
+// Tests reference images whose radiance is known without tracing rays.
 #include "precompute/reference/reference_image.h"
 
 #include "engine/base/error.h"

@@ -1,4 +1,4 @@
-// Meshes that get vertices where interpolation would be seen, and stay joined.
+// Tests refinement: meshes get vertices where interpolation would be visible, and stay joined.
 #include "engine/math/haar.h"
 #include "precompute/refine/refinement.h"
 

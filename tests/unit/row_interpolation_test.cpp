@@ -1,4 +1,4 @@
-// Which vertices a preview bakes, and what it makes of them.
+// Tests which vertices a preview bakes, and how it interpolates their rows.
 #include "engine/import/builtin_mesh.h"
 #include "precompute/bake/coarse_neighbors.h"
 #include "precompute/bake/coarse_vertices.h"

@@ -1,4 +1,4 @@
-// Stages of radiance against the twins that they stand for.
+// Tests the stages of radiance against the twins that they represent, and the error grid.
 #include "precompute/error/stage_radiance.h"
 
 #include "engine/light/light.h"

@@ -1,4 +1,4 @@
-// Normals from normal maps, and metalness and roughness from glTF textures.
+// Tests normals from normal maps, and metalness and roughness from glTF textures.
 #include "engine/scene/surface_detail.h"
 
 #include "engine/import/builtin_mesh.h"

@@ -1,4 +1,4 @@
-// A BRDF as a matrix: its directions, its entries, its symmetry.
+// Tests tabulation of a BRDF as a matrix: its directions, entries and symmetry.
 #include "engine/base/error.h"
 #include "precompute/brdf/tabulation.h"
 

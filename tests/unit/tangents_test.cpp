@@ -1,4 +1,4 @@
-// Fields of tangents: what they follow, and where they cannot.
+// Tests tangent fields: what they follow, and where they are singular.
 #include "precompute/bake/tangents.h"
 
 #include "engine/import/builtin_mesh.h"

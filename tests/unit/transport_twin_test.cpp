@@ -1,4 +1,4 @@
-// Closed forms of each stage of the bake's CPU twin.
+// Tests each stage of the bake's CPU twin against closed forms.
 #include "engine/math/haar.h"
 #include "precompute/twins/relight_twin.h"
 #include "precompute/twins/transport_twin.h"

@@ -1,4 +1,4 @@
-// What is culled ahead of drawing, held against the triangles themselves.
+// Tests cluster culling against the triangles themselves.
 #include "engine/render/triangle_clusters.h"
 
 #include "engine/import/builtin_mesh.h"

@@ -1,4 +1,4 @@
-// A vertex recomputed from an asset matches the row that the same stages stored, and no other.
+// Tests that a vertex recomputed from an asset matches the row that the same stages stored, and no other.
 #include "engine/math/haar.h"
 #include "precompute/twins/vertex_check.h"
 

@@ -1,4 +1,4 @@
-// What explains a vertex adds up to its color.
+// Tests that the explanation of a vertex adds up to its radiance.
 #include "precompute/error/vertex_probe.h"
 
 #include "engine/math/cubemap.h"

@@ -1,4 +1,4 @@
-// Kept visibility: what goes in comes out, small, and nothing else is believed.
+// Tests the visibility chunk: it round-trips, is small, and anything malformed is refused.
 #include "engine/chunk/chunk_file.h"
 #include "engine/transport/visibility_chunk.h"
 

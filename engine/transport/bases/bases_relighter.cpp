@@ -14,15 +14,15 @@ using vk::Stage;
 
 namespace {
 
-constexpr uint32_t kWordsPerGroup = 16; // of a column
+constexpr uint32_t kWordsPerGroup = 16; // per column
 constexpr uint32_t kVerticesPerLane = 8;
 
 uint32_t roundUp(uint64_t value, uint32_t step) { return uint32_t((value + step - 1) / step); }
 
-// Puts a byte into a word, the lowest first.
+// Puts a byte into a word at `place`; 0 is the lowest byte.
 void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint8_t(value)) << 8 * place; }
 
-// Column indices, all below `coefficients`, two a word.
+// Packs column indices, all below `coefficients`, two per word.
 std::vector<uint32_t> inPairs(std::span<const uint16_t> indices, uint32_t coefficients) {
     std::vector<uint32_t> words((indices.size() + 1) / 2, 0);
     for (size_t i = 0; i < indices.size(); i++) {
@@ -32,7 +32,7 @@ std::vector<uint32_t> inPairs(std::span<const uint16_t> indices, uint32_t coeffi
     return words;
 }
 
-// As the push constants have it.
+// Returns the mode as push constants encode it.
 uint32_t pushed(RelightMode mode) {
     switch (mode) {
     case RelightMode::Full:
@@ -51,13 +51,13 @@ BasesRelighter::Programs::Programs(const vk::Device& device) {
     using enum vk::ComputeProgram::Subgroups;
     const vk::DeviceInfo& info = device.info();
     const bool isPortable = info.takesPortableShaders();
-    // A subgroup, or 8 to 32 invocations of portable shaders.
+    // A subgroup; 8 or 32 invocations for portable shaders.
     const uint32_t lanes = !isPortable ? info.subgroupSize : info.isSoftware ? 8 : 32;
     project = {device, relight_project_comp_spirv, {lanes}, "relight project", isPortable ? Any : Full};
     combine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
 }
 
-// Clusters on their way to the device.
+// Clusters being prepared for upload.
 class BasesRelighter::ShardData {
   public:
     std::vector<shared::BasisGroup> groups;
@@ -68,7 +68,7 @@ class BasesRelighter::ShardData {
     std::vector<float> scales;
     uint32_t components = 0; // of all clusters, each padded to whole words
 
-    // Of the largest buffer, with that cluster too.
+    // Returns the size of the largest buffer if this cluster were added.
     uint64_t bytesWith(const BasisTransport& transport, size_t cluster) const {
         const BasisCluster& more = transport.clusters[cluster];
         const uint64_t words = roundUp(more.components, 4);
@@ -135,9 +135,9 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
     mTermKinds = vk::upload<shared::BasisTermKinds>(device, termKinds, name + " kinds of terms");
     mColors = vk::upload<vec3>(device, colors, name + " colors of kinds");
 
-    // Of the texels that relight_combine reads the smallest have a word.
+    // The smallest texels that relight_combine reads take one word.
     largestShard = std::min(largestShard, sizeof(float) * device.mostTexels(sizeof(float)));
-    constexpr uint32_t kMostGroups = kMostBasisComponents / (4 * kWordsPerGroup); // of a cluster
+    constexpr uint32_t kMostGroups = kMostBasisComponents / (4 * kWordsPerGroup); // per cluster
     const size_t mostClusters =
         device.limits().maxComputeWorkGroupCount[0] / std::max(mTerms * mGroupsPerTerm, kMostGroups);
     for (size_t cluster = 0; cluster < transport.clusters.size();) {

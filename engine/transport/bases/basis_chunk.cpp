@@ -13,7 +13,7 @@ namespace {
 
 static_assert(largestBasisChunk(kMostTerms) <= kLargestChunk);
 
-// Rows of `columns` values each, column after column.
+// Transposes a matrix of bytes with `rows` rows and `columns` columns.
 std::vector<std::byte> transposed(std::span<const std::byte> values, size_t rows, size_t columns) {
     std::vector<std::byte> result(values.size());
     for (size_t row = 0; row < rows; row++)
@@ -41,7 +41,7 @@ std::vector<std::byte> encodeBasisCluster(const BasisCluster& cluster, uint32_t 
     out.putPlanes<uint16_t>(cluster.counts);
     out.putPlanes<uint32_t>(scales);
     out.putPlanes<uint16_t>(gaps);
-    // All values of a component together: they are of a size.
+    // Values of a component are stored together, since they are of similar size.
     out.put(transposed(std::as_bytes(std::span(cluster.basis)), cluster.columns(), cluster.components));
     std::span<const std::byte> weights = std::as_bytes(std::span(cluster.weights));
     for (const size_t count : cluster.counts) {
@@ -115,7 +115,7 @@ uint64_t memoryBytes(const BasisTransport&, uint32_t, uint64_t rawSize) {
 }
 
 uint64_t entriesOf(const BasisTransport&, uint32_t, uint64_t, const LoadChunk& load) {
-    const std::vector<std::byte> raw = load(); // it alone can tell
+    const std::vector<std::byte> raw = load(); // only its content tells the number of columns
     ByteReader in(raw, "the bake");
     in.take(2 * sizeof(uint32_t));
     return in.get<uint32_t>();

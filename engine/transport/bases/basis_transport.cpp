@@ -27,7 +27,7 @@ void BasisTransport::addCoefficients(size_t row, std::span<vec3> coefficients) c
     const size_t vertex = row / terms, term = row % terms;
     const size_t number = vertex / kBasisVertices, own = vertex % kBasisVertices;
     const BasisCluster& cluster = clusters[number];
-    size_t scale = 0, weight = 0; // where the kind's begin
+    size_t scale = 0, weight = 0; // where the kind's entries begin
     for (size_t kind = 0; kind < kinds.size(); kind++) {
         const size_t count = cluster.counts[kind];
         if (kinds[kind].term == term)

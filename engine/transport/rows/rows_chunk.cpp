@@ -11,8 +11,8 @@ namespace relume {
 
 namespace {
 
-// The low `bits` bits of a number as a signed number, and its zigzag form: 0, -1, 1, -2, … become 0, 1, 2, 3,
-// ….
+// signExtend() takes the low `bits` bits of a number as a signed number. Zigzag maps 0, -1, 1, -2, … to 0, 1,
+// 2, 3, ….
 int32_t signExtend(uint32_t value, int bits) { return int32_t(value << (32 - bits)) >> (32 - bits); }
 uint32_t zigzag(int32_t value) { return uint32_t(value) << 1 ^ uint32_t(value >> 31); }
 int32_t unzigzag(uint32_t value) { return int32_t(value >> 1) ^ -int32_t(value & 1); }
@@ -124,7 +124,8 @@ ChunkSizes chunkSizes(const SparseTransport& layout, uint32_t vertices, int coef
 }
 
 uint64_t memoryBytes(const SparseTransport& layout, uint32_t vertices, uint64_t rawSize) {
-    constexpr uint64_t kLengthBytes = kRunRowBytes - sizeof(float); // they are elsewhere in memory
+    // Lengths are not stored with rows in memory.
+    constexpr uint64_t kLengthBytes = kRunRowBytes - sizeof(float);
     return rawSize - kRunHeaderBytes - uint64_t(vertices) * layout.terms * kLengthBytes;
 }
 
@@ -138,7 +139,7 @@ void checkChunk(const SparseTransport& layout, const BlockPlace& place, std::spa
     rows.vertices = place.vertices;
     rows.terms = layout.terms;
     rows.rowStarts = {0};
-    // No more than its size allows.
+    // The run can have no more entries than its size allows.
     decodeRun(raw, limits.coefficients, raw.size() / kRunEntryBytes, where, rows, place.first);
     if (rows.rowStarts.size() != rows.rows() + 1)
         throw Error(fmt::format("{}: expected {} vertices, found fewer", where, rows.vertices));

@@ -40,7 +40,7 @@ void appendRow(ShardData& shard, const SparseTransport& transport, size_t row, u
     shard.starts.push_back(uint32_t(shard.words.size() / kWordsPerGroup));
 }
 
-// Rows of a shard: as many as one dispatch reaches and as fit the buffer of their starts.
+// Returns the most rows of a shard: limited by one dispatch and by the size of the starts' buffer.
 uint32_t largestRowCount(const vk::Device& device, const vk::ComputeProgram& program, uint64_t largestShard) {
     const uint64_t reached =
         uint64_t(device.limits().maxComputeWorkGroupCount[0]) * uint64_t(program.groupSize()[0]);
@@ -64,7 +64,8 @@ RowsRelighter::RowsRelighter(const vk::Device& device, const Programs& programs,
         Shard& shard = mShards.emplace_back();
         shard.firstRow = row;
         ShardData data;
-        // At least one row: the longest, all 24,576 coefficients, is far below what any device binds.
+        // Every shard takes at least one row; even the longest, of all 24,576 coefficients, is far below what
+        // any device binds.
         do appendRow(data, transport, row++, coefficients);
         while (row < rows() && data.starts.size() <= largestRows &&
                data.starts.back() + rowGroups(transport, row) <= largestGroups);

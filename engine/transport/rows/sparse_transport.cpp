@@ -9,7 +9,7 @@
 namespace relume {
 
 static bool isWithinMaxima(uint32_t packed) {
-    // Only the most negative number of a field lies beyond the negated maximum.
+    // Only a field's most negative number lies beyond the negated maximum.
     const ivec3 value = unpackCoefficient(packed);
     return value.x >= -kRedMaximum && value.y >= -kGreenMaximum && value.z >= -kBlueMaximum;
 }

@@ -138,7 +138,7 @@ BasisCut cutFor(const BasisAnalysis& analysis, double lambda) {
 
     std::vector<uint16_t> counts(size_t(kinds), 0);
     Eigen::VectorXd tail = analysis.energy,
-                    cost = tail; // per kind: error by all so far, error + lambda of counts
+                    cost = tail; // per kind: error with `count` components; least error + lambda · bytes
     Eigen::VectorXd gain = Eigen::VectorXd::Zero(columns); // reduction of the error by a column
     std::vector<double> bestGain;
     for (uint32_t count = 0; count < components;) {

@@ -15,7 +15,7 @@ namespace {
 using Column = Eigen::Ref<Eigen::VectorXf>;
 
 // Rounds values to multiples of a step, at most kBasisMaximum of them, and returns the step. Leaves the
-// rounding errors.
+// rounding errors in `values`.
 float quantize(Column values, std::span<int8_t> steps, size_t stride) {
     const float step = values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff() / float(kBasisMaximum);
     const float inverse = step > 0 ? 1 / step : 0;
