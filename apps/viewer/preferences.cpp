@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr size_t kMostBytes = 1 << 20, kMostFiles = 64;
 
-std::filesystem::path habitsFile() { return stateFolder() / "viewer.json"; }
+std::filesystem::path preferencesFile() { return stateFolder() / "viewer.json"; }
 
 // Returns a member of an object; null if it is missing.
 json memberOf(const json& object, const char* name) { return object.value(name, json()); }
@@ -49,7 +49,7 @@ json listOf(const std::vector<std::filesystem::path>& files) {
 Preferences readPreferences() {
     Preferences preferences;
     try {
-        const std::filesystem::path file = habitsFile();
+        const std::filesystem::path file = preferencesFile();
         if (!std::filesystem::exists(file)) return preferences;
         const std::vector<std::byte> bytes = readFile(file, kMostBytes);
         const json object =
@@ -71,7 +71,8 @@ void writePreferences(const Preferences& preferences) {
                    {"settings", preferences.settings}};
     if (preferences.size) object.update({{"width", preferences.size->x}, {"height", preferences.size->y}});
     try {
-        writeFileAtomically(habitsFile(), object.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+        writeFileAtomically(preferencesFile(),
+                            object.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
     } catch (const std::exception& why) {
         spdlog::warn("settings are not remembered: {}", why.what());
     }

@@ -15,7 +15,7 @@ namespace relume::test {
 
 namespace {
 
-enum Kind { kScript, kSettings, kHabits, kKinds };
+enum Kind { kScript, kSettings, kPreferences, kKinds };
 
 // Takes what a script does; applies its settings.
 class Target : public ScriptTarget {
@@ -87,16 +87,16 @@ std::vector<Bytes> seeds() {
         R"({"azimuth": 30, "distance": 3, "exposure": "auto", "tone": "aces", "samples": 8, "coefficients": 100,
             "material": {"clay": 1, "gold": 2}, "lamps": [{"azimuth": 3, "color": [1, 0.5, 0.25], "radius": 9}],
             "strokes": [{"elevation": 9, "radiance": [1, 2, 3], "opacity": 0.5}], "day-sky": {"hour": 9}})";
-    return {
-        seedOf({kScript},
-               R"([{"wait": "settled"}, {"set": {"terms": 3, "split": 0.25}}, {"wheel": 3, "at": [3, 4]},
+    return {seedOf({kScript},
+                   R"([{"wait": "settled"}, {"set": {"terms": 3, "split": 0.25}}, {"wheel": 3, "at": [3, 4]},
                 {"drag": "shift+left", "from": [30, 20], "by": [9, -4], "over": 3}, {"resize": [400, 300]},
                 {"key": "ctrl+S"}, {"double-click": [3, 4]}, {"drop": ["a.obj"]}, {"frames": 2},
                 {"wait": {"passes": 2}}, {"screenshot": "a.png"}, {"quit": true}])"),
-        seedOf({kSettings}, settings),
-        seedOf({kHabits}, std::string(R"({"width": 640, "height": 480, "recent": ["/"], "environments": [],
+            seedOf({kSettings}, settings),
+            seedOf({kPreferences},
+                   std::string(R"({"width": 640, "height": 480, "recent": ["/"], "environments": [],
                 "settings": )") +
-                              settings + "}")};
+                       settings + "}")};
 }
 
 const AddFuzzTarget kAdded({"viewer", run, seeds});
