@@ -79,7 +79,7 @@ TEST_CASE("viewer: says what is wrong with a script, and that there is no displa
     Session session;
     const Outcome wrong = session.replay({{{"frames", 1}}, {{"jump", 3}}}, "ring.relume");
     CHECK_EQ(wrong.exitCode, 1);
-    CHECK(says(wrong.err, "script.json: step 2: expected one of double-click, drag"));
+    CHECK(says(wrong.err, "script.json: step 2: expected one of click, double-click, drag"));
     const TemporaryFolder folder;
     const Outcome blind = runProgram(folder, RELUME_VIEWER, "", "env -u DISPLAY -u WAYLAND_DISPLAY");
     CHECK_EQ(blind.exitCode, 4);
