@@ -209,8 +209,8 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
     CHECK(contains(edited("light_sky.comp", "local_size_x", "local_size_y"), "group size"));
     CHECK(contains(edited("light_haar.comp", "layout(constant_id = 0) const uint", "const uint"),
                    "constant 0"));
-    CHECK(contains(edited("view_triangle_id.frag", "in uint surface;",
-                          "in float surface;\n#define surface uint(surface)"),
+    CHECK(contains(edited("view_triangle_id.frag", "in uint triangleId;",
+                          "in float triangleId;\n#define triangleId uint(triangleId)"),
                    "input 0"));
     CHECK_EQ(edited("display.frag", kShowBackground, kShowInverse), "");
 }
