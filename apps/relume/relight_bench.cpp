@@ -34,7 +34,7 @@ double bytesRead(const BasisTransport& transport, const std::vector<bool>& met) 
 }
 
 // Returns the least bytes of transport that relighting reads under a light, plus those of the tuples written.
-// Of columns that the light does not touch only the index counts.
+// Returns the bytes that relighting reads and writes. A column without light is read up to its index.
 double relightBytes(const Transport& transport, const LightVector& light) {
     const std::vector<bool> met = metBy(light);
     const double tuples = double(verticesOf(transport)) * termsOf(transport) * sizeof(vec3);

@@ -1,5 +1,5 @@
-// What is open in the viewer: bakes on the device, environments, a light file. Reads and bakes files in the
-// background.
+// The files open in the viewer: bakes on the device, environments, a light file. They are read and baked in
+// the background.
 #pragma once
 
 #include "apps/viewer/bake_process.h"

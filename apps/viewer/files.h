@@ -1,4 +1,4 @@
-// What the window opens and saves: models, environments, lights and sessions.
+// Opens and saves the viewer's files: models, environments, lights and sessions.
 #pragma once
 
 #include "apps/viewer/content.h"

@@ -14,7 +14,7 @@ namespace relume {
 
 class Frames {
   public:
-    // What a frame shows, all owned by the viewer.
+    // References to the contents of a frame, which the viewer owns.
     struct Shown {
         SceneState& state;
         const Content& content;

@@ -37,7 +37,7 @@ class PanelPictures {
         uint32_t vertex = 0;
         uint64_t version = 0; // of the view for which it was answered
     };
-    // What the pictures of the light show.
+    // The state for which the pictures of the light were made.
     struct ShownLight {
         uint64_t version = 0;
         bool showsVector = false;

@@ -17,7 +17,7 @@ struct PartMaterials {
     std::vector<std::vector<std::string>> sets; // names; materials of one set can be blended
 };
 
-// What panels show besides the state that they change.
+// Values that panels show besides the state that they change.
 struct PanelFacts {
     const Content* content = nullptr;
     const FrameTimes* times = nullptr;
@@ -28,10 +28,9 @@ struct PanelFacts {
     Picture lightMap, lightGiven, lightKept; // of the light recorded last
     std::optional<LightStats> light;
     std::string device;
-    uint64_t memory = 0; // that the program uses, in bytes
-    // Of the reference: number of passes, and the relit image's error.
-    int passes = 0;
-    std::optional<ReferenceError> error;
+    uint64_t memory = 0;                 // that the program uses, in bytes
+    int passes = 0;                      // of the reference
+    std::optional<ReferenceError> error; // of the relit image
     const Why* why = nullptr;
     Picture visibility, transport, contributions; // pictures of `why`
     bool isCapturing = false, isRecording = false;
@@ -39,7 +38,7 @@ struct PanelFacts {
     bool isFailure = false;
 };
 
-// What the user asked for in the panels.
+// Requests that the user made in the panels.
 struct PanelRequests {
     bool cancelsBake = false, takesScreenshot = false, togglesCapture = false, togglesRecording = false,
          resetsView = false, dismissesNotice = false, reloadsShaders = false, undoes = false, redoes = false,

@@ -1,4 +1,4 @@
-// What the program remembers between runs: viewer.json in the user's state folder.
+// Settings that the program remembers between runs: viewer.json in the user's state folder.
 #pragma once
 
 #include "engine/math/vector.h"

@@ -1,4 +1,4 @@
-// What is shown and how: the state that controls and scripts change and frames show.
+// The state that controls and scripts change and frames show: camera, light, materials, picture and panels.
 #pragma once
 
 #include "apps/viewer/light_choice.h"

@@ -15,7 +15,7 @@ Image screenImage(std::span<const uint8_t> pixels, int width, int height, VkForm
 // Returns whether a command line can only express this light by a light file (lightFileOf()).
 bool needsLightFile(const LightState& light);
 
-// What is drawn: linear radiance without background, or a picture like the window without panels.
+// The kind of image: linear radiance without background, or a picture like the window without panels.
 enum class Drawn { Radiance, Picture };
 
 // Returns the options of `relume render`, by name, that draw the same view bit for bit, without a light that

@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// Which input Dear ImGui claims for panels.
+// The input that Dear ImGui claims for panels.
 struct UiWants {
     bool mouse, keyboard;
 };

@@ -15,7 +15,7 @@
 namespace relume {
 namespace {
 
-// Of the radius of the file's bounds: half a pixel where that fills a thousand.
+// The tolerance of holes as a share of the radius of the file's bounds: half a pixel in an image 1,000 wide.
 constexpr float kHoleTolerance = 1e-3f;
 
 // The name, with the material's number or a greater one if it is taken.

@@ -10,7 +10,7 @@
 
 namespace relume {
 
-// What to keep of the vertices of one material, besides positions and normals.
+// The attributes to keep of the vertices of one material, besides positions and normals.
 struct GltfWish {
     MeshAttributes attributes;
     bool isTint = false; // colors multiply others: where there are none that can be read, they are white

@@ -8,8 +8,8 @@
 
 namespace relume {
 
-// What a light shows behind the object: its environments at full resolution, the sky, strokes over both, and
-// the sun's disc. Lamps and distant lights are not shown: they stand for lights outside the image.
+// The picture of a light behind the object: its environments at full resolution, the sky, strokes over both,
+// and the sun's disc. Lamps and distant lights are not shown: they stand for lights outside the image.
 struct Background {
     std::shared_ptr<const Environment> map; // null: black
     float rotation = 0, gain = 1;           // of the map, as in EnvironmentLight

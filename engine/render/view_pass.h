@@ -116,8 +116,8 @@ class ViewPass {
     // The pixels that a program shades: All with one sample per pixel; with several, Inner ones are shaded
     // once and Edges once per group of samples.
     enum class Pixels { All, Inner, Edges };
-    // What a program shades and how. `look` is shared::kSingleLook and so on; `estimate` shared::kTermsAlone
-    // and so on; `harmonics` the most of the bound layers' lit spheres.
+    // The choice of a shading program. `look` is shared::kSingleLook and so on; `estimate`
+    // shared::kTermsAlone and so on; `harmonics` the most of the bound layers' lit spheres.
     struct Shading {
         uint32_t look;
         bool allTerms;

@@ -68,7 +68,7 @@ struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE; // of Vulkan 1.3
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    // What the device was made with. Only the constructor reads it, to check the features.
+    // The options that the device was made with. Only the constructor reads them, to check the features.
     const VkDeviceCreateInfo* created = nullptr;
     VkQueue queue = VK_NULL_HANDLE;
     uint32_t queueFamily = 0; // the queue's; must do graphics and compute

@@ -11,7 +11,8 @@
 
 namespace relume::vk {
 
-// What memory is for. Each kind has blocks of its own: images may not lie beside buffers on every device.
+// The use of memory. Each kind has blocks of its own, because some devices need gaps between buffers and
+// images.
 enum class MemoryKind { Buffer, MappedBuffer, Image };
 
 // Allocates ranges of device memory. Thread-safe.

@@ -32,7 +32,7 @@ class Gltf final : public Brdf {
     }
 
   private:
-    // What both parts need of two directions.
+    // Terms of two directions that both parts use.
     struct Geometry {
         float facets;  // D V
         float weight;  // (1 - h·ωo)⁵

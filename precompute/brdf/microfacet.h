@@ -1,4 +1,4 @@
-// What the microfacet models share. Directions are in the local frame, lifted above the horizon.
+// Code that the microfacet models share. Directions are in the local frame, lifted above the horizon.
 #pragma once
 
 #include "engine/math/vector.h"

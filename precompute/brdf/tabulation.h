@@ -28,9 +28,9 @@ constexpr int kMinMapSize = 4, kMaxMapSize = 64;
 // The part of a BRDF to tabulate: a base color texture multiplies the base and leaves the rest.
 enum class BrdfPart { All, Rest, Base };
 
-// What represents f over a pair of texels: the value at their centers, or the mean of f cosθi cosθo over four
-// pairs of points in them, divided by the mean of cosθi cosθo. Means take four times as long; ridges of f
-// near grazing that are narrower than a texel then do not fill it.
+// The value that represents f over a pair of texels: the value at their centers, or the mean of f cosθi cosθo
+// over four pairs of points in them, divided by the mean of cosθi cosθo. Means take four times as long;
+// ridges of f near grazing that are narrower than a texel then do not fill it.
 enum class TexelValue { Center, Mean };
 
 // Throws UsageError if `size` is outside kMinMapSize to kMaxMapSize.

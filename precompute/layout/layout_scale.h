@@ -1,4 +1,4 @@
-// What all clusters of a bake share, so that each can be encoded independently.
+// Parameters that all clusters of a bake share, so that each can be encoded independently.
 #pragma once
 
 #include "engine/transport/asset.h"

@@ -1,4 +1,4 @@
-// What a refinement was asked for, and its result.
+// The goal of a refinement, and its result.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace relume {
 struct VisibilityComparison {
     uint64_t hemisphere = 0; // texels above the horizons of all vertices
     uint64_t different = 0;  // of these, texels that differ
-    // Of the differing texels, those whose eight neighbors in the face all have the same traced visibility:
+    // Number of differing texels whose eight neighbors in the face all have the same traced visibility:
     // no silhouette is near.
     uint64_t inside = 0;
     // The vertex with the most differing texels: its cube unfolded, with +Y above and -Y below the row -X,

@@ -12,7 +12,7 @@ namespace relume {
 
 namespace {
 
-// Of tiles from 32 × 32 to 32 × 256, 32 × 128 rays were the fastest on lavapipe: 1.54 ms of one core per
+// Tiles of 32 × 128 rays were the fastest of 32 × 32 to 32 × 256 on lavapipe: 1.54 ms of one core per
 // point of the bunny, against 1.82 ms for 32 × 32.
 constexpr uint32_t kTileWidth = 32, kTileHeight = 128;
 

@@ -40,7 +40,7 @@ struct LightSky {
 };
 RELUME_SHARED_SIZE(LightSky, 100)
 
-// What distant lights add to one texel: engine/light/distant_light.h.
+// The light of distant lights in one texel (engine/light/distant_light.h).
 struct LightTap {
     uint texel;
     vec3 radiance;

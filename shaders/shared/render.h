@@ -136,7 +136,7 @@ struct ViewDetail {
 };
 RELUME_SHARED_SIZE(ViewDetail, 20)
 
-// What a draw's shader evaluates: the least that serves the materials bound to a part.
+// The work of a draw's shader: the least that serves the materials bound to a part.
 const uint kSingleLook = 0;  // one layer and a constant
 const uint kLayersLook = 1;  // several layers and constants
 const uint kSurfaceLook = 2; // paint, a texture or a detail as well
@@ -192,7 +192,7 @@ struct ViewEdgesPush {
 };
 RELUME_SHARED_SIZE(ViewEdgesPush, 72)
 
-// What view_inspect.frag shows, in the order of Inspect.
+// The modes of view_inspect.frag, in the order of Inspect.
 const uint kInspectWireframe = 1, kInspectNormals = 2, kInspectDensity = 3;
 
 struct ViewInspectPush {
