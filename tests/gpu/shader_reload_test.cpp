@@ -186,10 +186,10 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
     push.edit("shared/render.h", "struct DisplayPush {", "struct DisplayPush {\n    float more;");
     CHECK(contains(push.failure(device), "display.frag: push constants: found {{float more @0; "));
     const Sources swapped; // as many bytes
-    swapped.edit(
-        "shared/render.h",
-        "    vec3 background; // display values\n    float scale;     // of radiance, before the curve\n",
-        "    float scale;\n    vec3 background;\n");
+    swapped.edit("shared/render.h",
+                 "    vec3 background; // display values\n    float scale;     // factor on radiance before "
+                 "the curve\n",
+                 "    float scale;\n    vec3 background;\n");
     CHECK(contains(swapped.failure(device), "display.frag: push constants: found {{float scale @0; "));
     CHECK(isUnchanged(device));
 
