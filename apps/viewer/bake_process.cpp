@@ -68,14 +68,19 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
         execv(arguments[0], arguments.data());
         _exit(127);
     }
+    const int failure = mProcess < 0 ? errno : 0;
     close(events[1]);
     close(errors[1]);
+    if (failure != 0) {
+        close(events[0]);
+        close(errors[0]);
+        throw Error(fmt::format("a bake cannot be begun: {}", std::strerror(failure)));
+    }
     mEvents = events[0];
     mWords = errors[0];
     fcntl(mEvents, F_SETFL, O_NONBLOCK);
     fcntl(mWords, F_SETFL, O_NONBLOCK);
     mProgress.stage = "starting";
-    if (mProcess < 0) throw Error(fmt::format("a bake cannot be begun: {}", std::strerror(errno)));
 }
 
 void BakeProcess::stop() {

@@ -35,7 +35,7 @@ std::string Files::saveLight(const std::filesystem::path& file) const {
 
 std::string Files::saveSession(const std::filesystem::path& file, const SceneState& drawn, bool fadesGround,
                                ivec2 size) const {
-    if (!mContent.shown()) throw Error("nothing is shown yet that a session could keep");
+    if (!mContent.shown() || !drawn.orbit) throw Error("nothing is shown yet that a session could keep");
     const std::filesystem::path& bake = mContent.shown()->file;
     writeJsonFile(file, sessionOf(drawn, fadesGround, bake, mContent.inputOf(bake), size));
     return fmt::format("{0} is written; relume render --session {0} -o IMAGE draws it{1}", file.string(),

@@ -1,5 +1,6 @@
 #include "apps/viewer/outputs.h"
 
+#include "apps/viewer/opened_file.h"
 #include "apps/viewer/screenshot.h"
 #include "apps/viewer/video.h"
 #include "engine/base/error.h"
@@ -27,6 +28,8 @@ std::string outputName(const std::string& ending) {
 }
 
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& content) {
+    if (extensionOf(file) != ".json")
+        throw Error(fmt::format("{}: expected a name ending in .json", file.string()));
     try {
         writeFileAtomically(file, content.dump(2) + "\n");
     } catch (const nlohmann::json::exception&) {
@@ -48,18 +51,23 @@ void Outputs::endRecording() {
     ended->finish();
     const std::filesystem::path& folder = ended->folder();
     mTell(fmt::format("{}: {} images", folder.string(), ended->frames()), false);
-    const auto ffmpeg = findFfmpeg();
-    if (!ffmpeg) return;
-    const std::filesystem::path video = folder.string() + ".mp4";
     mWorker.post(
-        "making " + video.string(),
-        [this, ffmpeg, folder, video]() -> Worker::Result {
-            encodeVideo(*ffmpeg, folder, Recorder::kFramesPerSecond, video);
+        "making a video",
+        [this, folder]() -> Worker::Result {
+            const auto video = encodeVideo(folder, Recorder::kFramesPerSecond);
             return [this, folder, video] {
-                mTell(fmt::format("{} is made of the images in {}", video.string(), folder.string()), false);
+                if (!video) return;
+                mTell(fmt::format("{} is made of the images in {}", video->string(), folder.string()), false);
             };
         },
         [this](const std::string& why) { mTell(why, true); });
+}
+
+void Outputs::finish() {
+    if (isRecording()) endRecording();
+    if (isCapturing()) endCapture();
+    mWorker.wait();
+    mWorker.apply();
 }
 
 void Outputs::beginCapture(const std::filesystem::path& file) {

@@ -12,7 +12,7 @@ namespace relume {
 // Returns "relume-", the time to the millisecond, and `ending`: a name in the working folder.
 std::string outputName(const std::string& ending);
 
-// Writes a light file or session. Throws Error.
+// Writes a light file or session; the name must end in .json, so that a slip does not replace another file.
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& content);
 
 class Outputs {
@@ -34,6 +34,8 @@ class Outputs {
     // Reports videos that have been finished on another thread.
     void poll() { mWorker.apply(); }
     bool isSettled() const { return mWorker.isIdle(); }
+    // Ends what is under way and waits until all of it is written. Throws Error.
+    void finish();
     bool isRecording() const { return mRecorder != nullptr; }
 
     // Captures the times of frames' passes. Throws Error.

@@ -68,6 +68,7 @@ void SceneView::begin(const std::shared_ptr<Model>& model, SceneState& state) {
     const bool isSame = mModel && glm::distance(mModel->bounds.low, model->bounds.low) < slack &&
                         glm::distance(mModel->bounds.high, model->bounds.high) < slack;
     if (mModel && !isSame && !state.keepsOrbit) state.orbit.reset();
+    if (!isSame) state.picked.reset();
     mModel = model;
     mLit.reset();
     mSeen.reset();

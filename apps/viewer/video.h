@@ -1,4 +1,4 @@
-// Videos of recordings, by the program ffmpeg.
+// Videos of recordings, made by the program ffmpeg.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +6,9 @@
 
 namespace relume {
 
-// Looks for ffmpeg in $PATH.
-std::optional<std::filesystem::path> findFfmpeg();
-
-// Makes `video` (H.264, 4:2:0, as players expect it) of frame_0001.png … in `folder`; an odd row or column is
-// cut off. Waits until it is there. Throws Error with what ffmpeg says.
-void encodeVideo(const std::filesystem::path& ffmpeg, const std::filesystem::path& folder,
-                 double framesPerSecond, const std::filesystem::path& video);
+// Makes FOLDER.mp4 (H.264, 4:2:0, without the last row or column of an odd size) from frame_0001.png … in the
+// folder, whole or not at all. Waits for ffmpeg. Returns the video's name, or nothing where ffmpeg is not
+// installed. Throws Error with the messages of ffmpeg.
+std::optional<std::filesystem::path> encodeVideo(const std::filesystem::path& folder, double framesPerSecond);
 
 } // namespace relume

@@ -389,9 +389,7 @@ void Viewer::run() {
         if (const auto requests = mFrames.draw(seconds, mOptions.exitFrame.has_value())) execute(*requests);
         if (mOptions.exitFrame && mSettledFrames >= *mOptions.exitFrame) break;
     }
-    Outputs& outputs = mFrames.outputs();
-    if (outputs.isRecording()) outputs.endRecording();
-    if (outputs.isCapturing()) outputs.endCapture();
+    mFrames.outputs().finish();
 }
 
 void Viewer::poll() {

@@ -1,4 +1,6 @@
 // Numbered images of what the window shows.
+#include "apps/viewer/outputs.h"
+#include "engine/base/error.h"
 #include "tests/support/viewer_session.h"
 
 #include <fmt/format.h>
@@ -51,4 +53,15 @@ TEST_CASE("viewer: a recording has every frame, numbered, as large as the window
     CHECK(says(video, folder.filename().string() + "/frame_%04d.png"));
     CHECK(says(video, "-framerate 30"));
     CHECK(says(outcome.err, folder.filename().string() + ".mp4 is made of the images"));
+}
+
+TEST_CASE("outputs: a light or session is written over nothing but .json") {
+    const TemporaryFolder folder;
+    const std::filesystem::path bake = folder.path() / "knot.relume";
+    std::ofstream(bake) << "a bake";
+    CHECK_THROWS_WITH_AS(writeJsonFile(bake, {}), doctest::Contains("expected a name ending in .json"),
+                         Error);
+    CHECK_EQ(contents(bake), "a bake");
+    writeJsonFile(folder.path() / "look.json", {{"session", 1}});
+    CHECK(says(contents(folder.path() / "look.json"), "\"session\": 1"));
 }
