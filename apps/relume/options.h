@@ -118,8 +118,6 @@ void addSamples(CLI::App& command, int& samples);
 // Warns if the device draws fewer samples than were asked for.
 void tellSamples(int drawn, int wanted, const vk::Device& device);
 
-float radians(float degrees);
-
 // Adds an option whose value is chosen by name; help and errors list the names.
 template <typename Value>
 CLI::Option* addChoice(CLI::App& command, const std::string& option, Value& value,

@@ -49,9 +49,6 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    // Returns the file's temporary name, for libraries that write by file name.
-    const std::filesystem::path& temporaryPath() const { return mTemporary; }
-
     // Appends bytes. Throws Error on failure, such as a full disk.
     void write(std::span<const std::byte> bytes);
 
