@@ -18,16 +18,20 @@ namespace {
 enum Depth { kRaw, kJson, kBuffer, kDepths };
 
 // All that materials have: maps of color, normals, metalness and emission, colors of vertices, transformed
-// placement.
+// placement, extensions.
 TexturedGlb sample() {
     TexturedGlb glb;
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"COLOR_0":1},"indices":3,
         "material":0},{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":4,"material":1}])";
     glb.materials = R"([{"name":"tin","normalTexture":{"index":1,"scale":0.5},"emissiveFactor":[1,0.5,0],
-        "emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}},
+        "emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},
+        "KHR_materials_sheen":{"sheenColorFactor":[1,0.5,0],"sheenRoughnessFactor":0.5},
+        "KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":1}},
         "pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0.9,"roughnessFactor":0.75,
         "baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0}}},
-        {"alphaMode":"BLEND","occlusionTexture":{"index":0},"pbrMetallicRoughness":{"baseColorTexture":{"index":1,
+        {"alphaMode":"BLEND","occlusionTexture":{"index":0},"extensions":{"KHR_materials_ior":{"ior":1.5},
+        "KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[1,1,1]},
+        "KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatTexture":{"index":0}}},"pbrMetallicRoughness":{"baseColorTexture":{"index":1,
         "texCoord":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0],"scale":[2,1],"rotation":1}}}}}])";
     return glb;
 }
