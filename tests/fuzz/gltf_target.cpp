@@ -7,6 +7,7 @@
 #include "precompute/brdf/material_list.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/fuzz_edits.h"
+#include "tests/support/packed_glb.h"
 #include "tests/support/textured_glb.h"
 
 #include <cmath>
@@ -69,8 +70,8 @@ void run(std::span<const std::byte> input) {
 
 std::vector<Bytes> seeds() {
     const std::string edit = std::string("\x01\x00\x10\0\xff\xff\xff\xff", 8);
-    return {seedOf({kRaw}, sample().bytes()), seedOf({kJson}, sample().content().json),
-            seedOf({kBuffer}, edit)};
+    return {seedOf({kRaw}, sample().bytes()), seedOf({kRaw}, PackedGlb().bytes()),
+            seedOf({kJson}, sample().content().json), seedOf({kBuffer}, edit)};
 }
 
 // As textures, of which a file may have as many as its bytes allow.
