@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/gltf_compression.h"
 #include "engine/import/json_object.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ void checkExtensions(const Json& document, const std::string& name) {
         const std::string text = extension.is_string() ? extension.get<std::string>() : extension.dump();
         if (!text.starts_with("KHR_materials_") && !text.starts_with("KHR_texture_") &&
             !text.starts_with("EXT_texture_") && text != "KHR_mesh_quantization" &&
-            text != "KHR_lights_punctual")
+            text != "KHR_lights_punctual" && text != "EXT_meshopt_compression")
             throw Error(
                 fmt::format("{}: requires the glTF extension {}, which is not supported: export without it "
                             "(uncompressed)",
@@ -177,15 +178,18 @@ std::vector<unsigned char> readBuffer(const Json& buffer, Container& container,
     return bytes;
 }
 
-tinygltf::Model readModel(Json document, Container container, const std::filesystem::path& folder,
-                          const std::string& name) {
+tinygltf::Model readModel(Json document, const GltfPacking& packing, Container container,
+                          const std::filesystem::path& folder, const std::string& name) {
     Buffers files;
     if (const auto buffers = document.find("buffers"); buffers != document.end() && buffers->is_array())
         for (size_t i = 0; i < buffers->size(); i++) {
             Json& buffer = (*buffers)[i];
             if (!buffer.is_object()) continue;
             const std::string place = fmt::format("{}: buffers[{}]", name, i);
-            files[fmt::format("{}/{}", kBuffers, i)] = readBuffer(buffer, container, folder, place);
+            const bool isPlaceholder = packing.placeholders.contains(i);
+            if (isPlaceholder) buffer["byteLength"] = 1; // the library wants something
+            files[fmt::format("{}/{}", kBuffers, i)] =
+                isPlaceholder ? std::vector<unsigned char>(1) : readBuffer(buffer, container, folder, place);
             buffer["uri"] = fmt::format("{}", i);
         }
     tinygltf::TinyGLTF reader;
@@ -204,6 +208,7 @@ tinygltf::Model readModel(Json document, Container container, const std::filesys
         throw Error(
             fmt::format("{}: is not valid glTF: {}", name,
                         failure.substr(0, std::min(failure.find_last_not_of('\n') + 1, size_t(400)))));
+    unpackGltfViews(packing, model, name);
     return model;
 }
 
@@ -238,8 +243,9 @@ GltfDocument readGltfDocument(std::span<const std::byte> bytes, const std::files
     Json geometry = takeMembers(whole, kGeometry), looks = takeMembers(whole, kLooks);
     checkVersion(geometry, name);
     checkExtensions(geometry, name);
+    const GltfPacking packing = readGltfPacking(geometry);
     checkGeometry("", geometry, name);
-    return {readModel(std::move(geometry), std::move(container), folder, name), std::move(looks)};
+    return {readModel(std::move(geometry), packing, std::move(container), folder, name), std::move(looks)};
 }
 
 std::filesystem::path findGltfFile(const std::string& uri, const std::filesystem::path& folder,

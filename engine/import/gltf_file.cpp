@@ -88,8 +88,9 @@ GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesyste
     const std::set<int> colored = coloredMaterials(document.model);
     const auto wishOf = [&](int number) {
         const GltfMaterial& material = materials.at(number);
-        GltfWish wish{{.uvs = material.placement.has_value(), .colors = colored.contains(number)}};
+        GltfWish wish{{.uvs = material.placement || material.isBrushed, .colors = colored.contains(number)}};
         wish.isTint = true;
+        wish.brushRotation = material.brushRotation;
         if (material.placement) {
             wish.uvSet = material.placement->uvSet;
             wish.uvTransform = material.placement->uvTransform;
@@ -114,6 +115,10 @@ GltfParts decodeGltfParts(std::span<const std::byte> bytes, const std::filesyste
             materials.ignore("textures where the mesh has no texture coordinates");
             if (material.emissionMap) part.detail.emission = vec3(0);
         }
+        if (material.isBrushed && part.mesh.uvs.empty() && part.mesh.tangents.empty())
+            materials.ignore(
+                "directions of anisotropy where the mesh has neither tangents nor texture coordinates "
+                "(they follow a smooth field)");
         cutHoles(materials, material, kHoleTolerance * bounds.radius(), partName, part);
         if (part.mesh.triangles.empty()) {
             log(LogLevel::Info,

@@ -179,7 +179,8 @@ class SceneReader {
         }
     }
 
-    // Adds zeros where the file has no tangents, or none that can be read: few materials need them.
+    // Adds zeros where the file has no tangents, or none that can be read: few materials need them. Materials
+    // turn them counter-clockwise; where the bitangent lies on the other side, they are turned back twice.
     void addTangents(Mesh& mesh, const tinygltf::Primitive& primitive, size_t count,
                      const glm::dmat3& linear) const {
         const auto found = primitive.attributes.find("TANGENT");
@@ -195,8 +196,13 @@ class SceneReader {
             tangents.clear();
         }
         tangents.resize(count, vec4(0));
+        const double back = -2 * double(mWishes(std::max(primitive.material, -1)).brushRotation);
+        const bool isMirrored = glm::determinant(linear) < 0;
         for (const vec4& tangent : tangents) {
-            const dvec3 turned = linear * dvec3(tangent);
+            const dvec3 normal = mesh.normals[mesh.tangents.size()];
+            dvec3 turned = linear * dvec3(tangent);
+            if ((tangent.w < 0) != isMirrored)
+                turned = std::cos(back) * turned + std::sin(back) * glm::cross(normal, turned);
             const double length = glm::length(turned);
             mesh.tangents.push_back(length > 0 ? vec3(turned / length) : vec3(0));
         }

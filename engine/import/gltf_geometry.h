@@ -16,6 +16,8 @@ struct GltfWish {
     bool isTint = false; // colors multiply others: where there are none that can be read, they are white
     int uvSet = 0;       // the N of TEXCOORD_N
     mat3 uvTransform = mat3(1); // of (u, v, 1)
+    // The angle that the material turns tangents by, from the tangent towards the bitangent.
+    float brushRotation = 0;
 };
 
 // The wish for a material number, -1 where a primitive has none.

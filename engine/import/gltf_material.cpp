@@ -6,6 +6,8 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/import/gltf_accessor.h"
+#include "engine/import/gltf_extensions.h"
+#include "engine/import/gltf_json.h"
 #include "engine/import/metal_roughness_map.h"
 #include "engine/scene/surface_detail.h"
 
@@ -23,63 +25,6 @@ using Json = nlohmann::json;
 // gigabyte of texels must come from megabytes.
 constexpr size_t kMostTexels = size_t(1) << 29, kAlwaysFine = size_t(1) << 26, kTexelsPerByte = 64;
 
-// The member of this name, or null. `place` names the object in errors.
-const Json* find(const Json& object, const char* key, const std::string& place) {
-    if (!object.is_object())
-        throw Error(fmt::format("{}: expected an object, found {}", place, object.type_name()));
-    const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
-}
-
-// The same, where an object without members does for none.
-const Json& findObject(const Json& object, const char* key, const std::string& place) {
-    static const Json kNone = Json::object();
-    const Json* found = find(object, key, place);
-    if (found && !found->is_object())
-        throw Error(fmt::format("{}: \"{}\": expected an object, found {}", place, key, found->type_name()));
-    return found ? *found : kNone;
-}
-
-double toNumber(const Json& json, const char* key, const std::string& place) {
-    const double number = json.is_number() ? json.get<double>() : NAN;
-    if (!std::isfinite(number))
-        throw Error(
-            fmt::format("{}: \"{}\": expected finite numbers, found {}", place, key, json.type_name()));
-    return number;
-}
-
-double number(const Json& object, const char* key, double fallback, const std::string& place) {
-    const Json* found = find(object, key, place);
-    return found ? toNumber(*found, key, place) : fallback;
-}
-
-// `fallback` gives the count.
-std::vector<double> numbers(const Json& object, const char* key, std::vector<double> fallback,
-                            const std::string& place) {
-    const Json* found = find(object, key, place);
-    if (!found) return fallback;
-    if (!found->is_array() || found->size() != fallback.size())
-        throw Error(fmt::format("{}: \"{}\": expected {} numbers", place, key, fallback.size()));
-    std::vector<double> values;
-    for (const Json& value : *found) values.push_back(toNumber(value, key, place));
-    return values;
-}
-
-std::optional<size_t> index(const Json& object, const char* key, const std::string& place) {
-    const Json* found = find(object, key, place);
-    if (!found) return std::nullopt;
-    if (!found->is_number_unsigned() || found->get<uint64_t>() > uint64_t(std::numeric_limits<int>::max()))
-        throw Error(fmt::format("{}: \"{}\": expected the number of an element", place, key));
-    return found->get<size_t>();
-}
-
-std::string text(const Json& object, const char* key, const std::string& place) {
-    const Json* found = find(object, key, place);
-    if (found && !found->is_string())
-        throw Error(fmt::format("{}: \"{}\": expected a text, found {}", place, key, found->type_name()));
-    return found ? found->get<std::string>() : "";
-}
-
 // Element number `index` of one of the document's lists; `place` becomes its name in errors.
 const Json& element(const Json& looks, const char* list, size_t index, const std::string& name,
                     std::string& place) {
@@ -94,9 +39,9 @@ const Json& element(const Json& looks, const char* list, size_t index, const std
 
 // Turns counter-clockwise as seen, where v goes down; scales first, moves last.
 mat3 textureTransform(const Json& extension, const std::string& place) {
-    const std::vector<double> offset = numbers(extension, "offset", {0, 0}, place);
-    const std::vector<double> scale = numbers(extension, "scale", {1, 1}, place);
-    const double angle = number(extension, "rotation", 0, place);
+    const std::vector<double> offset = gltfNumbers(extension, "offset", {0, 0}, place);
+    const std::vector<double> scale = gltfNumbers(extension, "scale", {1, 1}, place);
+    const double angle = gltfNumber(extension, "rotation", 0, place);
     const float c = float(std::cos(angle)), s = float(std::sin(angle));
     return {vec3(c, -s, 0) * float(scale[0]), vec3(s, c, 0) * float(scale[1]),
             vec3(float(offset[0]), float(offset[1]), 1)};
@@ -115,43 +60,50 @@ GltfMaterial GltfMaterials::read(int index) {
     std::string place = mName + ": default material";
     const Json& json =
         index < 0 ? kDefault : element(mDocument.looks, "materials", size_t(index), mName, place);
-    material.name = text(json, "name", place);
+    material.name = gltfText(json, "name", place);
     if (material.name.empty())
         material.name = index < 0 ? "default material" : fmt::format("material {}", index);
 
     std::string printable = material.name; // names are written on command lines
     for (char& letter : printable)
         if (uint8_t(letter) < 0x20 || letter == 0x7f) letter = ' ';
-    const Json& surface = findObject(json, "pbrMetallicRoughness", place);
+    const Json& surface = gltfObject(json, "pbrMetallicRoughness", place);
     material.baseColor = placedTexture(surface, "baseColorTexture", place, material);
-    readMetalRoughness(surface, place, printable, material);
+    const nlohmann::ordered_json extensions =
+        readGltfExtensions(json, place, [&](const std::string& what) { ignore(what); });
+    material.isBrushed = extensions.value("anisotropy", 0.0) > 0;
+    material.brushRotation = float(glm::radians(extensions.value("anisotropy_rotation", 0.0)));
+    readMetalRoughness(surface, extensions, place, printable, material);
     readDetail(json, place, material);
     readAlpha(json, place, material);
-    noteIgnored(json, place);
+    if (findGltfMember(json, "occlusionTexture", place)) ignore("occlusionTexture (visibility is baked)");
     return material;
 }
 
-void GltfMaterials::readMetalRoughness(const Json& surface, const std::string& place, const std::string& name,
+void GltfMaterials::readMetalRoughness(const Json& surface, const nlohmann::ordered_json& extensions,
+                                       const std::string& place, const std::string& name,
                                        GltfMaterial& material) {
-    std::vector<double> base = numbers(surface, "baseColorFactor", {1, 1, 1, 1}, place);
+    std::vector<double> base = gltfNumbers(surface, "baseColorFactor", {1, 1, 1, 1}, place);
     material.opacity = float(std::clamp(base.back(), 0.0, 1.0));
     base.pop_back();
-    double metallic = number(surface, "metallicFactor", 1, place);
-    double roughness = number(surface, "roughnessFactor", 1, place);
+    double metallic = gltfNumber(surface, "metallicFactor", 1, place);
+    double roughness = gltfNumber(surface, "roughnessFactor", 1, place);
     for (double* value : {&base[0], &base[1], &base[2], &metallic, &roughness})
         *value = std::clamp(*value, 0.0, 1.0);
     const auto describe = [&](const std::string& called, double metallicness, double rough) {
-        return nlohmann::ordered_json{{"name", called},
-                                      {"model", "gltf"},
-                                      {"base_color", base},
-                                      {"metallic", metallicness},
-                                      {"roughness", rough}};
+        nlohmann::ordered_json json = {{"name", called},
+                                       {"model", "gltf"},
+                                       {"base_color", base},
+                                       {"metallic", metallicness},
+                                       {"roughness", rough}};
+        json.update(extensions);
+        return json;
     };
     const auto print = [](const nlohmann::ordered_json& json) {
         return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     };
-    const Json& info = findObject(surface, "metallicRoughnessTexture", place);
-    const std::optional<size_t> texture = index(info, "index", place);
+    const Json& info = gltfObject(surface, "metallicRoughnessTexture", place);
+    const std::optional<size_t> texture = gltfIndex(info, "index", place);
     if (!texture) {
         material.text = print(describe(name, metallic, roughness));
         return;
@@ -171,10 +123,10 @@ void GltfMaterials::readMetalRoughness(const Json& surface, const std::string& p
 }
 
 void GltfMaterials::readAlpha(const Json& json, const std::string& place, GltfMaterial& material) {
-    const std::string mode = text(json, "alphaMode", place);
+    const std::string mode = gltfText(json, "alphaMode", place);
     if (mode == "MASK") {
         material.alpha = GltfAlpha::Mask;
-        material.alphaCutoff = float(std::clamp(number(json, "alphaCutoff", 0.5, place), 0.0, 2.0));
+        material.alphaCutoff = float(std::clamp(gltfNumber(json, "alphaCutoff", 0.5, place), 0.0, 2.0));
     } else if (mode == "BLEND") {
         material.alpha = GltfAlpha::Blend;
     } else if (!mode.empty() && mode != "OPAQUE") {
@@ -186,32 +138,32 @@ void GltfMaterials::readDetail(const Json& json, const std::string& place, GltfM
     material.normalMap = placedTexture(json, "normalTexture", place, material);
     if (material.normalMap)
         material.normalScale =
-            float(std::clamp(number(findObject(json, "normalTexture", place), "scale", 1, place),
+            float(std::clamp(gltfNumber(gltfObject(json, "normalTexture", place), "scale", 1, place),
                              -double(kLargestNormalScale), double(kLargestNormalScale)));
-    const double strength =
-        number(findObject(findObject(json, "extensions", place), "KHR_materials_emissive_strength", place),
-               "emissiveStrength", 1, place);
-    const std::vector<double> emission = numbers(json, "emissiveFactor", {0, 0, 0}, place);
+    const double strength = gltfNumber(
+        gltfObject(gltfObject(json, "extensions", place), "KHR_materials_emissive_strength", place),
+        "emissiveStrength", 1, place);
+    const std::vector<double> emission = gltfNumbers(json, "emissiveFactor", {0, 0, 0}, place);
     for (int channel = 0; channel < 3; channel++)
         material.emission[channel] =
             float(std::clamp(strength * emission[size_t(channel)], 0.0, double(kLargestEmission)));
     if (material.emission == vec3(0)) return;
     material.emissionMap = placedTexture(json, "emissiveTexture", place, material);
-    if (!material.emissionMap && find(json, "emissiveTexture", place)) material.emission = vec3(0);
+    if (!material.emissionMap && findGltfMember(json, "emissiveTexture", place)) material.emission = vec3(0);
 }
 
 std::optional<size_t> GltfMaterials::placedTexture(const Json& json, const char* key,
                                                    const std::string& place, GltfMaterial& material) {
-    if (!find(json, key, place)) return std::nullopt;
-    const Json& info = findObject(json, key, place);
-    const std::optional<size_t> texture = index(info, "index", place);
+    if (!findGltfMember(json, key, place)) return std::nullopt;
+    const Json& info = gltfObject(json, key, place);
+    const std::optional<size_t> texture = gltfIndex(info, "index", place);
     if (!texture) return std::nullopt;
-    GltfPlacement placement{int(index(info, "texCoord", place).value_or(0))};
-    const Json& extensions = findObject(info, "extensions", place);
-    if (find(extensions, "KHR_texture_transform", place)) {
-        const Json& transform = findObject(extensions, "KHR_texture_transform", place);
+    GltfPlacement placement{int(gltfIndex(info, "texCoord", place).value_or(0))};
+    const Json& extensions = gltfObject(info, "extensions", place);
+    if (findGltfMember(extensions, "KHR_texture_transform", place)) {
+        const Json& transform = gltfObject(extensions, "KHR_texture_transform", place);
         placement.uvTransform = textureTransform(transform, place);
-        placement.uvSet = int(index(transform, "texCoord", place).value_or(size_t(placement.uvSet)));
+        placement.uvSet = int(gltfIndex(transform, "texCoord", place).value_or(size_t(placement.uvSet)));
     }
     if (!material.placement) material.placement = placement;
     if (*material.placement == placement) return texture;
@@ -220,29 +172,23 @@ std::optional<size_t> GltfMaterials::placedTexture(const Json& json, const char*
     return std::nullopt;
 }
 
-void GltfMaterials::noteIgnored(const Json& json, const std::string& place) {
-    if (find(json, "occlusionTexture", place)) ignore("occlusionTexture (visibility is baked)");
-    for (const auto& [extension, value] : findObject(json, "extensions", place).items())
-        if (extension != "KHR_materials_emissive_strength") ignore(extension.substr(0, 60));
-}
-
 void GltfMaterials::noteSampler(const Json& texture, const std::string& place) {
     constexpr double kRepeat = 10497;
-    const std::optional<size_t> number = index(texture, "sampler", place);
+    const std::optional<size_t> number = gltfIndex(texture, "sampler", place);
     if (!number) return;
     std::string samplerPlace;
     const Json& sampler = element(mDocument.looks, "samplers", *number, mName, samplerPlace);
     for (const char* axis : {"wrapS", "wrapT"})
-        if (relume::number(sampler, axis, kRepeat, samplerPlace) != kRepeat)
+        if (gltfNumber(sampler, axis, kRepeat, samplerPlace) != kRepeat)
             ignore("wrapping other than by repetition");
 }
 
 std::vector<std::byte> GltfMaterials::readImageBytes(const Json& image, const std::string& place) {
-    if (const std::optional<size_t> view = index(image, "bufferView", place)) {
+    if (const std::optional<size_t> view = gltfIndex(image, "bufferView", place)) {
         const auto bytes = std::as_bytes(gltfViewBytes(mDocument.model, int(*view), mName));
         return {bytes.begin(), bytes.end()};
     }
-    const std::string uri = text(image, "uri", place);
+    const std::string uri = gltfText(image, "uri", place);
     if (tinygltf::IsDataURI(uri)) {
         std::vector<unsigned char> data;
         std::string type;
@@ -261,7 +207,7 @@ std::vector<std::byte> GltfMaterials::readImageBytes(const Json& image, const st
 Texture GltfMaterials::readTexture(size_t index, bool srgb) {
     std::string place;
     const Json& json = element(mDocument.looks, "textures", index, mName, place);
-    const std::optional<size_t> source = relume::index(json, "source", place);
+    const std::optional<size_t> source = gltfIndex(json, "source", place);
     if (!source)
         throw Error(
             fmt::format("{}: has no PNG or JPEG image: export with such images, or name a material", place));

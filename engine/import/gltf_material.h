@@ -25,12 +25,14 @@ enum class GltfAlpha { Opaque, Mask, Blend };
 
 struct GltfMaterial {
     std::string name;
-    std::string text; // {"model": "gltf", "base_color", "metallic", "roughness"}, linear
+    std::string text; // {"model": "gltf", "base_color", "metallic", "roughness", …}, linear
     std::optional<GltfPlacement> placement; // of all its textures; none: it has none
     std::optional<size_t> baseColor;        // number of the texture that multiplies base_color
     // The set of materials that blend where metalness or roughness vary, and the texture of their weights.
     std::string blend;
     std::optional<Texture> blendWeights = std::nullopt;
+    bool isBrushed = false;  // whether it follows tangents
+    float brushRotation = 0; // of its strokes, from the tangent towards the bitangent
     std::optional<size_t> normalMap, emissionMap;
     float normalScale = 1;
     vec3 emission = vec3(0);
@@ -66,10 +68,9 @@ class GltfMaterials {
                                         GltfMaterial& material);
     void readAlpha(const Json& json, const std::string& place, GltfMaterial& material);
     void readDetail(const Json& json, const std::string& place, GltfMaterial& material);
-    // `name`: of the material, without control characters.
-    void readMetalRoughness(const Json& surface, const std::string& place, const std::string& name,
-                            GltfMaterial& material);
-    void noteIgnored(const Json& json, const std::string& place);
+    // `extensions`: parameters that they add. `name`: of the material, without control characters.
+    void readMetalRoughness(const Json& surface, const nlohmann::ordered_json& extensions,
+                            const std::string& place, const std::string& name, GltfMaterial& material);
     void noteSampler(const Json& texture, const std::string& place);
     std::vector<std::byte> readImageBytes(const Json& image, const std::string& place);
 

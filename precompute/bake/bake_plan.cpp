@@ -94,7 +94,7 @@ void setTangents(AssetPart& part, float brushRotation, BrushedParts& brushed, Ba
         if (brushRotation != 0)
             log(LogLevel::Warning,
                 fmt::format("{}: the brush rotation changes nothing; none of its materials is brushed "
-                            "(ashikhmin-shirley or ggx with two different widths)",
+                            "(ashikhmin-shirley or ggx with two different widths, gltf with anisotropy)",
                             part.name));
     } else if (!makeTangents(part.mesh, brushRotation, [&] { return observer.wantsStop(); }))
         throw BakeStopped("stopped");

@@ -29,8 +29,8 @@ class Brdf {
     // Returns whether rotating both directions about the normal changes nothing.
     virtual bool isIsotropic() const { return true; }
 
-    // Returns JSON from which makeBrdf() makes the same BRDF: {"model": NAME, every parameter…} or, for
-    // measured data, {"measured": PATH, "scale": s, "hash": h}.
+    // Returns JSON from which makeBrdf() makes the same BRDF: {"model": NAME, every parameter that has an
+    // effect…} or, for measured data, {"measured": PATH, "scale": s, "hash": h}.
     virtual nlohmann::json describe() const = 0;
 };
 

@@ -1,12 +1,25 @@
 #include "precompute/brdf/material_factory.h"
 
 #include "engine/base/log.h"
+#include "precompute/brdf/factorization_error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {
+
+namespace {
+
+// The expected error of reflected radiance above which nonnegative terms are taken to have missed all but a
+// narrow lobe.
+constexpr float kMissed = 0.6f;
+
+bool isAny(const BrdfTable& table) {
+    return std::ranges::any_of(table.channels, [](const auto& channel) { return !channel.isZero(0); });
+}
+
+} // namespace
 
 std::vector<MaterialSet> MaterialFactory::make(const std::string& material,
                                                const std::filesystem::path& folder, bool isTextured) {
@@ -43,8 +56,7 @@ MaterialSet MaterialFactory::factorAnew(const std::vector<NamedMaterial>& materi
         bool hasBase = false;
         if (isTextured) {
             BrdfTable base = tabulate(*material.brdf, mMapSize, mMapping, value, BrdfPart::Base);
-            hasBase =
-                std::ranges::any_of(base.channels, [](const auto& channel) { return !channel.isZero(0); });
+            hasBase = isAny(base);
             if (hasBase) {
                 tables.push_back(tabulate(*material.brdf, mMapSize, mMapping, value, BrdfPart::Rest));
                 tables.push_back(std::move(base));
@@ -54,6 +66,24 @@ MaterialSet MaterialFactory::factorAnew(const std::vector<NamedMaterial>& materi
         set.materials.push_back({material.name, material.brdf->describe().dump(), layer, hasBase});
     }
     set.brdf = factorize(tables, mOptions);
+    const bool isMissed = !isTextured && mOptions.method == Factorization::NonNegative &&
+                          std::ranges::any_of(expectedErrors(tables, set.brdf),
+                                              [](const auto& errors) { return errors.back() > kMissed; });
+    return isMissed ? withBases(std::move(set), materials, std::move(tables)) : set;
+}
+
+MaterialSet MaterialFactory::withBases(MaterialSet set, const std::vector<NamedMaterial>& materials,
+                                       std::vector<BrdfTable> tables) const {
+    const size_t layers = tables.size();
+    for (const NamedMaterial& material : materials) {
+        BrdfTable base =
+            tabulate(*material.brdf, mMapSize, mMapping, texelValueOf(mOptions.method), BrdfPart::Base);
+        if (isAny(base)) tables.push_back(std::move(base));
+    }
+    if (tables.size() == layers) return set;
+    set.brdf = factorize(tables, mOptions);
+    set.brdf.layers = int(layers);
+    set.brdf.viewMaps.resize(layers * size_t(set.brdf.terms) * set.brdf.mapTexels());
     return set;
 }
 

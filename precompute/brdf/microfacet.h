@@ -8,6 +8,10 @@
 
 namespace relume {
 
+// The least width of the models that take a roughness from glTF: a narrower lobe falls between a map's
+// texels.
+constexpr float kMinAlpha = 0.02f;
+
 // The half vector of two directions above the horizon, and the cosine of either to it: |ωi + ωo| / 2, which
 // rounds alike whichever comes first.
 struct HalfVector {

@@ -29,7 +29,9 @@ constexpr Model kModels[] = {
      makeLafortune, R"({"lobes": []})"},
     {"cook-torrance", "Beckmann microfacets over a diffuse base (Cook and Torrance 1982)", makeCookTorrance},
     {"ggx", "bare conductor, anisotropic GGX microfacets (Walter et al. 2007, Heitz 2014)", makeGgx},
-    {"gltf", "glTF 2.0 metallic-roughness, alpha = max(roughness^2, 0.02)", makeGltf},
+    {"gltf",
+     "glTF 2.0 metallic-roughness with sheen, clear coat and anisotropy; alpha = max(roughness^2, 0.02)",
+     makeGltf},
     {"plastic", "GGX coat over a diffuse base; give f0 or the index of refraction", makePlastic},
 };
 

@@ -45,10 +45,12 @@ std::unique_ptr<Brdf> makeCookTorrance(MaterialParameters& parameters);
 std::unique_ptr<Brdf> makeGgx(MaterialParameters& parameters);
 
 // {"base_color": c, "metallic": m, "roughness": r}: glTF 2.0, appendix B, with α = max(r², .02), since
-// narrower lobes fall between the texels of any map. f = (1 - m) (base + coat) + m metal. The base is c (1 -
-// F0) (1 - (1 - cosθi)⁵) (1 - (1 - cosθo)⁵) / π; the appendix' sample code instead weights it by 1 - F(h·ωo),
-// with which a smooth white material reflects 1.6 times what it receives at grazing angles. Default:
-// base_color .8, metallic 0, roughness .5.
+// narrower lobes fall between the texels of any map. f = (1 - m) (base + interface) + m metal. The base is
+// c (1 - F(cosθi)) (1 - F(cosθo)) / (1 - F(1)) / π; the appendix' sample code instead weights it by
+// 1 - F(h·ωo), with which a smooth white material reflects 1.6 times what it receives at grazing angles.
+// Default: base_color .8, metallic 0, roughness .5. Khronos' material extensions are parameters as well, none
+// of which has an effect by default: ior, specular, specular_color, anisotropy, anisotropy_rotation
+// (degrees), sheen_color, sheen_roughness, clearcoat, clearcoat_roughness (docs/materials.md).
 std::unique_ptr<Brdf> makeGltf(MaterialParameters& parameters);
 
 // {"diffuse": a, "f0": F or "index": η, "roughness": α}: a Lambertian base under a rough dielectric. The

@@ -7,6 +7,7 @@
 #include "precompute/brdf/material_list.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/fuzz_edits.h"
+#include "tests/support/packed_glb.h"
 #include "tests/support/textured_glb.h"
 
 #include <cmath>
@@ -18,16 +19,20 @@ namespace {
 enum Depth { kRaw, kJson, kBuffer, kDepths };
 
 // All that materials have: maps of color, normals, metalness and emission, colors of vertices, transformed
-// placement.
+// placement, extensions.
 TexturedGlb sample() {
     TexturedGlb glb;
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"COLOR_0":1},"indices":3,
         "material":0},{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":4,"material":1}])";
     glb.materials = R"([{"name":"tin","normalTexture":{"index":1,"scale":0.5},"emissiveFactor":[1,0.5,0],
-        "emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}},
+        "emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},
+        "KHR_materials_sheen":{"sheenColorFactor":[1,0.5,0],"sheenRoughnessFactor":0.5},
+        "KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":1}},
         "pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0.9,"roughnessFactor":0.75,
         "baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0}}},
-        {"alphaMode":"BLEND","occlusionTexture":{"index":0},"pbrMetallicRoughness":{"baseColorTexture":{"index":1,
+        {"alphaMode":"BLEND","occlusionTexture":{"index":0},"extensions":{"KHR_materials_ior":{"ior":1.5},
+        "KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[1,1,1]},
+        "KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatTexture":{"index":0}}},"pbrMetallicRoughness":{"baseColorTexture":{"index":1,
         "texCoord":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0],"scale":[2,1],"rotation":1}}}}}])";
     return glb;
 }
@@ -65,8 +70,8 @@ void run(std::span<const std::byte> input) {
 
 std::vector<Bytes> seeds() {
     const std::string edit = std::string("\x01\x00\x10\0\xff\xff\xff\xff", 8);
-    return {seedOf({kRaw}, sample().bytes()), seedOf({kJson}, sample().content().json),
-            seedOf({kBuffer}, edit)};
+    return {seedOf({kRaw}, sample().bytes()), seedOf({kRaw}, PackedGlb().bytes()),
+            seedOf({kJson}, sample().content().json), seedOf({kBuffer}, edit)};
 }
 
 // As textures, of which a file may have as many as its bytes allow.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -33,6 +34,12 @@ std::vector<std::string> materials() {
     all.push_back(R"({"model": "ggx", "f0": [0, 0.5, 1], "roughness_u": 0.02, "roughness_v": 1})");
     all.push_back(R"({"model": "gltf", "base_color": [0, 0.5, 1], "metallic": 0.5, "roughness": 0})");
     all.push_back(R"({"model": "gltf", "base_color": [0, 0.5, 1], "metallic": 1, "roughness": 0.6})");
+    for (const char* extensions :
+         {R"("ior": 0, "specular": 0.5, "specular_color": [0, 1, 1000])",
+          R"("metallic": 0.5, "sheen_color": [1, 0.5, 0], "sheen_roughness": 0)",
+          R"("sheen_color": [0, 0.5, 1], "sheen_roughness": 0.7, "clearcoat": 1, "clearcoat_roughness": 0)",
+          R"("metallic": 0.7, "anisotropy": 1, "anisotropy_rotation": 30, "clearcoat": 0.5)"})
+        all.push_back(fmt::format(R"({{"model": "gltf", "base_color": [0, 0.5, 1], {}}})", extensions));
     all.push_back(R"({"model": "plastic", "diffuse": [1, 0.5, 0], "index": 2.5, "roughness": 1})");
     all.push_back(R"({"model": "ashikhmin-shirley", "kd": 1, "ks": [0, 0.2, 1], "nu": 0, "nv": 50})");
     return all;
@@ -190,6 +197,10 @@ TEST_CASE("brdf: the base color's part is at most all, and alone scales with the
          R"({"model": "gltf", "base_color": 0.3, "metallic": 1})"},
         {R"({"model": "gltf", "base_color": 0.6, "metallic": 0.4})",
          R"({"model": "gltf", "base_color": 0.3, "metallic": 0.4})"},
+        {R"({"model": "gltf", "base_color": 0.6, "metallic": 0.4, "ior": 1.8, "specular_color": [0, 1, 2],
+             "anisotropy": 0.5, "sheen_color": [0.5, 0.2, 0], "sheen_roughness": 0.6, "clearcoat": 0.8})",
+         R"({"model": "gltf", "base_color": 0.3, "metallic": 0.4, "ior": 1.8, "specular_color": [0, 1, 2],
+             "anisotropy": 0.5, "sheen_color": [0.5, 0.2, 0], "sheen_roughness": 0.6, "clearcoat": 0.8})"},
         {R"({"model": "lafortune", "diffuse": 0.6, "lobes": [{"cx": -1, "cy": -1, "cz": 0.9, "n": 5}]})",
          R"({"model": "lafortune", "diffuse": 0.3, "lobes": [{"cx": -1, "cy": -1, "cz": 0.9, "n": 5}]})"}};
     for (int i = 0; i < 200; i++) {
@@ -277,6 +288,9 @@ TEST_CASE("brdf: wrong parameters are named with their range") {
           R"({"model": "oren-nayar", "sigma": 91})",
           R"({"model": "ggx", "roughness_u": 0})",
           R"({"model": "gltf", "metallic": 1.5})",
+          R"({"model": "gltf", "clearcoat": 1.1})",
+          R"({"model": "gltf", "sheen_color": [1, 1, 2]})",
+          R"({"model": "gltf", "ior": -1})",
           R"({"model": "cook-torrance", "roughness": 1e308})",
           R"({"model": "lafortune"})",
           "lafortune",

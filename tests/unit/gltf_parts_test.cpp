@@ -125,7 +125,7 @@ TEST_CASE("glTF parts: what is not supported is ignored, factors are clamped") {
     TexturedGlb glb;
     glb.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[2,-1,0.5,0.25],"metallicFactor":7},
         "occlusionTexture":{"index":77},"alphaMode":"BLEND",
-        "extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":[[[]]]}},"extras":[[[]]]},
+        "extensions":{"KHR_materials_volume":{"thicknessTexture":[[[]]]}},"extras":[[[]]]},
         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":3}}}])";
     const GltfParts file = decode(glb.bytes());
     REQUIRE(file.parts.size() == 2);

@@ -5,6 +5,7 @@
 #include "precompute/brdf/material_list.h"
 #include "tests/support/temporary_folder.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
@@ -123,4 +124,21 @@ TEST_CASE("material factory: a texture splits what has a base, and only that") {
     const vec3 base = evaluate(sets[0].brdf, in, out, 1), exact = brdf->evaluateBase(in, out);
     CHECK(glm::length(base - exact) < 0.05f * glm::length(exact));
     CHECK_FALSE(factory.make("red-plastic", {}, false)[0].materials[0].hasBase);
+}
+
+TEST_CASE("material factory: light maps represent the base under a coat that is too narrow for its terms") {
+    const std::string polished = R"({"model": "gltf", "base_color": 0.5, "roughness": 0.6, "clearcoat": 1})";
+    MaterialFactory factory({.terms = 8, .method = Factorization::NonNegative}, 32, DiskMapping::EqualArea);
+    const MaterialSet set = factory.make(polished, {}, false)[0];
+    CHECK(set.brdf.layers == 1);
+    CHECK(set.brdf.viewMaps.size() == size_t(set.brdf.terms) * set.brdf.mapTexels());
+    CHECK_FALSE(set.materials[0].hasBase);
+    // Far from the mirror direction, where the base is all there is.
+    const auto brdf = makeBrdf(polished);
+    for (const float tilt : {0.0f, 0.3f, 0.6f, 0.9f}) {
+        CAPTURE(tilt);
+        const vec3 out = glm::normalize(vec3(std::sin(tilt), 0, std::cos(tilt)));
+        const vec3 in = glm::normalize(vec3(0.2f, 0.7f, 0.7f));
+        CHECK(evaluate(set.brdf, in, out).x > 0.5f * brdf->evaluate(in, out).x);
+    }
 }
