@@ -252,6 +252,26 @@ TEST_CASE("layout: errors of a diffuse set matter more") {
     CHECK(diffuse.error < cutFor(analysis, lambda).error);
 }
 
+// The edge of a sharp shadow passes every vertex in coefficients that no other vertex has.
+TEST_CASE("layout: a diffuse set keeps sharp shadows where colored light bounces") {
+    constexpr int kFine = 16;
+    constexpr uint32_t kVertices = 256, kEach = 5;
+    SparseTransport rows;
+    rows.vertices = kVertices, rows.terms = 1;
+    rows.rowStarts.push_back(0);
+    for (uint32_t i = 0; i < kVertices * kEach; i++) {
+        rows.indices.push_back(uint16_t(i + 1));
+        rows.values.push_back(packCoefficient(quantizeCoefficient(vec3(1, 0.9f, 0.8f), 1)));
+        if (i % kEach != kEach - 1) continue;
+        rows.rowStarts.push_back(rows.values.size());
+        rows.scales.push_back(1);
+    }
+    const std::vector<BasisKind> kinds = basisKinds(factors(1, true), true);
+    REQUIRE(kinds.size() == kFewKinds);
+    const BasisAnalysis analysis = analyze(clusterMatrix(rows, 0, kVertices, kinds, lightSpectrum(kFine), 1));
+    CHECK(cutFor(analysis, 0).error < 0.05 * analysis.energy.sum());
+}
+
 TEST_CASE("layout: bytes fall and error rises with the lambda") {
     const SparseTransport rows = smoothRows(512, 2, 8);
     const std::vector<BasisKind> kinds = basisKinds(factors(2, true));

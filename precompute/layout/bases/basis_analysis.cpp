@@ -17,7 +17,7 @@ constexpr uint32_t kStep = 4; // components are read four at a time
 // is cheap, since it has few weights.
 Eigen::Index mostVectors(size_t kinds) {
     constexpr size_t kMost = kMostBasisComponents - kFirstComponents + 1;
-    return Eigen::Index(kinds <= 2 ? kMost : std::min(64 + 8 * kinds, kMost));
+    return Eigen::Index(kinds <= kFewKinds ? kMost : std::min(64 + 8 * kinds, kMost));
 }
 
 // Returns the vector of a component, or -1 if the component only refines the first.

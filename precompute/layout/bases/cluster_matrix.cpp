@@ -90,7 +90,8 @@ ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_
 
     for (size_t column = 0; column < energy.size(); column++)
         if (energy[column] > 0) matrix.columns.push_back(uint16_t(column));
-    const size_t most = kinds.size() * count <= kAnalyzedSide ? kMostBasisColumns : kAnalyzedSide;
+    const bool isNarrow = kinds.size() <= kFewKinds || kinds.size() * count <= kAnalyzedSide;
+    const size_t most = isNarrow ? kMostBasisColumns : kAnalyzedSide;
     if (matrix.columns.size() > most) {
         std::nth_element(
             matrix.columns.begin(), matrix.columns.begin() + ptrdiff_t(most), matrix.columns.end(),

@@ -33,9 +33,12 @@ struct ClusterMatrix {
     size_t kinds() const { return size_t(energy.size()); }
 };
 
-// Greatest shorter side of an analyzed matrix, since time grows with its square. With few kinds, all columns
-// that a file can have fit, which the sharp shadows on a ground need; with many kinds, more columns gain
-// little.
+// A set of one term has at most this many kinds. A cluster of so few is analyzed with all columns and vectors
+// that a file can have, which the sharp shadows on a ground need.
+constexpr size_t kFewKinds = 3;
+
+// The greatest shorter side of the matrix of a cluster with more kinds, since time grows with its square and
+// further columns gain little.
 constexpr size_t kAnalyzedSide = 512;
 
 // Weight of squared errors in sets of one term. These are diffuse, most often a ground, on which shadows are
