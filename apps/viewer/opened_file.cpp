@@ -20,9 +20,10 @@ using nlohmann::json;
 constexpr std::string_view kSceneText = R"({
   "parts": [
     {"name": "knot", "mesh": "knot", "material": "gold", "rotate": [75, 20, 0], "translate": [0, 0.93, 0]},
-    {"name": "ball", "mesh": "sphere", "material": "red-plastic", "scale": 0.4, "translate": [-0.75, 0.4, 1]},
+    {"name": "ball", "mesh": "sphere", "material": "red-plastic", "scale": 0.36,
+     "translate": [-0.5, 0.36, 1]},
     {"name": "ring", "mesh": "torus", "material": "brushed-steel", "scale": 0.45,
-     "translate": [1.05, 0.135, 0.35]}
+     "translate": [0.8, 0.135, 0.75]}
   ],
   "ground": true
 }

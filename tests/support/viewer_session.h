@@ -40,6 +40,8 @@ class Session {
     }
 
     // A window of kSessionWidth × kSessionHeight, under validation. `environment` is put before the command.
+    // The viewer's own caches are this session's; the driver's is shared, since it only saves compiling
+    // shaders.
     Outcome replay(const nlohmann::json& script, const std::string& arguments,
                    const std::string& environment = "") {
         std::ofstream(path("script.json")) << script;
@@ -51,7 +53,9 @@ class Session {
                               " " + arguments,
                           mDisplay.environment() + " XDG_CACHE_HOME=" + path("cache").string() +
                               " XDG_STATE_HOME=" + path("state").string() +
-                              " LP_NUM_THREADS=0 timeout 300 env " + environment);
+                              " MESA_SHADER_CACHE_DIR=\"${HOME:-/tmp}/.cache\""
+                              " LP_NUM_THREADS=0 timeout 300 env " +
+                              environment);
     }
     Outcome relume(const std::string& arguments) { return runRelume(mFolder, arguments, "LP_NUM_THREADS=0"); }
 
