@@ -8,8 +8,9 @@ RELUME_SHARED_BEGIN
 // A sphere is a polar map about a view direction: rings of equal width in the angle from it, each divided
 // into equal azimuths.
 const uint kSphereRings = 48, kSphereAzimuths = 96;
-// The largest azimuthal frequency of a kernel, and its largest harmonic of the view's azimuth.
-const uint kMostFrequencies = kSphereAzimuths / 2, kMostHarmonics = 5;
+// The largest azimuthal frequency of a kernel, and its largest harmonic of the view's azimuth. The lobes of
+// brushed materials, seen along the normal, turn with the view: they need the harmonics of their own shape.
+const uint kMostFrequencies = kSphereAzimuths / 2, kMostHarmonics = 12;
 
 // The view directions for which spheres are made: corners of cells of equal angle on the faces of a cube.
 const uint kGridCells = 6, kGridSide = kGridCells + 1, kGridNodes = 6 * kGridSide * kGridSide;
