@@ -12,7 +12,6 @@
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/render/appearance.h"
-#include "engine/render/auto_exposure.h"
 #include "engine/render/background_pass.h"
 #include "engine/render/display_pass.h"
 #include "engine/render/light_pass.h"

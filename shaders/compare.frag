@@ -1,6 +1,6 @@
 #version 460
 // Shows two linear images side by side, or a map of their difference. C++ twin of the map: heatColor() in
-// engine/render/heat_color.h.
+// engine/render/compare.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/render.h"

@@ -1,9 +1,9 @@
 #include "apps/bench/cpu_baker.h"
 
 #include "engine/base/check.h"
+#include "engine/base/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
@@ -36,20 +36,6 @@ std::vector<const FactoredBrdf*> brdfsOf(const AssetPart& part) {
     for (const MaterialSet& set : part.sets) brdfs.push_back(&set.brdf);
     return brdfs;
 }
-
-// Measures the seconds since the last call.
-class StageClock {
-  public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double> elapsed = now - mLast;
-        mLast = now;
-        return elapsed.count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point mLast = std::chrono::steady_clock::now();
-};
 
 // Appends one point's rows to the transport of each set.
 void append(const CpuRows& rows, std::span<const int> setTerms,
@@ -110,17 +96,17 @@ void CpuBaker::bake(std::span<const shared::BakePoint> points, std::span<SparseT
         Workspace& own = workspaces.local();
         auto result = std::make_shared<TaskResult>();
         result->points.resize(task.size());
-        StageClock clock;
+        Stopwatch clock;
         for (size_t i = 0; i < task.size(); i++) {
             CpuBakeTimes& times = result->times;
             times.rays += mVisibility.trace(task[i].origin, task[i].normal, own.bits);
-            times.visibility += clock.lap();
+            times.visibility += clock.restart();
             mTransport.evaluate(tangentFrame(task[i].normal, task[i].tangent), own.bits, own.coefficients);
-            times.transport += clock.lap();
+            times.transport += clock.restart();
             mTransport.transform(own.coefficients);
-            times.haar += clock.lap();
+            times.haar += clock.restart();
             own.packer.pack(own.coefficients, result->points[i]);
-            times.pack += clock.lap();
+            times.pack += clock.restart();
         }
         return result;
     };

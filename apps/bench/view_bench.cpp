@@ -1,6 +1,6 @@
 #include "apps/bench/view_bench.h"
 
-#include "apps/bench/milliseconds.h"
+#include "apps/bench/timing.h"
 #include "engine/base/progress.h"
 #include "engine/math/vector.h"
 #include "engine/render/light_pass.h"

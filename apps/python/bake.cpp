@@ -3,8 +3,8 @@
 #include "apps/python/module.h"
 #include "engine/import/asset_info.h"
 #include "engine/render/appearance.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/bake/bake_plan.h"
-#include "precompute/bake/bake_preset.h"
 
 #include <fmt/format.h>
 
@@ -161,7 +161,7 @@ py::array_t<float> coefficientsOfRows(const Asset& asset, size_t part, const std
     values.reserve(rows.size() * count);
     for (const size_t row : rows) {
         if (row >= all) throw py::index_error(fmt::format("row {}: the part has {} rows", row, all));
-        const std::vector<vec3> own = coefficientsOf(transport, row, count);
+        const std::vector<vec3> own = dequantizedRow(transport, row, count);
         values.insert(values.end(), own.begin(), own.end());
     }
     return arrayOf(std::move(values), {py::ssize_t(rows.size()), py::ssize_t(count)});
@@ -185,13 +185,7 @@ void addBake(py::module_& module) {
                                    return names;
                                })
         .def_property_readonly("materials", materialNames)
-        .def_property_readonly("vertices",
-                               [](const Asset& asset) {
-                                   size_t vertices = 0;
-                                   for (const AssetPart& part : asset.parts)
-                                       vertices += part.mesh.vertexCount();
-                                   return vertices;
-                               })
+        .def_property_readonly("vertices", vertexCount)
         .def("info",
              [](const Asset& asset) {
                  std::string text;

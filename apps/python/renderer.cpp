@@ -2,7 +2,6 @@
 #include "apps/python/module.h"
 #include "engine/base/error.h"
 #include "engine/import/image_file.h"
-#include "engine/render/auto_exposure.h"
 #include "engine/render/background_pass.h"
 #include "engine/render/compare.h"
 #include "engine/render/tone_map.h"

@@ -83,7 +83,7 @@ Scene SceneBuilder::build(bool isRefined) const {
         options.tessellation = *ground->tessellation;
     else if (isRefined) {
         options.tessellation = kRefinedGroundQuads;
-        options.isStart = true;
+        options.isRefinable = true;
     }
     addGround(whole, options, ground->material);
     return whole;

@@ -1,6 +1,6 @@
 // Bindings of references, errors and advice.
 #include "apps/python/module.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/error/advice.h"
 #include "precompute/error/heat_maps.h"
 #include "precompute/error/study_json.h"

@@ -5,7 +5,7 @@
 #include "apps/relume/studied_light.h"
 #include "engine/base/error.h"
 #include "engine/base/progress.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/error/advice.h"
 #include "precompute/error/study_json.h"
 

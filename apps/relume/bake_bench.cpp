@@ -1,6 +1,7 @@
 #include "apps/relume/bake_bench.h"
 
 #include "apps/bench/cpu_baker.h"
+#include "engine/base/stopwatch.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/bake_plan.h"
@@ -8,7 +9,6 @@
 #include "precompute/visibility/raster_visibility.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace relume {
@@ -16,12 +16,6 @@ namespace relume {
 namespace {
 
 constexpr uint64_t kRun = 64; // neighboring vertices per run
-
-int termsOf(const AssetPart& part) {
-    int terms = 0;
-    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
-    return terms;
-}
 
 // Returns indices of about `wanted` of `count` vertices, in runs.
 std::vector<uint64_t> sampleIndices(uint64_t count, uint64_t wanted) {
@@ -41,10 +35,10 @@ std::vector<uint64_t> sampleIndices(uint64_t count, uint64_t wanted) {
 template <typename BakePart>
 SampleRun timeRun(const BakeSample& sample, const BakePart& bakePart) {
     SampleRun run;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     for (size_t part = 0; part < sample.points.size(); part++)
         run.rows.push_back(bakePart(part, std::span(sample.points[part])));
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    run.seconds = watch.seconds();
     return run;
 }
 
@@ -69,7 +63,7 @@ uint64_t BakeSample::sampled() const {
 double BakeSample::termsPerVertex() const {
     double terms = 0;
     for (size_t part = 0; part < points.size(); part++)
-        terms += double(points[part].size()) * termsOf(asset.parts[part]);
+        terms += double(points[part].size()) * termCount(asset.parts[part]);
     return terms / double(sampled());
 }
 
@@ -180,12 +174,6 @@ void addStages(const Parts& parts, double sign, vk::PassTimes& stages) {
         for (const auto& [name, seconds] : part.passes->times()) vk::addTime(stages, name, sign * seconds);
 }
 
-static std::vector<BakedRows> emptyRows(const AssetPart& part) {
-    std::vector<BakedRows> rows;
-    for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
-    return rows;
-}
-
 static std::vector<SparseTransport> transportsOf(std::vector<BakedRows> baked) {
     std::vector<SparseTransport> rows;
     for (BakedRows& set : baked) rows.push_back(std::move(set.transport));
@@ -196,7 +184,7 @@ SampleRun DevicePath::run() {
     vk::PassTimes before;
     addStages(mParts, -1, before);
     SampleRun run = timeRun(mSample, [&](size_t part, auto points) {
-        std::vector<BakedRows> baked = emptyRows(mSample.asset.parts[part]);
+        std::vector<BakedRows> baked = emptyBakedRows(mSample.asset.parts[part]);
         mParts[part].passes->bake(points, baked);
         return transportsOf(std::move(baked));
     });
@@ -222,7 +210,7 @@ RebakePath::RebakePath(const vk::Device& device, const BakeSample& sample, const
         PartPasses finder(device, sample.asset, part, mOptions);
         for (std::span<const shared::BakePoint> rest = sample.points[number]; !rest.empty();) {
             const auto block = rest.first(std::min<size_t>(kRun, rest.size()));
-            std::vector<BakedRows> rows = emptyRows(part);
+            std::vector<BakedRows> rows = emptyBakedRows(part);
             std::vector<uint32_t> bits;
             finder.bake(block, rows, {}, &bits);
             made.blocks.push_back(storeChunk(kVisibility, uint32_t(number), uint32_t(made.blocks.size()),
@@ -241,14 +229,14 @@ SampleRun RebakePath::run() {
     addStages(mParts, -1, before);
     double decoding = 0;
     SampleRun run = timeRun(mSample, [&](size_t part, auto points) {
-        std::vector<BakedRows> baked = emptyRows(mSample.asset.parts[part]);
+        std::vector<BakedRows> baked = emptyBakedRows(mSample.asset.parts[part]);
         for (const StoredChunk& stored : mParts[part].blocks) {
             const auto block = points.first(std::min<size_t>(kRun, points.size()));
-            const auto start = std::chrono::steady_clock::now();
+            const Stopwatch watch;
             const std::vector<uint32_t> bits =
                 decodeVisibility(unpackChunk(stored.entry, stored.bytes, "sample"), block.size(),
                                  uint32_t(mOptions.visibilitySize), "sample");
-            decoding += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            decoding += watch.seconds();
             mParts[part].passes->bake(block, baked, bits);
             points = points.subspan(block.size());
         }
@@ -280,6 +268,36 @@ uint64_t countDrawnTriangles(const vk::Device& device, const BakeSample& sample,
             triangles += visibility.drawnTriangles(device, uint32_t(count));
         }
     return triangles;
+}
+
+BakeTraffic::BakeTraffic(const BakeSample& sample, const BakeOptions& options, double raysPerVertex,
+                         double trianglesPerVertex)
+    : mRays(raysPerVertex), mTriangles(trianglesPerVertex),
+      mTexels(6.0 * options.visibilitySize * options.visibilitySize),
+      mCoefficients(sample.termsPerVertex() * 6 * options.faceSize * options.faceSize),
+      mKept(sample.termsPerVertex() * options.coefficients) {}
+
+std::optional<double> BakeTraffic::cpu(const std::string& stage) const {
+    constexpr double kDirection = 12, kCoefficient = 12, kEntry = 6;
+    if (stage == "visibility") return mRays * kDirection + mTexels / 8;
+    if (stage == "transport") return mTexels / 8 + mCoefficients * kCoefficient;
+    if (stage == "haar") return 2 * mCoefficients * kCoefficient;
+    if (stage == "select and pack") return mKept * (kCoefficient + kEntry);
+    return std::nullopt;
+}
+
+std::optional<double> BakeTraffic::device(const std::string& stage) const {
+    constexpr double kTriangleIndices = 12, kCoefficient = 12, kIndex = 4, kValue = 4;
+    const double blocks = mCoefficients / 15, summaries = blocks * 8, slots = blocks * 16 * kCoefficient;
+    if (stage == "visibility draw") return mTexels + mTriangles * kTriangleIndices; // one byte per texel
+    if (stage == "visibility pack") return 3 * mTexels + mTexels / 8;               // copied, then packed
+    if (stage == "visibility trace") return mTexels / 8;
+    if (stage == "transport")
+        return mTexels / 8 + slots + blocks * kCoefficient + summaries; // averages twice
+    if (stage == "select") return summaries + mKept * (kCoefficient + kIndex);
+    if (stage == "quantize") return mKept * (kIndex + kCoefficient + kValue);
+    if (stage == "compact") return mKept * 2 * (kIndex + kValue);
+    return std::nullopt;
 }
 
 } // namespace relume

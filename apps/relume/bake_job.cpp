@@ -41,9 +41,7 @@ void BakeJob::add(CLI::App& command) {
 
 void BakeJob::prepare() {
     if (mThreads > 0) mThreadLimit.emplace(mThreads);
-    if (output.extension() != ".relume")
-        throw UsageError(
-            fmt::format("--output: expected a name ending in .relume, found \"{}\"", output.string()));
+    expectExtension("--output", output, ".relume");
     expectWritable(output);
     if (!mTimings.empty()) expectWritable(mTimings);
 }

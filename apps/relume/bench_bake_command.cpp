@@ -1,7 +1,6 @@
 #include "apps/bench/cpu_baker.h"
-#include "apps/bench/median.h"
+#include "apps/bench/timing.h"
 #include "apps/relume/bake_bench.h"
-#include "apps/relume/bake_traffic.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/copy_bandwidth.h"
 #include "apps/relume/options.h"
@@ -49,13 +48,6 @@ struct PathSeries {
     }
 };
 
-// Returns the median ratio of two paths' times in the same rounds.
-double medianRatio(const PathSeries& path, const PathSeries& other) {
-    std::vector<double> ratios;
-    for (size_t i = 0; i < path.seconds.size(); i++) ratios.push_back(path.seconds[i] / other.seconds[i]);
-    return median(ratios);
-}
-
 using StageBytes = std::function<std::optional<double>(const std::string& stage)>;
 
 Json describe(const PathSeries& path, const PathSeries& cpu, double vertices, const StageBytes& bytes,
@@ -70,7 +62,7 @@ Json describe(const PathSeries& path, const PathSeries& cpu, double vertices, co
         }
     }
     return {{"ms_per_vertex", 1e3 * median(path.seconds) / vertices},
-            {"ratio_to_cpu", medianRatio(path, cpu)},
+            {"ratio_to_cpu", medianRatio(path.seconds, cpu.seconds)},
             {"difference_to_cpu", path.difference},
             {"stages", stages}};
 }
@@ -86,12 +78,10 @@ Json describeScene(const std::string& input, const BakeSample& sample) {
     auto parts = Json::array();
     for (size_t i = 0; i < sample.points.size(); i++) {
         const AssetPart& part = sample.asset.parts[i];
-        int terms = 0;
-        for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
         parts.push_back({{"name", part.name},
                          {"vertices", part.mesh.vertexCount()},
                          {"sampled", sample.points[i].size()},
-                         {"terms", terms}});
+                         {"terms", termCount(part)}});
     }
     return {{"input", input},
             {"vertices", sample.vertices()},
@@ -197,7 +187,8 @@ void run(Arguments& arguments) {
             entry["triangles_per_second"] = triangles / visibilitySeconds(own, "visibility draw");
         } else if (name == kRebake) {
             const auto traced = series.find(std::string(visibilityMethodName(VisibilityMethod::Traced)));
-            if (traced != series.end()) entry["ratio_to_traced"] = medianRatio(own, traced->second);
+            if (traced != series.end())
+                entry["ratio_to_traced"] = medianRatio(own.seconds, traced->second.seconds);
         } else {
             entry["rays_per_vertex"] = rays / vertices;
             entry["rays_per_second"] = rays / seconds;

@@ -1,5 +1,4 @@
-#include "apps/bench/median.h"
-#include "apps/bench/milliseconds.h"
+#include "apps/bench/timing.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "apps/relume/scene_arguments.h"

@@ -1,4 +1,4 @@
-#include "apps/bench/median.h"
+#include "apps/bench/timing.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/copy_bandwidth.h"
 #include "apps/relume/options.h"
@@ -30,12 +30,6 @@ struct Arguments {
     bool json = false;
 };
 
-// Returns the median ratio of two series' times in the same rounds.
-double medianRatio(std::vector<double> values, const std::vector<double>& divisors) {
-    for (size_t i = 0; i < values.size(); i++) values[i] /= divisors[i];
-    return median(values);
-}
-
 RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
     RelightBenchInput input{&source, {}};
     for (size_t i = 0; i < kLayoutFacts.size(); i++) {
@@ -47,8 +41,8 @@ RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
         std::optional<int> coefficients;
         if (!isCompressed(layout)) coefficients = arguments.coefficients;
         Asset asset = source;
-        Progress progress(fmt::format("converting to {}", layoutName(layout)), verticesOf(source), "vertices",
-                          arguments.json);
+        Progress progress(fmt::format("converting to {}", layoutName(layout)), vertexCount(source),
+                          "vertices", arguments.json);
         convertLayout(
             asset, options, [&](uint64_t done, uint64_t) { progress.update(done); }, coefficients);
         input.variants.emplace_back(layoutName(layout), std::move(asset));
@@ -66,7 +60,7 @@ Json describe(const Asset& asset, const LayoutSeries& own, const RelightSeries& 
     return {{"ms", ms},
             {"fps", 1e3 / ms},
             {"cpu_ms", median(own.cpuMs)},
-            {"bytes_per_vertex", double(bytes) / double(verticesOf(asset))},
+            {"bytes_per_vertex", double(bytes) / double(vertexCount(asset))},
             {"bytes_touched", touched},
             {"floor_ms", floorMs},
             {"share_of_floor", floorMs / ms},
@@ -123,7 +117,7 @@ void run(const Arguments& arguments) {
     const Json result = {{"device", device->info().name},
                          {"driver", device->info().driver},
                          {"threads", tbb::info::default_concurrency()},
-                         {"vertices", verticesOf(source)},
+                         {"vertices", vertexCount(source)},
                          {"repeats", arguments.repeats},
                          {"source_coefficients", source.coefficients},
                          {"light_coefficients", median(series.lightCoefficients)},

@@ -1,4 +1,4 @@
-#include "apps/bench/median.h"
+#include "apps/bench/timing.h"
 #include "apps/bench/view_bench.h"
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"

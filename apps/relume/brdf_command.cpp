@@ -29,8 +29,7 @@ struct Arguments {
 
 void checkOutput(const std::filesystem::path& maps) {
     if (maps.empty()) return;
-    if (maps.extension() != ".png")
-        throw UsageError(fmt::format("--maps: expected a name ending in .png, found \"{}\"", maps.string()));
+    expectExtension("--maps", maps, ".png");
     expectWritable(maps);
 }
 

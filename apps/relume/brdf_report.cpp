@@ -1,19 +1,15 @@
 #include "apps/relume/brdf_report.h"
 
+#include "engine/base/stopwatch.h"
 #include "precompute/brdf/factorization_error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 
 namespace relume {
 
 namespace {
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::vector<float> eigenvaluesOf(const FactoredBrdf& factored, size_t channel) {
     std::vector<float> values;
@@ -37,12 +33,11 @@ std::string stemOf(const std::string& file) { return std::filesystem::path(file)
 BrdfReport reportOn(const Brdf& brdf, int size, DiskMapping mapping, const FactorizationOptions& options,
                     const std::vector<NamedLight>& lights) {
     BrdfReport report{.material = brdf.describe(), .method = options.method};
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     const BrdfTable table = tabulate(brdf, size, mapping, texelValueOf(options.method));
-    report.tabulationSeconds = secondsSince(start);
-    const auto tabulated = std::chrono::steady_clock::now();
+    report.tabulationSeconds = watch.restart();
     report.factored = factorize(table, options);
-    report.factorizationSeconds = secondsSince(tabulated);
+    report.factorizationSeconds = watch.seconds();
     report.directions = int(table.directions.size());
 
     report.frobenius = {"frobenius_residual", frobeniusResiduals(table, report.factored)};

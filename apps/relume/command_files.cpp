@@ -19,6 +19,12 @@ std::filesystem::path placeOf(const std::filesystem::path& file) {
 
 } // namespace
 
+void expectExtension(const char* option, const std::filesystem::path& file, std::string_view extension) {
+    if (file.extension() != extension)
+        throw UsageError(
+            fmt::format("{}: expected a name ending in {}, found \"{}\"", option, extension, file.string()));
+}
+
 void CommandFiles::addInput(const std::filesystem::path& file) {
     if (!file.empty()) mInputs.insert(placeOf(file));
 }

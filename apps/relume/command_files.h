@@ -1,14 +1,18 @@
 // The inputs and outputs of a command, and the check that no input is overwritten.
 #pragma once
 
-#include "engine/base/read_files.h"
+#include "engine/base/file.h"
 
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace relume {
+
+// Throws UsageError, in which `option` names the file, unless its name ends in `extension` (".png").
+void expectExtension(const char* option, const std::filesystem::path& file, std::string_view extension);
 
 // Checks the files of a command before it writes: no output may be an input or another output under any name.
 // Inputs are those that are added, and every file that the process reads after construction. Symbolic links

@@ -36,9 +36,7 @@ LayoutOptions optionsOf(const Arguments& arguments) {
 }
 
 void checkOutput(const Arguments& arguments) {
-    if (arguments.output.extension() != ".relume")
-        throw UsageError(fmt::format("--output: expected a name ending in .relume, found \"{}\"",
-                                     arguments.output.string()));
+    expectExtension("--output", arguments.output, ".relume");
     CommandFiles files;
     files.addInput(arguments.input);
     files.addOutput("--output", arguments.output);
@@ -85,7 +83,7 @@ void run(const Arguments& arguments) {
         const Conversion conversion = convert(asset, options, arguments);
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
         writeAsset(arguments.output, asset);
-        const double vertices = double(std::max<uint64_t>(1, verticesOf(asset)));
+        const double vertices = double(std::max<uint64_t>(1, vertexCount(asset)));
         const auto error =
             conversion.error ? fmt::format(", error {:.2f} %", 100 * *conversion.error) : std::string();
         spdlog::info("{}: {:.1f} MB; transport in {}: {:.0f} bytes a vertex in memory, {:.0f} before{}",

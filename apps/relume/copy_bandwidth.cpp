@@ -1,9 +1,9 @@
 #include "apps/relume/copy_bandwidth.h"
 
+#include "engine/base/stopwatch.h"
 #include "engine/vk/commands.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <memory>
 #include <thread>
@@ -20,10 +20,9 @@ double bestBandwidth(const Copy& copy) {
     copy(); // touches pages and compiles code
     double best = 0;
     for (int i = 0; i < kCopies; i++) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         copy();
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        best = std::max(best, double(2 * kBytes) / elapsed.count());
+        best = std::max(best, double(2 * kBytes) / watch.seconds());
     }
     return best;
 }

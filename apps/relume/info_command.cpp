@@ -3,7 +3,7 @@
 #include "engine/import/asset_info.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/kept_visibility.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/bake/baked_options.h"
 
 #include <algorithm>

@@ -25,9 +25,7 @@ struct Arguments {
 };
 
 void checkOutput(const Arguments& arguments) {
-    if (arguments.output.extension() != ".relume")
-        throw UsageError(fmt::format("--output: expected a name ending in .relume, found \"{}\"",
-                                     arguments.output.string()));
+    expectExtension("--output", arguments.output, ".relume");
     CommandFiles files;
     for (const std::filesystem::path& part : arguments.parts) files.addInput(part);
     files.addOutput("--output", arguments.output);

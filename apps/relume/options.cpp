@@ -5,7 +5,7 @@
 #include "engine/base/file.h"
 #include "engine/import/image_file.h"
 #include "engine/import/light_file.h"
-#include "engine/render/auto_exposure.h"
+#include "engine/render/tone_map.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "apps/relume/relight_bench.h"
 
-#include "apps/bench/milliseconds.h"
+#include "apps/bench/timing.h"
 #include "apps/relume/csr_relighter.h"
 #include "apps/relume/options.h"
 #include "engine/base/progress.h"

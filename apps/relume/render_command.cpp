@@ -11,7 +11,7 @@
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "engine/vk/timing_capture.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -73,7 +73,7 @@ Scene SceneArguments::load(bool isRefined) const {
     GroundOptions groundOptions = mGroundOptions;
     if (isRefined && mTessellationOption->count() == 0) {
         groundOptions.tessellation = kRefinedGroundQuads;
-        groundOptions.isStart = true;
+        groundOptions.isRefinable = true;
     }
     const bool isScene = input.ends_with(".json");
     for (const CLI::Option* option : {mMaterialOption, mUpOption, mBrushOption})
@@ -236,12 +236,6 @@ Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions&
                        BakeTimes& times) {
     BakeReport report(quiet ? ReportStyle::Quiet : ReportStyle::Text, false);
     return bake(device, std::move(scene), options, report, &times);
-}
-
-uint64_t vertexCount(const Asset& asset) {
-    uint64_t vertices = 0;
-    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
-    return vertices;
 }
 
 nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices) {

@@ -3,10 +3,10 @@
 
 #include "apps/relume/factorization_arguments.h"
 #include "apps/relume/layout_arguments.h"
-#include "engine/import/ground.h"
+#include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
 #include "precompute/bake/bake.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -76,7 +76,5 @@ Asset bakeWithProgress(const vk::Device& device, Scene scene, const BakeOptions&
 
 // {"ms_per_vertex", "seconds", "vertices", "stages": {name: {"ms_per_vertex", "share"}}}
 nlohmann::json describeTimes(const BakeTimes& times, uint64_t vertices);
-
-uint64_t vertexCount(const Asset& asset);
 
 } // namespace relume

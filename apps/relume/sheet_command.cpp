@@ -4,10 +4,10 @@
 #include "engine/base/file.h"
 #include "engine/base/progress.h"
 #include "engine/import/image_file.h"
-#include "engine/render/auto_exposure.h"
 #include "engine/render/background_pass.h"
 #include "engine/render/ground_fade.h"
 #include "engine/render/relighter.h"
+#include "engine/render/tone_map.h"
 #include "engine/render/view_pass.h"
 
 #include <fmt/format.h>

@@ -24,9 +24,7 @@ struct Arguments {
 
 void run(const Arguments& arguments) {
     if (!arguments.visibilityImage.empty()) {
-        if (arguments.visibilityImage.extension() != ".png")
-            throw UsageError(fmt::format("--visibility-image: expected a name ending in .png, found \"{}\"",
-                                         arguments.visibilityImage.string()));
+        expectExtension("--visibility-image", arguments.visibilityImage, ".png");
         expectWritable(arguments.visibilityImage);
     }
     CommandFiles files;

@@ -159,7 +159,7 @@ Command Controls::takeKey(const InputEvent& event, SceneState& state) {
         state.showsLight = !state.showsLight;
         return Command::None;
     case GLFW_KEY_W:
-        return Command::Why;
+        return Command::ExplainVertex;
     case GLFW_KEY_F5:
         return Command::ReloadShaders;
     case GLFW_KEY_F9:

@@ -11,9 +11,9 @@ namespace relume {
 // Requests by controls other than changes of state.
 enum class Command {
     None,
-    Focus, // the point under the cursor
-    Why,   // explain the vertex under the cursor
-    Pick,  // the part under the cursor
+    Focus,         // the point under the cursor
+    ExplainVertex, // under the cursor
+    Pick,          // the part under the cursor
     Undo,
     Redo,
     Screenshot,

@@ -1,17 +1,24 @@
 #include "apps/viewer/frames.h"
 
-#include "apps/viewer/memory_use.h"
 #include "apps/viewer/overlay.h"
+#include "engine/base/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <fstream>
+#include <unistd.h>
 
 namespace relume {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// Returns the bytes of main memory in use (with software devices, including what is "on the device"), or 0 if
+// the system does not tell.
+uint64_t memoryInUse() {
+    std::ifstream file("/proc/self/statm");
+    uint64_t whole = 0, resident = 0;
+    return file >> whole >> resident ? resident * uint64_t(sysconf(_SC_PAGESIZE)) : 0;
+}
 
 constexpr float kTurntableDegrees = 20; // a second
 constexpr double kLongestStep = 0.25;   // seconds that a frame moves things by, however long it took
@@ -84,7 +91,7 @@ bool Frames::prepareSwapchain() {
 }
 
 std::optional<PanelRequests> Frames::draw(double seconds, bool mustWrite) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     if (!prepareSwapchain()) return std::nullopt;
     const vk::FrameSpan frame(mOutputs.capture());
     const std::optional<uint32_t> image = mSwapchain.acquire();
@@ -105,7 +112,7 @@ std::optional<PanelRequests> Frames::draw(double seconds, bool mustWrite) {
     if (mShown.view.image()) mPictures.update(state, mShown.content.shown(), mShown.view);
     if (isRead) save(mustWrite);
     if (!mSwapchain.present(*image)) mNeedsSwapchain = true;
-    mTimes.add(std::chrono::duration<double>(Clock::now() - start).count(), mCommands.times());
+    mTimes.add(watch.seconds(), mCommands.times());
     mWanted = std::max(0, mWanted - 1);
     // One frame draws all samples; a second one notices that the view is still.
     if (!state.turns && !state.light.plays && mShown.view.isDraft(state)) want(2);

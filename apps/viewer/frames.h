@@ -6,11 +6,23 @@
 #include "apps/viewer/notice.h"
 #include "apps/viewer/outputs.h"
 #include "apps/viewer/panel_pictures.h"
-#include "apps/viewer/surface.h"
 #include "apps/viewer/ui.h"
 #include "engine/render/display_pass.h"
 
+#include <vulkan/vulkan.h>
+
 namespace relume {
+
+// The Vulkan surface of a window.
+struct Surface {
+    Surface(VkInstance owner, VkSurfaceKHR surface) : instance(owner), handle(surface) {}
+    ~Surface() { vkDestroySurfaceKHR(instance, handle, nullptr); }
+    Surface(const Surface&) = delete;
+    Surface& operator=(const Surface&) = delete;
+
+    VkInstance instance;
+    VkSurfaceKHR handle;
+};
 
 class Frames {
   public:

@@ -149,11 +149,11 @@ void drawSelection(LightSelection& selection) {
 }
 
 void drawBackground(SceneState& state) {
-    constexpr const char* kBehind[] = {"Environment", "None"};
+    constexpr const char* kBackgrounds[] = {"Environment", "None"};
     int behind = int(state.background);
-    if (ImGui::Combo("Background", &behind, kBehind, 2)) state.background = Behind(behind);
+    if (ImGui::Combo("Background", &behind, kBackgrounds, 2)) state.background = BackgroundKind(behind);
     explain("What is seen behind the object; lamps light it and are not seen");
-    if (state.background == Behind::None) return;
+    if (state.background == BackgroundKind::None) return;
     slider("Blur", state.backgroundBlur, 0, 30, "%.1f deg");
     explain("The background out of focus; the light stays as it is");
     ImGui::Checkbox("Fade the ground", &state.fadesGround);

@@ -23,8 +23,8 @@ void drawSplit(ImDrawList& list, const SceneState& state, const PanelFacts& fact
     drawWords(list, {x + 0.5f * line, y}, facts.passes > 0 ? "reference" : "reference: tracing ...");
 }
 
-void drawVertex(ImDrawList& list, const Why& why, const Camera& camera, ivec2 size) {
-    const auto place = pixelOf(why.position, camera, size);
+void drawVertex(ImDrawList& list, const VertexExplanation& explanation, const Camera& camera, ivec2 size) {
+    const auto place = pixelOf(explanation.position, camera, size);
     if (!place) return;
     list.AddCircle({place->x, place->y}, 6, kShadow, 0, 4);
     list.AddCircle({place->x, place->y}, 6, kWhite, 0, 1.5f);
@@ -35,7 +35,7 @@ void drawVertex(ImDrawList& list, const Why& why, const Camera& camera, ivec2 si
 void drawOverlay(const SceneState& state, const PanelFacts& facts, const Camera& camera, ivec2 size) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     if (state.compare == Compare::Split && state.inspect == Inspect::Off) drawSplit(list, state, facts, size);
-    if (facts.why) drawVertex(list, *facts.why, camera, size);
+    if (facts.explanation) drawVertex(list, *facts.explanation, camera, size);
 }
 
 } // namespace relume

@@ -47,7 +47,7 @@ void PanelPictures::update(const SceneState& state, const std::shared_ptr<Model>
     updateThumbnails(state);
     updateSwatches(model);
     updateLight(state, *model, view);
-    updateWhy(state, model, view);
+    updateExplanation(state, model, view);
 }
 
 void PanelPictures::updateThumbnails(const SceneState& state) {
@@ -104,11 +104,11 @@ void PanelPictures::updateLight(const SceneState& state, const Model& model, con
 
 void PanelPictures::stopAsking() {
     mAsked.reset();
-    mWhy.reset();
+    mExplanation.reset();
 }
 
-void PanelPictures::updateWhy(const SceneState& state, const std::shared_ptr<Model>& model,
-                              const SceneView& view) {
+void PanelPictures::updateExplanation(const SceneState& state, const std::shared_ptr<Model>& model,
+                                      const SceneView& view) {
     if (!mAsked || mAsked->version == view.viewVersion() || !view.isStill()) return;
     const Asset& asset = model->asset;
     if (mAsked->model != model->file || mAsked->part >= asset.parts.size() ||
@@ -117,16 +117,16 @@ void PanelPictures::updateWhy(const SceneState& state, const std::shared_ptr<Mod
     mAsked->version = view.viewVersion();
     mWorker.post(
         "asking why",
-        [this, question = WhyQuestion{model, model->appearance[mAsked->part], mAsked->part, mAsked->vertex,
-                                      state.orbit->camera().eye, model->light.readCube(),
-                                      model->light.readVector()}]() -> Worker::Result {
-            auto why = std::make_shared<Why>(explain(question));
-            return [this, why] {
+        [this, question = VertexQuestion{model, model->appearance[mAsked->part], mAsked->part, mAsked->vertex,
+                                         state.orbit->camera().eye, model->light.readCube(),
+                                         model->light.readVector()}]() -> Worker::Result {
+            auto explanation = std::make_shared<VertexExplanation>(explainVertex(question));
+            return [this, explanation] {
                 if (!mAsked) return;
-                mPictures.set(mVisibility, why->visibility);
-                mPictures.set(mTransport, why->transport);
-                mPictures.set(mContributions, why->contributions);
-                mWhy = std::move(*why);
+                mPictures.set(mVisibility, explanation->visibility);
+                mPictures.set(mTransport, explanation->transport);
+                mPictures.set(mContributions, explanation->contributions);
+                mExplanation = std::move(*explanation);
                 mHasNews = true;
             };
         },
@@ -146,7 +146,7 @@ void PanelPictures::describe(PanelFacts& facts) const {
     facts.visibility = mVisibility;
     facts.transport = mTransport;
     facts.contributions = mContributions;
-    facts.why = mWhy ? &*mWhy : nullptr;
+    facts.explanation = mExplanation ? &*mExplanation : nullptr;
 }
 
 } // namespace relume

@@ -48,7 +48,8 @@ class PanelPictures {
     void updateThumbnails(const SceneState& state);
     void updateSwatches(const std::shared_ptr<Model>& model);
     void updateLight(const SceneState& state, const Model& model, const SceneView& view);
-    void updateWhy(const SceneState& state, const std::shared_ptr<Model>& model, const SceneView& view);
+    void updateExplanation(const SceneState& state, const std::shared_ptr<Model>& model,
+                           const SceneView& view);
 
     Pictures& mPictures;
     std::vector<std::optional<Picture>> mEnvironments; // none: not made yet
@@ -59,7 +60,7 @@ class PanelPictures {
     ShownLight mShownLight;
     std::chrono::steady_clock::time_point mLightTime;
     std::optional<Asked> mAsked;
-    std::optional<Why> mWhy;
+    std::optional<VertexExplanation> mExplanation;
     bool mHasNews = false;
     Worker mWorker; // last: its work uses all of the above
 };

@@ -99,7 +99,7 @@ PanelRequests drawPanels(SceneState& state, const PanelFacts& facts) {
         drawMain(state, facts, requests);
         drawTimesWindow(facts, requests);
         if (state.showsLight) drawLightVectorWindow(state, facts);
-        if (facts.why) drawWhyWindow(state, facts);
+        if (facts.explanation) drawExplanationWindow(state, facts);
         drawStatus(facts, requests);
     }
     if (state.showsHelp) drawHelp(state);

@@ -5,7 +5,7 @@
 #include "apps/viewer/frame_times.h"
 #include "apps/viewer/pictures.h"
 #include "apps/viewer/scene_state.h"
-#include "apps/viewer/why.h"
+#include "apps/viewer/vertex_explanation.h"
 #include "precompute/reference/progressive_reference.h"
 
 namespace relume {
@@ -31,8 +31,8 @@ struct PanelFacts {
     uint64_t memory = 0;                 // that the program uses, in bytes
     int passes = 0;                      // of the reference
     std::optional<ReferenceError> error; // of the relit image
-    const Why* why = nullptr;
-    Picture visibility, transport, contributions; // pictures of `why`
+    const VertexExplanation* explanation = nullptr;
+    Picture visibility, transport, contributions; // pictures of `explanation`
     bool isCapturing = false, isRecording = false;
     std::string notice; // the latest message
     bool isFailure = false;
@@ -58,6 +58,6 @@ void drawViewPanel(SceneState& state, const PanelFacts& facts, PanelRequests& re
 void drawTrustPanel(SceneState& state, const PanelFacts& facts);
 void drawTimesWindow(const PanelFacts& facts, PanelRequests& requests);
 void drawLightVectorWindow(SceneState& state, const PanelFacts& facts);
-void drawWhyWindow(SceneState& state, const PanelFacts& facts);
+void drawExplanationWindow(SceneState& state, const PanelFacts& facts);
 
 } // namespace relume

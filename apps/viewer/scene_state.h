@@ -13,7 +13,7 @@ namespace relume {
 enum class Compare { Off, Split, Reference, Difference };
 
 // The background of the view: the light, or the window's own color.
-enum class Behind { Environment, None };
+enum class BackgroundKind { Environment, None };
 
 // The brush that paints on the environment. Angles are in degrees.
 struct Brush {
@@ -38,7 +38,7 @@ struct SceneState {
     // Automatic exposure: chosen for the object when model, environment or light file change, and when
     // `wantsExposure`.
     bool exposesItself = true, wantsExposure = true;
-    Behind background = Behind::Environment;
+    BackgroundKind background = BackgroundKind::Environment;
     float backgroundBlur = 0; // degrees
     bool fadesGround = true;  // if there is a background
     Inspect inspect = Inspect::Off;
@@ -46,8 +46,8 @@ struct SceneState {
     float split = 0.5f;      // share of the window's width: relit image to its left, reference to its right
     bool turns = false;      // turntable
     bool showsLight = false; // the light vector's panel
-    bool showsWhy = false;   // the probed vertex' panel
-    bool waitsForDisplay = true; // vertical synchronization
+    bool showsExplanation = false; // the panel of the explained vertex
+    bool waitsForDisplay = true;   // vertical synchronization
     bool showsPanels = true, showsHelp = false, isDark = true;
     // Unfolded sections of the main panel.
     bool opensModel = false, opensLight = true, opensMaterial = true, opensView = false, opensTrust = true;

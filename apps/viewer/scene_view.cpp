@@ -1,7 +1,7 @@
 #include "apps/viewer/scene_view.h"
 
 #include "engine/base/error.h"
-#include "engine/render/auto_exposure.h"
+#include "engine/render/tone_map.h"
 #include "engine/vk/upload.h"
 
 #include <algorithm>
@@ -171,15 +171,16 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
 
 bool SceneView::fadesGround(const SceneState& state) const {
     // The reference shows all of the ground.
-    return mModel && mModel->groundFade && state.fadesGround && state.background != Behind::None &&
+    return mModel && mModel->groundFade && state.fadesGround && state.background != BackgroundKind::None &&
            state.inspect == Inspect::Off && !compares(state);
 }
 
 void SceneView::recordBackground(vk::Commands& commands, const SceneState& state) {
-    if (state.background == Behind::None || isFalseColor(state)) return;
-    if (!mBehind || mBehind->first != mLightVersion || mBehind->second != state.backgroundBlur) {
+    if (state.background == BackgroundKind::None || isFalseColor(state)) return;
+    if (!mBackgroundInput || mBackgroundInput->first != mLightVersion ||
+        mBackgroundInput->second != state.backgroundBlur) {
         mBackgroundPass->setLight(mLight, glm::radians(state.backgroundBlur));
-        mBehind.emplace(mLightVersion, state.backgroundBlur);
+        mBackgroundInput.emplace(mLightVersion, state.backgroundBlur);
     }
     mBackgroundPass->record(commands, *mImage, mSeen->camera, glm::radians(mLit->rotation));
     mImage = &mBackgroundPass->image();

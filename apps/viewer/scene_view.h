@@ -34,7 +34,7 @@ class SceneView {
     void remakePrograms() {
         mComparePass.emplace(mDevice);
         mBackgroundPass.emplace(mDevice);
-        mBehind.reset();
+        mBackgroundInput.reset();
         mImage = nullptr;
     }
 
@@ -92,8 +92,8 @@ class SceneView {
     Comparison mComparison;
     std::optional<ComparePass> mComparePass;
     std::optional<BackgroundPass> mBackgroundPass;
-    Light mLight;                                      // for which the tuples were computed, not rotated
-    std::optional<std::pair<uint64_t, float>> mBehind; // light version and blur that the pass has
+    Light mLight; // for which the tuples were computed, not rotated
+    std::optional<std::pair<uint64_t, float>> mBackgroundInput; // light version and blur that the pass has
     std::optional<Exposed> mExposed;
     std::shared_ptr<Model> mModel;
     std::vector<WeightedMaterial> mBound;

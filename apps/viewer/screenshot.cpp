@@ -65,7 +65,7 @@ nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, 
         if (fadesGround) options["ground-fade"] = true;
         return options;
     }
-    const bool isSeen = state.background == Behind::Environment; // default of .png
+    const bool isSeen = state.background == BackgroundKind::Environment; // default of .png
     options["exposure"] = shortest(state.exposure);
     options["tone"] = kToneNames[size_t(state.tone)];
     if (!isSeen) options["background"] = "none";

@@ -131,7 +131,7 @@ Session readSession(const std::filesystem::path& file, const SceneState& state) 
     set.exposesItself = set.wantsExposure = !object.find("exposure");
     set.tone =
         choiceOf(object, "tone", ToneCurve::Agx, {"none", "aces", "agx"}, "\"none\", \"aces\" or \"agx\"");
-    set.background = choiceOf(object, "background", Behind::Environment, {"environment", "none"},
+    set.background = choiceOf(object, "background", BackgroundKind::Environment, {"environment", "none"},
                               "\"environment\" or \"none\"");
     set.backgroundBlur = object.number("background-blur", 0, 0, 90);
     set.fadesGround = object.flag("ground-fade", true);

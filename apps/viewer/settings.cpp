@@ -34,7 +34,7 @@ struct Setting {
     std::function<json(const SceneState&)> get = nullptr; // null: not saved
 };
 
-constexpr bool kKept = true;
+constexpr bool kRemembered = true;
 
 // Returns a member of the state, or of its light.
 template <typename State, typename Owner, typename Value>
@@ -229,27 +229,27 @@ const std::vector<Setting>& settings() {
         number("gain", &LightState::environmentGain, 0, 1e6f),
         number("seconds", &LightState::seconds, 0, 1e6f),
         {"exposure", setExposure, exposureOf},
-        choice("background", &SceneState::background, {"environment", "none"}, kKept),
-        number("background-blur", &SceneState::backgroundBlur, 0, 90, kKept),
-        flag("ground-fade", &SceneState::fadesGround, kKept),
+        choice("background", &SceneState::background, {"environment", "none"}, kRemembered),
+        number("background-blur", &SceneState::backgroundBlur, 0, 90, kRemembered),
+        flag("ground-fade", &SceneState::fadesGround, kRemembered),
         number("terms", &SceneState::terms, 0, 1024),
         number("split", &SceneState::split, 0, 1),
-        choice("tone", &SceneState::tone, {"none", "aces", "agx"}, kKept),
+        choice("tone", &SceneState::tone, {"none", "aces", "agx"}, kRemembered),
         choice("compare", &SceneState::compare, {"off", "split", "reference", "difference"}),
         choice("inspect", &SceneState::inspect, {"off", "wireframe", "normals", "density"}),
         flag("residual", &SceneState::addsResidual),
         flag("play", &LightState::plays),
         flag("turntable", &SceneState::turns),
         flag("light-vector", &SceneState::showsLight),
-        flag("panels", &SceneState::showsPanels, kKept),
-        flag("model-panel", &SceneState::opensModel, kKept),
-        flag("light-panel", &SceneState::opensLight, kKept),
-        flag("material-panel", &SceneState::opensMaterial, kKept),
-        flag("view-panel", &SceneState::opensView, kKept),
-        flag("trust-panel", &SceneState::opensTrust, kKept),
+        flag("panels", &SceneState::showsPanels, kRemembered),
+        flag("model-panel", &SceneState::opensModel, kRemembered),
+        flag("light-panel", &SceneState::opensLight, kRemembered),
+        flag("material-panel", &SceneState::opensMaterial, kRemembered),
+        flag("view-panel", &SceneState::opensView, kRemembered),
+        flag("trust-panel", &SceneState::opensTrust, kRemembered),
         flag("help", &SceneState::showsHelp),
-        flag("dark", &SceneState::isDark, kKept),
-        flag("vsync", &SceneState::waitsForDisplay, kKept),
+        flag("dark", &SceneState::isDark, kRemembered),
+        flag("vsync", &SceneState::waitsForDisplay, kRemembered),
         {"coefficients", setCoefficients, coefficientsOf},
         {"threshold", setThreshold},
         {"samples", setSamples, [](const SceneState& state) { return json(state.samples); }},
@@ -288,7 +288,7 @@ void applySetting(SceneState& state, const std::string& name, const json& value,
                             name, nearestName(name, names)));
 }
 
-json keptSettings(const SceneState& state) {
+json rememberedSettings(const SceneState& state) {
     json kept = json::object();
     for (const Setting& setting : settings())
         if (setting.get) kept[setting.name] = setting.get(state);

@@ -13,6 +13,6 @@ void applySetting(SceneState& state, const std::string& name, const nlohmann::js
                   const Bounds* model);
 
 // Returns, by name, the settings that are remembered between runs.
-nlohmann::json keptSettings(const SceneState& state);
+nlohmann::json rememberedSettings(const SceneState& state);
 
 } // namespace relume

@@ -72,13 +72,13 @@ void drawLightVectorWindow(SceneState& state, const PanelFacts& facts) {
     ImGui::End();
 }
 
-void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
-    const Why& why = *facts.why;
-    if (beginAtRight("Why this color?", state.showsWhy)) {
-        text(fmt::format("{}, vertex {} at {:.3f} {:.3f} {:.3f}", why.part, why.vertex, why.position.x,
-                         why.position.y, why.position.z));
+void drawExplanationWindow(SceneState& state, const PanelFacts& facts) {
+    const VertexExplanation& explanation = *facts.explanation;
+    if (beginAtRight("Why this color?", state.showsExplanation)) {
+        text(fmt::format("{}, vertex {} at {:.3f} {:.3f} {:.3f}", explanation.part, explanation.vertex,
+                         explanation.position.x, explanation.position.y, explanation.position.z));
         ImGui::BeginGroup();
-        text(fmt::format("sees: {:.0f} % open", 100 * why.openShare));
+        text(fmt::format("sees: {:.0f} % open", 100 * explanation.openShare));
         facts.pictures->draw(facts.visibility, kCrossWidth * line());
         explain("The visibility cube: white is open, dark is blocked; only what is above its horizon");
         ImGui::EndGroup();
@@ -92,12 +92,12 @@ void drawWhyWindow(SceneState& state, const PanelFacts& facts) {
         text("the light that reaches the eye from it");
         facts.pictures->draw(facts.contributions, (2 * kCrossWidth + 0.6f) * line());
         explain("The environment in gray; colored: light times what it counts for, yellow most");
-        text(fmt::format("radiance {:.4f} {:.4f} {:.4f}; its {} terms:", why.radiance.x, why.radiance.y,
-                         why.radiance.z, why.tuple.size()));
-        if (ImGui::BeginChild("terms", {0, std::min<float>(4, float(why.tuple.size())) *
+        text(fmt::format("radiance {:.4f} {:.4f} {:.4f}; its {} terms:", explanation.radiance.x,
+                         explanation.radiance.y, explanation.radiance.z, explanation.tuple.size()));
+        if (ImGui::BeginChild("terms", {0, std::min<float>(4, float(explanation.tuple.size())) *
                                                    ImGui::GetTextLineHeightWithSpacing() +
                                                line()}))
-            for (const vec3& term : why.tuple) drawDot(term);
+            for (const vec3& term : explanation.tuple) drawDot(term);
         ImGui::EndChild();
     }
     ImGui::End();

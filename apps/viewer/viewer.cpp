@@ -154,7 +154,7 @@ Viewer::~Viewer() {
     for (const EnvironmentChoice& choice : mState.light.environments)
         if (choice.kind == EnvironmentChoice::Kind::File && choice.map)
             mPreferences.environments.push_back(choice.file);
-    nlohmann::json kept = keptSettings(mState);
+    nlohmann::json kept = rememberedSettings(mState);
     if (!mOptions.waitsForDisplay) { // for this time only
         const auto before = mPreferences.settings.find("vsync");
         kept["vsync"] = before != mPreferences.settings.end() ? *before : nlohmann::json(true);
@@ -220,7 +220,7 @@ void Viewer::execute(Command command) {
         return pickPart();
     case Command::Focus:
         return focus();
-    case Command::Why:
+    case Command::ExplainVertex:
         return askWhy();
     case Command::Screenshot:
         for (const char* extension : {".png", ".exr"})
@@ -275,7 +275,7 @@ void Viewer::execute(const PanelRequests& requests) {
     if (requests.opens) open(*requests.opens);
     if (requests.shows) mContent.show(*requests.shows);
     if (requests.closes) mContent.close(*requests.closes);
-    if (!mState.showsWhy) mFrames.pictures().stopAsking();
+    if (!mState.showsExplanation) mFrames.pictures().stopAsking();
 }
 
 std::optional<RayHit> Viewer::hitUnderCursor() const {
@@ -301,7 +301,7 @@ void Viewer::askWhy() {
     if (model()->isSketch) return mNotice.tell("nothing is baked yet that could say why");
     const auto hit = hitUnderCursor();
     if (!hit) {
-        mState.showsWhy = false;
+        mState.showsExplanation = false;
         return mFrames.pictures().stopAsking();
     }
     const uvec3 corners = model()->asset.parts[hit->mesh].mesh.triangles[hit->triangle];
@@ -309,7 +309,7 @@ void Viewer::askWhy() {
     for (int c = 1; c < 3; c++)
         if (hit->weights[c] > hit->weights[nearest]) nearest = c;
     mFrames.pictures().ask(*model(), hit->mesh, corners[nearest]);
-    mState.showsWhy = true;
+    mState.showsExplanation = true;
 }
 
 // Beside the frames; what is shown stays until all of it is there.

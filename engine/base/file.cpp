@@ -1,17 +1,25 @@
 #include "engine/base/file.h"
 
+#include "engine/base/check.h"
 #include "engine/base/error.h"
-#include "engine/base/read_files.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <mutex>
 #include <sys/stat.h>
 #include <unistd.h>
 
 namespace relume {
+
+namespace {
+
+std::mutex gMutex; // guards gCollector and the paths that it collects
+ReadFiles* gCollector = nullptr;
+
+} // namespace
 
 std::vector<std::byte> readFile(const std::filesystem::path& path, size_t limit) {
     ReadFiles::add(path);
@@ -154,6 +162,27 @@ void writeFileAtomically(const std::filesystem::path& path, std::span<const std:
 
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text) {
     writeFileAtomically(path, std::as_bytes(std::span(text)));
+}
+
+ReadFiles::ReadFiles() {
+    const std::scoped_lock lock(gMutex);
+    RELUME_CHECK(!gCollector);
+    gCollector = this;
+}
+
+ReadFiles::~ReadFiles() {
+    const std::scoped_lock lock(gMutex);
+    gCollector = nullptr;
+}
+
+std::set<std::filesystem::path> ReadFiles::paths() const {
+    const std::scoped_lock lock(gMutex);
+    return mPaths;
+}
+
+void ReadFiles::add(const std::filesystem::path& path) {
+    const std::scoped_lock lock(gMutex);
+    if (gCollector) gCollector->mPaths.insert(path);
 }
 
 } // namespace relume

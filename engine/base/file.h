@@ -1,10 +1,11 @@
-// Reading of files, whole or piece by piece, and atomic writing.
+// Reading of files, whole or piece by piece, atomic writing, and a record of what was read.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,5 +68,22 @@ void expectWritable(const std::filesystem::path& path);
 // Writes to `path`, whole or not at all. Throws Error on failure.
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
+
+// A record of the files that a process reads, kept so that it does not overwrite them. Collects the names of
+// files that readFile() and FileReader open during its lifetime, on any thread. Only one may exist at a time.
+class ReadFiles {
+  public:
+    ReadFiles();
+    ~ReadFiles();
+    ReadFiles(const ReadFiles&) = delete;
+    ReadFiles& operator=(const ReadFiles&) = delete;
+
+    std::set<std::filesystem::path> paths() const;
+
+    static void add(const std::filesystem::path& path); // does nothing if there is no collector
+
+  private:
+    std::set<std::filesystem::path> mPaths;
+};
 
 } // namespace relume

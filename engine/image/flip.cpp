@@ -2,6 +2,7 @@
 #include "engine/image/flip.h"
 
 #include "engine/base/check.h"
+#include "engine/math/color.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +16,6 @@ namespace {
 constexpr float kPixelsPerDegree = 67;
 
 // --- Colors: linear RGB, XYZ relative to the white of D65, YyCxCz, Hunt-adjusted L*a*b*.
-
-float decodeSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
 // Converts linear sRGB to XYZ. Each row is divided by its sum, so that white is (1, 1, 1).
 const mat3 kRgbToXyz = [] {

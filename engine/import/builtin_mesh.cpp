@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace relume {
+
 namespace {
 
 // Adds two triangles per cell of a closed grid of `rows` × `columns` vertices in row order. Normals point
@@ -200,6 +201,16 @@ Mesh makePlane(float size, int quads, bool hasUvs) {
             mesh.triangles.push_back({a, below + 1, a + 1});
         }
     return mesh;
+}
+
+Mesh makeGround(const Bounds& object, const GroundOptions& options) {
+    const vec3 extent = object.extent();
+    const float largest = std::max({extent.x, extent.y, extent.z});
+    RELUME_CHECK(largest > 0 && options.extent > 0);
+    Mesh ground = makePlane(options.extent * largest, options.tessellation);
+    const vec3 center(object.center().x, object.low.y, object.center().z);
+    for (vec3& position : ground.positions) position += center;
+    return ground;
 }
 
 } // namespace relume

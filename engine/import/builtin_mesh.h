@@ -22,4 +22,21 @@ Mesh makeKnot(int vertices = 12000, bool hasUvs = false);
 // image's right is +X; its lower edge faces +Z.
 Mesh makePlane(float size, int quads, bool hasUvs = false);
 
+// The diffuse ground under an object: a tessellated square at the object's lowest point.
+struct GroundOptions {
+    int tessellation = 148;   // quads a side: 149² = 22,201 vertices, the paper's ground for the bunny
+    float extent = 3.0f;      // side, in multiples of the object's largest extent along an axis
+    bool isRefinable = false; // whether refinement may add vertices: the tessellation was not asked for
+};
+
+// Quads a side of a ground that will be refined, by default.
+constexpr int kRefinedGroundQuads = 16;
+
+// Limits of addGround() and scene files.
+constexpr int kMostGroundQuads = 4096;
+constexpr float kSmallestGroundExtent = 0.01f, kLargestGroundExtent = 1000.0f;
+
+// Returns a square centered under `object` in x and z, at its lowest y, normals up.
+Mesh makeGround(const Bounds& object, const GroundOptions& options = {});
+
 } // namespace relume

@@ -3,7 +3,7 @@
 // and colors that the file has.
 #pragma once
 
-#include "engine/import/input_file.h"
+#include "engine/import/scene.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/surface_detail.h"
 #include "engine/scene/texture.h"

@@ -23,9 +23,6 @@ using Json = nlohmann::ordered_json;
 constexpr uint32_t kOldVersion = 2;
 constexpr size_t kLargestDepth = 8; // of nested arrays and objects
 
-constexpr uint64_t kAnyCount = 0xffffffff;          // upper bound for vertices or triangles
-constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // upper bound for entries of transport
-
 // Reads typed members of a JSON object; errors name the object.
 class Reader {
   public:
@@ -128,7 +125,7 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
         set.materials.push_back({material.text("name"), material.text("description"),
                                  material.integer("layer", 0, kLargestLayers), material.boolean("base")});
     }
-    meta.sizes.setEntries.push_back(in.whole("entries", 0, kAnyEntries));
+    meta.sizes.setEntries.push_back(in.whole("entries", 0, kMostMetaEntries));
     meta.asset.parts.back().sets.push_back(std::move(set));
 }
 
@@ -144,8 +141,8 @@ void readPart(const Reader& in, AssetMeta& meta) {
     AssetPart& part = meta.asset.parts.emplace_back();
     AssetPartSizes sizes;
     part.name = in.text("name");
-    sizes.vertices = in.whole("vertices", 1, kAnyCount);
-    sizes.triangles = in.whole("triangles", 1, kAnyCount);
+    sizes.vertices = in.whole("vertices", 1, kMostMetaCount);
+    sizes.triangles = in.whole("triangles", 1, kMostMetaCount);
     sizes.uvs = in.boolean("uvs") ? sizes.vertices : 0;
     sizes.colors = in.boolean("colors") ? sizes.vertices : 0;
     sizes.tangents = in.has("tangents") && in.boolean("tangents") ? sizes.vertices : 0;
@@ -181,8 +178,8 @@ AssetMeta decodeOldMeta(std::string_view text, const std::string& name) {
     meta.asset.truncationError = in.real("truncationError");
     if (in.has("layout")) meta.asset.layout = readLayout(in.object("layout"));
     const Reader occluder = in.object("occluder");
-    meta.sizes.occluderVertices = occluder.whole("vertices", 0, kAnyCount);
-    meta.sizes.occluderTriangles = occluder.whole("triangles", 0, kAnyCount);
+    meta.sizes.occluderVertices = occluder.whole("vertices", 0, kMostMetaCount);
+    meta.sizes.occluderTriangles = occluder.whole("triangles", 0, kMostMetaCount);
     const Json& parts = in.array("parts");
     for (size_t i = 0; i < parts.size(); i++)
         readPart({parts[i], fmt::format("{}: part {}", where, i)}, meta);

@@ -127,7 +127,7 @@ void addGround(Scene& scene, const GroundOptions& options, const std::string& ma
         throw UsageError(fmt::format("a ground {} times as large as the object: expected {} to {}",
                                      options.extent, kSmallestGroundExtent, kLargestGroundExtent));
     scene.parts.push_back({"ground", makeGround(boundsOf(scene), options), material, "built-in ground", ""});
-    scene.parts.back().keepsVertices = !options.isStart;
+    scene.parts.back().keepsVertices = !options.isRefinable;
 }
 
 } // namespace relume

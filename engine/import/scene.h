@@ -1,8 +1,7 @@
 // Scenes to be baked: parts, each a mesh with a material.
 #pragma once
 
-#include "engine/import/ground.h"
-#include "engine/import/input_file.h"
+#include "engine/import/builtin_mesh.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/surface_detail.h"
 #include "engine/scene/texture.h"
@@ -14,6 +13,12 @@
 #include <vector>
 
 namespace relume {
+
+// An input file, for provenance.
+struct InputFile {
+    std::string file;
+    std::string hash; // hashText of its bytes
+};
 
 enum class UpAxis { Y, Z };
 

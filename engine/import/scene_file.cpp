@@ -96,7 +96,7 @@ void readGround(const Json& json, const std::string& place, GroundOptions option
     const float quads = node.number("tessellation", float(options.tessellation), 1, kMostGroundQuads);
     if (quads != std::floor(quads)) node.fail("tessellation", "a whole number");
     options.tessellation = int(quads);
-    if (node.find("tessellation")) options.isStart = false;
+    if (node.find("tessellation")) options.isRefinable = false;
     options.extent = node.number("extent", options.extent, kSmallestGroundExtent, kLargestGroundExtent);
     addGround(scene, options, materialOf(node).value_or("white-diffuse"));
 }

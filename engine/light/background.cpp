@@ -20,9 +20,6 @@ const std::shared_ptr<const Environment>& pictureOf(const EnvironmentLight& ligh
     return light.picture ? light.picture : light.map;
 }
 
-// Returns the distance between unit vectors at an angle.
-float chord(float angle) { return 2 * std::sin(angle / 2); }
-
 shared::BackgroundDisc discOf(const Stroke& stroke) {
     const float inner = chord(stroke.angularRadius * (1 - stroke.softness)),
                 outer = chord(stroke.angularRadius);

@@ -1,7 +1,6 @@
 #include "engine/light/cap.h"
 
 #include "engine/base/check.h"
-#include "engine/light/cube_cells.h"
 #include "engine/math/cubemap.h"
 
 #include <algorithm>
@@ -16,10 +15,9 @@ namespace {
 constexpr float kCellsPerRadius = 4;
 constexpr int kFewestCells = 4, kMostCells = 16;
 
-// Returns the distance between unit vectors at an angle.
-float chord(float angle) { return 2 * std::sin(angle / 2); }
-
 } // namespace
+
+float chord(float angle) { return 2 * std::sin(angle / 2); }
 
 shared::LightCap makeCap(vec3 direction, float angularRadius, float softness, int size) {
     RELUME_CHECK(glm::length(direction) > 0 && size > 0);

@@ -17,6 +17,9 @@ shared::LightCap makeCap(vec3 direction, float angularRadius, float softness, in
 // weighted by solid angle. Continuous in the cap's direction. CPU twin of shaders/lib/light_cap.glsl.
 float capCoverage(const shared::LightCap& cap, int face, int x, int y, int size);
 
+// Returns the distance between the ends of unit vectors at an angle, in radians.
+float chord(float angle);
+
 // Returns the solid angle of a disc of this angular radius.
 float capSolidAngle(float angularRadius);
 

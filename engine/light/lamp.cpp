@@ -1,7 +1,7 @@
 #include "engine/light/lamp.h"
 
 #include "engine/light/cap.h"
-#include "engine/light/cube_cells.h"
+#include "engine/math/cubemap.h"
 
 namespace relume {
 

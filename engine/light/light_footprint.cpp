@@ -1,7 +1,7 @@
 #include "engine/light/light_footprint.h"
 
 #include "engine/base/check.h"
-#include "engine/light/cube_cells.h"
+#include "engine/math/cubemap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/light/cap.h"
-#include "engine/light/cube_cells.h"
+#include "engine/math/cubemap.h"
 
 namespace relume {
 

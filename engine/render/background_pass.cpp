@@ -1,7 +1,7 @@
 #include "engine/render/background_pass.h"
 
 #include "engine/base/check.h"
-#include "engine/render/download_image.h"
+#include "engine/render/view_image.h"
 #include "engine/vk/upload.h"
 #include "shaders/background_frag.h"
 #include "shaders/display_vert.h"

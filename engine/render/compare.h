@@ -1,7 +1,8 @@
-// Differences between two images of equal size.
+// Differences between two images of equal size, and the colors that show them.
 #pragma once
 
 #include "engine/image/image.h"
+#include "engine/math/vector.h"
 
 namespace relume {
 
@@ -15,5 +16,9 @@ struct ImageDifference {
 
 // Compares RGB only. Throws Error if sizes differ, a value is not finite or the reference is black.
 ImageDifference compareImages(const Image& image, const Image& reference);
+
+// Returns a linear color: from black (0) over blue, purple and orange to yellow (1 and more). GLSL twin:
+// shaders/compare.frag.
+vec3 heatColor(float heat);
 
 } // namespace relume

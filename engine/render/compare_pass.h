@@ -10,7 +10,7 @@ enum class CompareMode { Split, Difference };
 struct CompareOptions {
     CompareMode mode = CompareMode::Split;
     float split = 0.5f; // share of the width, from the left, that shows the first image
-    float scale = 1;    // factor on the mean of a pixel's three differences before heatColor() (heat_color.h)
+    float scale = 1;    // factor on the mean of a pixel's three differences before heatColor() (compare.h)
 };
 
 // Compares two images. Keeps a reference to the device, which must outlive it.

@@ -1,12 +1,11 @@
 #include "engine/render/view_pass.h"
 
 #include "engine/base/error.h"
-#include "engine/render/download_image.h"
-#include "engine/render/footprint.h"
 #include "engine/render/map_texture.h"
 #include "engine/render/numbered_triangles.h"
-#include "engine/render/view_formats.h"
 #include "engine/render/view_grid.h"
+#include "engine/render/view_image.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/closed_mesh.h"
 #include "engine/vk/upload.h"
 #include "shaders/view_edges_frag.h"
@@ -338,7 +337,7 @@ ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
 
 void ViewPass::drawTriangleIds(vk::Commands& commands, const Frame& frame, const Part& part) const {
     if (part.triangleCount == 0) return;
-    const bool showsNoBack = part.isClosed && footprintOf(part.bounds, frame.clipFromWorld).isBeyondNear;
+    const bool showsNoBack = part.isClosed && screenBox(part.bounds, frame.clipFromWorld).isBeyondNear;
     const SamplePrograms& programs = mPrograms.at(mSamples);
     commands.bind(showsNoBack ? programs.closedTriangleIds : programs.triangleIds, {},
                   shared::ViewTriangleIdPush{frame.clipFromWorld, part.firstTriangleId});
@@ -351,9 +350,9 @@ void ViewPass::drawTriangleIds(vk::Commands& commands, const Frame& frame, const
 }
 
 std::optional<shared::ViewRays> ViewPass::raysOf(const Frame& frame, const Bounds& bounds) {
-    const Footprint footprint = footprintOf(bounds, frame.clipFromWorld);
-    const vec2 low = glm::max(footprint.low - frame.pixel, vec2(-1)),
-               high = glm::min(footprint.high + frame.pixel, vec2(1));
+    const ScreenBox box = screenBox(bounds, frame.clipFromWorld);
+    const vec2 low = glm::max(box.low - frame.pixel, vec2(-1)),
+               high = glm::min(box.high + frame.pixel, vec2(1));
     if (low.x >= high.x || low.y >= high.y) return std::nullopt;
     return shared::ViewRays{frame.eye, frame.corner, frame.right, frame.down,
                             vec4(low.x, low.y, high.x, high.y)};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace relume {
+
 namespace {
 
 struct View {
@@ -67,6 +68,20 @@ Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect) {
     }
     camera.eye = camera.target - reach * view.forward;
     return camera;
+}
+
+ScreenBox screenBox(const Bounds& bounds, const mat4& clipFromWorld) {
+    ScreenBox box;
+    for (int corner = 0; corner < 8; corner++) {
+        const vec3 point(corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
+                         corner & 4 ? bounds.high.z : bounds.low.z);
+        const vec4 clip = clipFromWorld * vec4(point, 1);
+        if (!(clip.z >= 0 && clip.w > 0)) return {false, vec2(-1), vec2(1)};
+        const vec2 place = vec2(clip) / clip.w;
+        box.low = glm::min(box.low, place);
+        box.high = glm::max(box.high, place);
+    }
+    return box;
 }
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// A pinhole camera with a vertical field of view.
+// A pinhole camera with a vertical field of view, and where it sees a box.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -31,5 +31,15 @@ Camera orbitCamera(const Bounds& bounds, float azimuth, float elevation, float d
 // Returns the default view: the whole object in three-quarter view from slightly above. The bounding box
 // fills the image as far as its shape permits, with a margin of 3 % on either side.
 Camera defaultCamera(const Bounds& bounds, float verticalFov, float aspect);
+
+// A rectangle in normalized device coordinates. If part of the box is nearer than the near plane,
+// `isBeyondNear` is false and the rectangle is the whole screen.
+struct ScreenBox {
+    bool isBeyondNear = true; // whether the whole box is beyond the near plane
+    vec2 low = vec2(1), high = vec2(-1);
+};
+
+// Returns the rectangle of the screen that a box covers.
+ScreenBox screenBox(const Bounds& bounds, const mat4& clipFromWorld);
 
 } // namespace relume

@@ -1,6 +1,7 @@
 #include "engine/scene/texture.h"
 
 #include "engine/base/check.h"
+#include "engine/math/color.h"
 
 #include <algorithm>
 #include <array>
@@ -12,22 +13,15 @@ namespace {
 // As in shaders/lib/texture_footprint.glsl.
 constexpr float kMostTaps = 16, kMostFootprint = 1e6f;
 
-// Decodes an sRGB byte (IEC 61966-2-1).
-float decodeSrgb(int byte) {
-    const float value = float(byte) / 255;
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
 std::array<float, 256> makeSrgbTable() {
     std::array<float, 256> table;
-    for (int byte = 0; byte < 256; byte++) table[size_t(byte)] = decodeSrgb(byte);
+    for (int byte = 0; byte < 256; byte++) table[size_t(byte)] = decodeSrgb(float(byte) / 255);
     return table;
 }
 
 // Returns the nearest byte of a linear value, sRGB-encoded if asked.
 uint32_t encode(float value, bool srgb) {
-    if (srgb) value = value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
-    return uint32_t(std::lround(255 * value));
+    return uint32_t(std::lround(255 * (srgb ? encodeSrgb(value) : value)));
 }
 
 // The texels that one texel of half the resolution covers along an axis: up to three, with their shares.

@@ -7,6 +7,18 @@
 
 namespace relume {
 
+int termCount(const AssetPart& part) {
+    int terms = 0;
+    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
+    return terms;
+}
+
+uint64_t vertexCount(const Asset& asset) {
+    uint64_t vertices = 0;
+    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
+    return vertices;
+}
+
 Bounds boundsOf(const Asset& asset) {
     Bounds bounds;
     for (const AssetPart& part : asset.parts) bounds.add(boundsOf(part.mesh));

@@ -57,6 +57,9 @@ struct AssetPart {
     bool isPainted() const { return materialMap || paintedByColors; }
 };
 
+// Returns the number of terms of all sets of a part.
+int termCount(const AssetPart& part);
+
 // How an asset was made. It is stored in the file, but relighting needs none of it.
 struct Provenance {
     std::string program; // "relume 0.1.0"
@@ -91,6 +94,9 @@ struct Asset {
     std::vector<AssetPart> parts;
     Provenance provenance;
 };
+
+// Returns the number of vertices of all parts.
+uint64_t vertexCount(const Asset& asset);
 
 Bounds boundsOf(const Asset& asset);
 // Returns the bounds of all parts except the ground, which would push the object off the center of an image.

@@ -1,6 +1,6 @@
 #include "engine/transport/asset_check.h"
 
-#include "engine/chunk/expect.h"
+#include "engine/chunk/block_chunk.h"
 #include "engine/scene/factored_brdf.h"
 
 #include <algorithm>

@@ -15,9 +15,6 @@ namespace relume {
 
 namespace {
 
-constexpr uint64_t kAnyCount = 0xffffffff;          // upper bound for vertices or triangles
-constexpr uint64_t kAnyEntries = uint64_t(1) << 48; // upper bound for entries of transport
-
 // Writes fields consecutively, as docs/asset_format.md lists them.
 class FieldWriter {
   public:
@@ -238,7 +235,7 @@ MaterialSet readSet(FieldReader& in, uint64_t vertices, std::vector<uint64_t>& s
     if (!mapping) in.fail("mapping", "one that this program knows");
     set.brdf.mapping = *mapping;
     set.transport = emptyTransport(in.layout(), uint32_t(vertices), uint32_t(set.brdf.terms));
-    setEntries.push_back(in.longWhole("entries", 0, kAnyEntries));
+    setEntries.push_back(in.longWhole("entries", 0, kMostMetaEntries));
     std::visit([&](auto& own) { readLayout(in, own); }, set.transport);
     return set;
 }
@@ -321,16 +318,16 @@ AssetMeta decodeMeta(std::span<const std::byte> bytes, const std::string& name) 
         layout.wantedError = readOptional(in, "wantedError");
         layout.error = in.number("error");
     }
-    meta.sizes.occluderVertices = in.whole("occluder vertices", 0, kAnyCount);
-    meta.sizes.occluderTriangles = in.whole("occluder triangles", 0, kAnyCount);
+    meta.sizes.occluderVertices = in.whole("occluder vertices", 0, kMostMetaCount);
+    meta.sizes.occluderTriangles = in.whole("occluder triangles", 0, kMostMetaCount);
     const uint64_t parts = in.whole("parts", 1, in.left());
     std::vector<std::shared_ptr<const ResidualSet>> residuals; // of the sets so far
     for (uint64_t number = 0; number < parts; number++) {
         AssetPart& part = asset.parts.emplace_back();
         AssetPartSizes& sizes = meta.sizes.parts.emplace_back();
         part.name = in.text();
-        sizes.vertices = in.whole("vertices", 1, kAnyCount);
-        sizes.triangles = in.whole("triangles", 1, kAnyCount);
+        sizes.vertices = in.whole("vertices", 1, kMostMetaCount);
+        sizes.triangles = in.whole("triangles", 1, kMostMetaCount);
         sizes.uvs = in.flag("uvs") ? sizes.vertices : 0;
         sizes.colors = in.flag("colors") ? sizes.vertices : 0;
         sizes.tangents = in.flag("tangents") ? sizes.vertices : 0;

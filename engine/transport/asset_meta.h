@@ -11,6 +11,9 @@ namespace relume {
 // A limit that keeps a hostile META chunk from taking much memory.
 constexpr size_t kLargestMeta = size_t(1) << 20; // bytes
 
+// Limits of what META may say: vertices or triangles of a mesh, and entries of a set's transport.
+constexpr uint64_t kMostMetaCount = 0xffffffff, kMostMetaEntries = uint64_t(1) << 48;
+
 constexpr size_t kVisibilityKeyDigits = 32; // XXH3-128, in hexadecimal
 
 // The lengths of a part's arrays.

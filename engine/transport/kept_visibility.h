@@ -17,7 +17,7 @@ class KeptVisibility {
     // Opens bytes instead; `name` names them in errors.
     KeptVisibility(ByteSource source, const std::string& name);
 
-    // Returns a hash of what determines visibility (precompute/bake/visibility_key.h); empty if none is kept.
+    // Returns a hash of what determines visibility (precompute/bake/content_hash.h); empty if none is kept.
     const std::string& key() const { return mMeta.visibilityKey; }
 
     // Throws Error unless there are bits for all vertices of an asset with such parts and visibility size.

@@ -39,30 +39,30 @@ Transport emptyTransport(TransportLayout layout, uint32_t vertices, uint32_t ter
         ((I == size_t(layout) ? void(transport.emplace<I>()) : void()), ...);
     }
     (std::make_index_sequence<kLayoutFacts.size()>());
-    std::visit([&](auto& kept) { kept.vertices = vertices, kept.terms = terms; }, transport);
+    std::visit([&](auto& made) { made.vertices = vertices, made.terms = terms; }, transport);
     return transport;
 }
 
 uint32_t verticesOf(const Transport& transport) {
-    return std::visit([](const auto& kept) { return kept.vertices; }, transport);
+    return std::visit([](const auto& layout) { return layout.vertices; }, transport);
 }
 
 uint32_t termsOf(const Transport& transport) {
-    return std::visit([](const auto& kept) { return kept.terms; }, transport);
+    return std::visit([](const auto& layout) { return layout.terms; }, transport);
 }
 
-std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count) {
+std::vector<vec3> dequantizedRow(const Transport& transport, size_t row, size_t count) {
     std::vector<vec3> coefficients(count, vec3(0));
-    std::visit([&](const auto& kept) { kept.addCoefficients(row, coefficients); }, transport);
+    std::visit([&](const auto& layout) { layout.dequantizeRow(row, coefficients); }, transport);
     return coefficients;
 }
 
 uint64_t entriesOf(const Transport& transport) {
-    return std::visit([](const auto& kept) -> uint64_t { return kept.entries(); }, transport);
+    return std::visit([](const auto& layout) -> uint64_t { return layout.entries(); }, transport);
 }
 
 uint64_t bytesOf(const Transport& transport) {
-    return std::visit([](const auto& kept) { return kept.bytes(); }, transport);
+    return std::visit([](const auto& layout) { return layout.bytes(); }, transport);
 }
 
 } // namespace relume

@@ -61,7 +61,7 @@ uint32_t verticesOf(const Transport& transport);
 uint32_t termsOf(const Transport& transport);
 
 // Returns `count` dequantized coefficients of a row: of term row % terms of vertex row / terms.
-std::vector<vec3> coefficientsOf(const Transport& transport, size_t row, size_t count);
+std::vector<vec3> dequantizedRow(const Transport& transport, size_t row, size_t count);
 
 // Returns the number of row entries, or for bases the number of columns of all clusters.
 uint64_t entriesOf(const Transport& transport);

@@ -1,5 +1,6 @@
-// Conversion of a device's tick counter to the CPU's clock. It copes with counters of few bits that wrap
-// around, and follows the drift between the clocks from calibration to calibration.
+// The device's clock beside the CPU's: simultaneous readings, and conversion of the device's tick counter. It
+// copes with counters of few bits that wrap around, and follows the drift between the clocks from calibration
+// to calibration.
 #pragma once
 
 #include <cstdint>
@@ -40,5 +41,23 @@ class TickClock {
     uint64_t mFirst = 0; // reading at the first calibration
     std::vector<Calibration> mCalibrations;
 };
+
+class Device;
+
+struct ClockReading {
+    uint64_t ticks;      // the device's timestamp
+    int64_t cpu;         // cpuNanoseconds() at that moment
+    int64_t uncertainty; // nanoseconds that the pair may be off, either way
+};
+
+// Returns CLOCK_MONOTONIC, a clock that devices can read together with their own.
+int64_t cpuNanoseconds();
+
+// Reads both clocks together. Requires Device::readClocks() to be non-null.
+ClockReading readCalibrated(const Device& device);
+
+// Lets the device write a timestamp between two readings of the CPU's clock. Submits and waits. Requires
+// Device::timestampBits() > 0.
+ClockReading readAnchored(const Device& device);
 
 } // namespace relume::vk

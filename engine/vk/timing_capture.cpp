@@ -1,8 +1,8 @@
 #include "engine/vk/timing_capture.h"
 
 #include "engine/base/check.h"
-#include "engine/vk/clock_reading.h"
 #include "engine/vk/device.h"
+#include "engine/vk/tick_clock.h"
 
 #include <algorithm>
 #include <tuple>

@@ -3,23 +3,20 @@
 #include "engine/base/check.h"
 #include "engine/base/file.h"
 #include "engine/base/log.h"
+#include "engine/base/stopwatch.h"
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/checkpoint.h"
 #include "precompute/bake/layout_sample.h"
-#include "precompute/bake/memory_blocks.h"
 #include "precompute/bake/preview.h"
 #include "precompute/bake/shard_file.h"
+#include "precompute/bake/stored_blocks.h"
 #include "precompute/bake/storing_sink.h"
 
-#include <chrono>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace relume {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 BakeTimes timesOf(const BakePlan& plan) {
     BakeTimes times;
@@ -144,13 +141,12 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options) {
 
 Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, BakeObserver& observer,
            BakeTimes* timesOut) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     BakeOptions inMemory = options;
     inMemory.keepVisibility = false;
     BakePlan plan = planBake(device, std::move(scene), inMemory, observer);
     BakeTimes times = timesOf(plan);
-    std::vector<uint32_t> all(plan.blocks.size());
-    std::iota(all.begin(), all.end(), 0u);
+    const std::vector<uint32_t> all = plan.allBlocks();
     std::vector<uint32_t> missing = all;
     MemoryBlocks blocks;
     StoringSink sink(plan, StoringSink::bytesInHand({}),
@@ -171,7 +167,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     writeBake(plan, blocks,
               [&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
     Asset asset = decodeAsset(file, "the bake");
-    times.total = std::chrono::duration<double>(Clock::now() - start).count();
+    times.total = watch.seconds();
     if (timesOut) *timesOut = times;
     return asset;
 }
@@ -191,7 +187,7 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
                        const std::filesystem::path& output, const BakeLimits& limits, BakeObserver& observer,
                        const OutputOptions& outputOptions) {
     RELUME_CHECK(!outputOptions.previews || (!outputOptions.shard && !options.keepVisibility));
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     Checkpoint checkpoint(checkpointPath(output));
     BakePlan plan = planBake(device, std::move(scene), options, observer);
     std::unique_ptr<KeptVisibility> kept =
@@ -199,7 +195,7 @@ BakeSummary bakeToFile(const vk::Device& device, Scene scene, const BakeOptions&
     dropUnfit(kept, plan);
     BakeSummary summary =
         bakePlanned(device, plan, kept.get(), outputOptions, checkpoint, output, limits, observer);
-    summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
+    summary.times.total = watch.seconds();
     return summary;
 }
 
@@ -207,7 +203,7 @@ BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset s
                          const std::vector<std::string>& materials, const BakeOptions& options,
                          const std::filesystem::path& output, const BakeLimits& limits,
                          BakeObserver& observer) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     Checkpoint checkpoint(checkpointPath(output));
     const std::string bakedOn = skeleton.provenance.device;
     BakePlan plan = planRebake(device, std::move(skeleton), materials, options, observer);
@@ -218,7 +214,7 @@ BakeSummary rebakeToFile(const vk::Device& device, KeptVisibility& kept, Asset s
             kept.file().name(), bakedOn, plan.asset.provenance.device));
     kept.verify(plan.asset);
     BakeSummary summary = bakePlanned(device, plan, &kept, {}, checkpoint, output, limits, observer);
-    summary.times.total = std::chrono::duration<double>(Clock::now() - start).count();
+    summary.times.total = watch.seconds();
     return summary;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/log.h"
+#include "engine/base/stopwatch.h"
 #include "engine/transport/asset_arrays.h"
 #include "engine/transport/asset_check.h"
 #include "engine/transport/asset_meta.h"
@@ -11,7 +12,6 @@
 #include "precompute/bake/tangents.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/bake/vertex_order.h"
-#include "precompute/bake/visibility_key.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/layout/conversion.h"
@@ -22,20 +22,14 @@
 #include "precompute/visibility/occluder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace relume {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Warns where paint has no effect.
 void checkPaint(const AssetPart& part) {
@@ -217,7 +211,7 @@ void finish(BakePlan& plan) {
 
 } // namespace
 
-uint64_t BakePlan::vertices() const { return verticesOf(asset); }
+uint64_t BakePlan::vertices() const { return vertexCount(asset); }
 
 BakePlan planOf(Asset asset, const std::string& visibilityKey) {
     BakePlan plan;
@@ -227,6 +221,14 @@ BakePlan planOf(Asset asset, const std::string& visibilityKey) {
     cutBlocks(plan);
     plan.identity = identityOf(plan);
     return plan;
+}
+
+size_t BakePlan::setCount() const { return firstSet.back() + asset.parts.back().sets.size(); }
+
+std::vector<uint32_t> BakePlan::allBlocks() const {
+    std::vector<uint32_t> all(blocks.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
 }
 
 void prepareTransport(BakePlan& plan) {
@@ -254,22 +256,22 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
     describeTo(device, options, asset);
     asset.provenance.inputs = describeInputs(scene).dump();
 
-    Clock::time_point stage = Clock::now();
+    Stopwatch watch;
     observer.stage(BakeStage::Occluder, "");
     Occluder occluder = makeOccluder(scene, options.occluderTriangles);
     asset.visibilityOffset = visibilityOffset(occluder, boundsOf(scene));
     asset.occluder = std::move(occluder.mesh);
-    plan.occluderSeconds = secondsSince(stage);
+    plan.occluderSeconds = watch.seconds();
 
     RefinementGoal goal;
     if (options.refinement) goal = goalOf(*options.refinement, scene);
     if (!goal.isRefined.empty() && std::ranges::count(goal.isRefined, true) == 0)
         plan.options.refinement.reset(); // nothing is coarse
 
-    stage = Clock::now();
+    watch.restart();
     observer.stage(BakeStage::Factorization, "");
     makeParts(std::move(scene.parts), plan, observer);
-    plan.factorizationSeconds = secondsSince(stage);
+    plan.factorizationSeconds = watch.seconds();
     if (plan.options.areBouncesAuto && sharesTerms(asset)) leaveOutBounces(plan);
 
     if (plan.options.refinement) refineMeshes(goal, plan, observer);
@@ -291,7 +293,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
     plan.asset.truncationError = plan.asset.quantizationError = 0;
     const bool didShareTerms = sharesTerms(plan.asset); // any bounces were then asked for explicitly
 
-    const Clock::time_point stage = Clock::now();
+    const Stopwatch watch;
     observer.stage(BakeStage::Factorization, "");
     MaterialFactory factory(options.factorization, options.mapSize, options.mapping);
     BrushedParts brushed;
@@ -304,7 +306,7 @@ BakePlan planRebake(const vk::Device& device, Asset skeleton, const std::vector<
         if (part.mesh.tangents.empty() || !brushed.has(part)) setTangents(part, 0, brushed, observer);
     }
     makeResiduals(plan.asset);
-    plan.factorizationSeconds = secondsSince(stage);
+    plan.factorizationSeconds = watch.seconds();
     if (options.areBouncesAuto && !didShareTerms && sharesTerms(plan.asset)) leaveOutBounces(plan);
     finish(plan);
     return plan;

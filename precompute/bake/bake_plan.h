@@ -30,13 +30,15 @@ struct BakePlan {
     uint32_t blockVertices = 0, visibilityRun = 0; // in vertices; visibilityRun divides blockVertices
     std::vector<BakeBlock> blocks;                 // ordered by part, then by vertex
     std::vector<uint32_t> firstSet;                // per part: index of its first set, counted over all parts
-    std::string visibilityKey;                     // visibility_key.h
+    std::string visibilityKey;                     // content_hash.h
     // Hash of everything that determines the file's bytes: program and kernels, device and driver, options,
     // and the asset. Blocks baked from plans of equal identity can be combined.
     std::string identity;
     double factorizationSeconds = 0, occluderSeconds = 0;
 
     uint64_t vertices() const;
+    size_t setCount() const;                 // of all parts
+    std::vector<uint32_t> allBlocks() const; // the numbers of all blocks, rising
 };
 
 // Plans a bake: puts vertices in bake order (vertex_order.h), makes the occluder, factors the materials and

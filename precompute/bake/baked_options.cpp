@@ -174,7 +174,7 @@ BakeOptions optionsOf(const Asset& asset) {
     if (options.coefficients != asset.coefficients || options.faceSize != asset.faceSize ||
         options.visibilitySize != asset.visibilitySize ||
         options.transportSamples != asset.transportSamples || options.bounces != asset.bounces ||
-        (options.refinement && options.refinement->vertices != verticesOf(asset)))
+        (options.refinement && options.refinement->vertices != vertexCount(asset)))
         OptionReader::fail("they are not those of what it holds");
     return options;
 }

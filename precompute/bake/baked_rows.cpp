@@ -10,6 +10,12 @@ namespace relume {
 
 BakedRows::BakedRows(uint32_t terms) : transport(emptyRows(terms)) {}
 
+std::vector<BakedRows> emptyBakedRows(const AssetPart& part) {
+    std::vector<BakedRows> rows;
+    for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
+    return rows;
+}
+
 BakedRows BakedRows::vertices(uint32_t first, uint32_t end) const {
     RELUME_CHECK_LE(end, transport.vertices);
     BakedRows part(transport.terms);

@@ -21,6 +21,9 @@ struct BakedRows {
     void append(const BakedRows& more);
 };
 
+// Returns rows of no vertices for each set of a part.
+std::vector<BakedRows> emptyBakedRows(const AssetPart& part);
+
 // A baked block: rows per set of its part, and visibility.
 struct BakedBlock {
     std::vector<BakedRows> sets;

@@ -1,12 +1,12 @@
 #include "precompute/bake/block_baker.h"
 
+#include "engine/base/stopwatch.h"
 #include "engine/vk/result.h"
 #include "precompute/bake/bake_estimate.h"
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/bake/part_passes.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -14,12 +14,6 @@
 namespace relume {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // A submission cannot be interrupted, so it is kept short enough to stop within a second.
 constexpr double kSubmissionSeconds = 0.4;
@@ -32,12 +26,6 @@ constexpr uint32_t kProbePoints = 16;
 constexpr int kProbeRounds = 3;
 
 bool isProbed(const BakeEstimate::Part& part) { return part.vertices - part.doneBefore >= kProbedVertices; }
-
-int termsOf(const AssetPart& part) {
-    int terms = 0;
-    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
-    return terms;
-}
 
 // Rows of points of a part, per set, and visibility bits if these are computed and kept.
 struct BakedPoints {
@@ -91,12 +79,6 @@ void BlockBaker::usePasses(uint32_t number) {
     mLargest = kFirstSubmission;
 }
 
-std::vector<BakedRows> emptyRows(const AssetPart& part) {
-    std::vector<BakedRows> rows;
-    for (const MaterialSet& set : part.sets) rows.emplace_back(uint32_t(set.brdf.terms));
-    return rows;
-}
-
 std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32_t> blocks,
                                                           std::span<const uint32_t> all) {
     std::vector<BakeEstimate::Part> parts(mPlan.asset.parts.size());
@@ -105,7 +87,7 @@ std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32
     for (uint32_t block : blocks) parts[mPlan.blocks[block].part].doneBefore -= mPlan.blocks[block].count();
     if (mKept) { // the remaining cost is in proportion to the terms
         for (size_t number = 0; number < parts.size(); number++)
-            parts[number].probedSeconds = termsOf(mPlan.asset.parts[number]);
+            parts[number].probedSeconds = termCount(mPlan.asset.parts[number]);
         return parts;
     }
     if (std::ranges::count_if(parts, isProbed) > 1) probe(parts, mPlan.blocks[blocks.front()].part);
@@ -116,7 +98,7 @@ std::vector<BakeEstimate::Part> BlockBaker::estimateParts(std::span<const uint32
 // points, that of the rest on the number of terms, so these passes suffice for all parts.
 void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
     usePasses(first);
-    const double ownTerms = termsOf(part());
+    const double ownTerms = termCount(part());
     const auto rowSeconds = [&] {
         return vk::secondsOf(mPasses->times()) - vk::secondsOf(mPasses->times(), "visibility");
     };
@@ -130,11 +112,11 @@ void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
                 points.push_back(bakePoint(probed.mesh, i * probed.mesh.vertexCount() / kProbePoints,
                                            mPlan.asset.visibilityOffset));
             const double rowsBefore = rowSeconds();
-            const Clock::time_point start = Clock::now();
+            const Stopwatch watch;
             bakePoints(points);
             const double rows = rowSeconds() - rowsBefore;
             const double seconds =
-                (secondsSince(start) + rows * (termsOf(probed) / ownTerms - 1)) / kProbePoints;
+                (watch.seconds() + rows * (termCount(probed) / ownTerms - 1)) / kProbePoints;
             double& best = parts[number].probedSeconds;
             best = round == 0 ? seconds : std::min(best, seconds);
         }
@@ -147,10 +129,10 @@ void BlockBaker::probe(std::vector<BakeEstimate::Part>& parts, uint32_t first) {
 void BlockBaker::submit(std::span<const shared::BakePoint> points, std::span<const uint32_t> given,
                         BakedPoints& baked) {
     if (mObserver.wantsStop()) throw BakeStopped("stopped");
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     const bool isWanted = mPlan.options.keepVisibility && !mKept;
     mPasses->bake(points, baked.rows, given, isWanted ? &baked.visibility : nullptr);
-    const double perPoint = secondsSince(start) / double(points.size());
+    const double perPoint = watch.seconds() / double(points.size());
     mLargest = uint32_t(std::clamp(kSubmissionSeconds / perPoint, 1.0, double(mPasses->batch())));
 }
 
@@ -169,7 +151,7 @@ BakedPoints BlockBaker::bakePoints(std::span<const shared::BakePoint> points,
 
 BakedPoints BlockBaker::tryPoints(std::span<const shared::BakePoint> points,
                                   std::span<const uint32_t> given) {
-    BakedPoints baked{emptyRows(part()), {}};
+    BakedPoints baked{emptyBakedRows(part()), {}};
     const size_t givenWords = given.size() / points.size();
     while (!points.empty()) {
         // Points are divided evenly among submissions.
@@ -191,7 +173,7 @@ std::vector<shared::BakePoint> BlockBaker::pointsOf(const BakeBlock& block) cons
 }
 
 void BlockBaker::bakeGroup(std::span<const uint32_t> blocks) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     std::vector<shared::BakePoint> points;
     std::vector<uint32_t> given;
     for (uint32_t block : blocks) {
@@ -217,7 +199,7 @@ void BlockBaker::bakeGroup(std::span<const uint32_t> blocks) {
         mSink.take(block, std::move(baked));
         first = end;
     }
-    mEstimate.add(mPart, first, secondsSince(start));
+    mEstimate.add(mPart, first, watch.seconds());
     mObserver.progress(mEstimate.status());
 }
 

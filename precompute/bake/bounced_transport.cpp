@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/log.h"
+#include "engine/base/stopwatch.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/vertex_rows.h"
 #include "precompute/bounce/bounce_gather.h"
@@ -9,7 +10,6 @@
 #include "precompute/visibility/visibility.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
@@ -18,8 +18,6 @@
 namespace relume {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Sources, the transport that lights others, have the smallest sizes that the kernels support.
 constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 96;
@@ -160,7 +158,7 @@ void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t fi
 void BouncedTransport::addTo(std::span<vec3> coefficients, size_t part, size_t set, size_t row,
                              int faceSize) const {
     std::vector<vec3> bounced(kBounceCoefficients, vec3(0));
-    mRows[part][set].addCoefficients(row, bounced);
+    mRows[part][set].dequantizeRow(row, bounced);
     for (size_t i = 0; i < bounced.size(); i++)
         coefficients[coefficientOfBounce(uint16_t(i), faceSize)] +=
             bounced[i] * (float(kBounceFaceSize) / float(faceSize));
@@ -174,7 +172,7 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
     expectMemory(plan, bound);
     StageObserver stage(observer, BakeStage::Bounces);
     std::vector<SparseTransport> direct = bakeSources(device, plan, bound, limits, stage, times);
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     const BounceGather gather(plan.asset, bound);
     logHeld(plan, gather);
     std::vector<std::vector<SparseTransport>> bounced;
@@ -187,11 +185,10 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
             if (bounce == bounces - 1) direct[part] = {};
         }
         bounced.clear();
-        const Clock::time_point began = Clock::now();
+        const Stopwatch bounceWatch;
         observer.stage(BakeStage::Bounces, "");
         bounced = gather.gather(from, [&](uint64_t done) {
-            const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-            const double perSecond = double(done) / std::max(seconds, 1e-9);
+            const double perSecond = double(done) / std::max(bounceWatch.seconds(), 1e-9);
             const auto left = double(all - done + all * uint64_t(bounces - 1 - bounce));
             observer.progress({.vertices = all,
                                .done = done,
@@ -203,7 +200,7 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
         if (bounced.empty()) throw BakeStopped("stopped");
         if (lastSources && bounce == bounces - 1) *lastSources = std::move(from);
     }
-    times.bounces += std::chrono::duration<double>(Clock::now() - start).count();
+    times.bounces += watch.seconds();
     return std::make_shared<const BouncedTransport>(std::move(bounced));
 }
 

@@ -69,13 +69,11 @@ void putChunk(ByteWriter& out, const ChunkEntry& entry) {
     out.put(entry.checksum);
 }
 
-size_t setsOf(const BakePlan& plan) { return plan.firstSet.back() + plan.asset.parts.back().sets.size(); }
-
 bool needsScale(const BakePlan& plan) {
     return isCompressed(layoutOf(plan.asset.parts.front().sets.front().transport));
 }
 
-uint64_t scaleBytes(const BakePlan& plan) { return sizeof(double) + setsOf(plan) * sizeof(float); }
+uint64_t scaleBytes(const BakePlan& plan) { return sizeof(double) + plan.setCount() * sizeof(float); }
 
 ChunkEntry getChunk(ByteReader& in) {
     ChunkEntry entry;
@@ -226,7 +224,7 @@ bool Checkpoint::readScale(const BakePlan& plan, std::span<const std::byte> body
     ByteReader in(body, "");
     LayoutScale scale;
     scale.lambda = std::bit_cast<double>(in.get<uint64_t>());
-    for (size_t set = 0; set < setsOf(plan); set++)
+    for (size_t set = 0; set < plan.setCount(); set++)
         scale.norms.push_back(std::bit_cast<float>(in.get<uint32_t>()));
     const auto isPositive = [](float norm) { return std::isfinite(norm) && norm > 0; };
     if (mScale || !std::isfinite(scale.lambda) || scale.lambda < 0 ||

@@ -1,12 +1,34 @@
 // Coarse rows, from which previews interpolate the vertices that are not baked yet.
 #pragma once
 
+#include "precompute/bake/baked_rows.h"
 #include "precompute/bake/block_baker.h"
+#include "precompute/bake/coarse_neighbors.h"
 #include "precompute/bake/stored_blocks.h"
+#include "precompute/transport/row_sum.h"
 
 #include <functional>
 
 namespace relume {
+
+// Interpolates the rows of one set from those of coarse vertices.
+class RowInterpolator {
+  public:
+    // Keeps a reference to `coarse`. Rows have `coefficients` coefficients, of which the `kept` largest are
+    // stored.
+    RowInterpolator(const BakedRows& coarse, int coefficients, int kept);
+
+    // Appends a vertex's rows: the weighted sums of its neighbors' rows, packed by packLargest(); those of a
+    // single neighbor are copied. Losses are the weighted sums of the neighbors' losses.
+    void append(std::span<const CoarseNeighbor> neighbors, BakedRows& rows);
+
+  private:
+    void appendSum(std::span<const CoarseNeighbor> neighbors, uint32_t term, BakedRows& rows);
+
+    const BakedRows& mCoarse;
+    int mKept;
+    RowSum mSum; // empty between calls
+};
 
 // Rows of direct light for one vertex in twelve, or fewer so that they take at most 256 MiB. What is
 // interpolated from them depends on the plan alone.

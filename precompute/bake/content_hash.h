@@ -1,7 +1,9 @@
-// A hash of a sequence of arrays and texts.
+// Hashes of what determines the bytes of a bake.
 #pragma once
 
 #include "engine/base/hash.h"
+#include "engine/transport/asset.h"
+#include "precompute/visibility/visibility.h"
 
 #include <cstdint>
 #include <span>
@@ -10,7 +12,8 @@
 
 namespace relume {
 
-// Includes the length of each array and text, so that boundaries matter.
+// A hash of a sequence of arrays and texts. Includes the length of each array and text, so that boundaries
+// matter.
 class ContentHash {
   public:
     template <typename Element>
@@ -27,5 +30,10 @@ class ContentHash {
   private:
     Hasher mHasher;
 };
+
+// Returns a hash of everything that determines visibility bits, so that equal keys mean equal bits: the
+// XXH3-128, as 32 hexadecimal digits, of the method and its kernels' SPIR-V, device and driver, the cube's
+// size, the visibility offset, the occluder, and every part's positions and normals.
+std::string visibilityKey(const Asset& asset, VisibilityMethod method);
 
 } // namespace relume

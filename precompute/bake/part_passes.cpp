@@ -12,9 +12,7 @@ PartPasses::PartPasses(const vk::Device& device, const Asset& asset, const Asset
                        const BakeOptions& options, const BakeLimits& limits, VisibilitySource source)
     : mDevice(device), mAsset(asset), mPart(part), mOptions(options), mCommands(device, "bake"),
       mSource(source) {
-    int terms = 0;
-    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
-    mBatch = std::min(planBatch(device, options, terms, limits), uint32_t(part.mesh.vertexCount()));
+    mBatch = std::min(planBatch(device, options, termCount(part), limits), uint32_t(part.mesh.vertexCount()));
     try {
         create();
     } catch (const vk::OutOfMemory& failure) {

@@ -1,34 +1,21 @@
 #include "precompute/bake/preview.h"
 
+#include "engine/base/stopwatch.h"
 #include "precompute/bake/baked_options.h"
-#include "precompute/bake/memory_blocks.h"
+#include "precompute/bake/stored_blocks.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <numeric>
 #include <utility>
 
 namespace relume {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 // Writing previews takes at most this share of the time since the last one.
 constexpr double kWritingShare = 0.1;
 
 constexpr uint64_t kMostDraftBytes = uint64_t(512) << 20;
-
-std::vector<uint32_t> allBlocks(const BakePlan& plan) {
-    std::vector<uint32_t> all(plan.blocks.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-}
 
 // Writes a preview that records the share of its vertices that is baked.
 void writeShare(BakePlan& plan, float share, const StoredBlocks& blocks, const PreviewWriter& write) {
@@ -69,21 +56,21 @@ class PreviewSink : public BakeSink {
     void take(uint32_t block, BakedBlock baked) override {
         mSink.take(block, std::move(baked));
         if (std::ranges::find(mLasts, block) == mLasts.end()) return;
-        if (mWriteSeconds > kWritingShare * secondsSince(mWritten)) return;
+        if (mWriteSeconds > kWritingShare * mSinceWriting.seconds()) return;
         finish();
         writePreview();
     }
     void finish() override { mSink.finish(); }
 
     void writePreview() {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         uint64_t baked = 0;
         for (uint32_t block = 0; block < mPlan.blocks.size(); block++)
             if (mCheckpoint.has(block)) baked += mPlan.blocks[block].count();
         const auto share = float(double(baked) / double(mPlan.vertices()));
         writeShare(mPlan, share, MixedBlocks(mCheckpoint, mInterpolated), mWrite);
-        mWritten = Clock::now();
-        mWriteSeconds = secondsSince(start);
+        mSinceWriting.restart();
+        mWriteSeconds = watch.seconds();
         mSeconds += mWriteSeconds;
         mObserver.preview(double(share));
     }
@@ -96,8 +83,8 @@ class PreviewSink : public BakeSink {
     BakeSink& mSink;
     const PreviewWriter& mWrite;
     BakeObserver& mObserver;
-    std::vector<uint32_t> mLasts; // last block of each portion
-    Clock::time_point mWritten;
+    std::vector<uint32_t> mLasts;           // last block of each portion
+    Stopwatch mSinceWriting;                // of the last preview
     double mWriteSeconds = 0, mSeconds = 0; // for the last preview, for all
 };
 
@@ -122,21 +109,21 @@ Previews::Previews(const vk::Device& device, BakePlan& plan, std::span<const uin
                    PreviewWriter write, BakeObserver& observer)
     : mDevice(device), mPlan(plan), mCheckpoint(checkpoint), mInterpolated(interpolated),
       mWrite(std::move(write)), mObserver(observer) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     observer.stage(BakeStage::Preview, "");
     mInterpolated.resume(plan);
     if (std::ranges::all_of(missing, [&](uint32_t block) { return mInterpolated.has(block); })) return;
     mCoarse.emplace(device, plan, missing, limits, observer);
-    mSeconds = secondsSince(start);
+    mSeconds = watch.seconds();
 }
 
 void Previews::writeDraft() {
-    const std::vector<uint32_t> all = allBlocks(mPlan);
+    const std::vector<uint32_t> all = mPlan.allBlocks();
     const auto isBaked = [&](uint32_t block) { return mCheckpoint.has(block); };
     if (!mCoarse || std::ranges::any_of(all, isBaked) ||
         CoarseRows::interpolatedBytes(mPlan) > kMostDraftBytes)
         return;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     const LayoutOptions layout =
         std::exchange(mPlan.options.layout, LayoutOptions{.layout = TransportLayout::Rows});
     const int bounces = std::exchange(mPlan.asset.bounces, 0);
@@ -154,12 +141,12 @@ void Previews::writeDraft() {
     mPlan.asset.bounces = mPlan.options.bounces = bounces;
     mPlan.asset.provenance.options = described;
     prepareTransport(mPlan);
-    mSeconds += secondsSince(start);
+    mSeconds += watch.seconds();
 }
 
 void Previews::bake(std::span<const uint32_t> missing, const BakeLimits& limits, BakeSink& sink,
                     KeptVisibility* kept, BakeTimes& times) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     mObserver.stage(BakeStage::Preview, "");
     if (mPlan.scale && !mInterpolated.scale()) mInterpolated.append(*mPlan.scale);
     std::vector<uint32_t> lacking;
@@ -171,14 +158,14 @@ void Previews::bake(std::span<const uint32_t> missing, const BakeLimits& limits,
             [&](uint32_t block, const StoredBlock& stored) { mInterpolated.append(block, stored); },
             mObserver);
     mCoarse.reset();
-    mSeconds += secondsSince(start);
+    mSeconds += watch.seconds();
     const std::vector<std::vector<uint32_t>> portions = previewPortions(mPlan, missing);
     std::vector<uint32_t> order;
     for (const std::vector<uint32_t>& portion : portions)
         order.insert(order.end(), portion.begin(), portion.end());
     PreviewSink previews(mPlan, mCheckpoint, mInterpolated, sink, portions, mWrite, mObserver);
     previews.writePreview();
-    bakeBlocks(mDevice, mPlan, order, allBlocks(mPlan), limits, previews, mObserver, times, kept);
+    bakeBlocks(mDevice, mPlan, order, mPlan.allBlocks(), limits, previews, mObserver, times, kept);
     times.previews = mSeconds + previews.seconds();
 }
 

@@ -56,31 +56,17 @@ ByteSource sourceOf(std::shared_ptr<FileReader> file, ShardFile::Watch watch) {
 
 void writeShard(const BakePlan& plan, const Shard& shard, const StoredBlocks& blocks,
                 const ChunkWriter::Output& output) {
-    struct Run {
-        uint32_t block;
-        ChunkEntry entry;
-    };
-    const size_t sets = plan.firstSet.back() + plan.asset.parts.back().sets.size();
-    std::vector<std::vector<Run>> runs(sets); // over all parts
-    std::vector<Run> visibility;
+    std::vector<uint32_t> numbers;
     std::vector<TransportLosses> losses;
     for (uint32_t block = shard.index; block < plan.blocks.size(); block += shard.count) {
+        numbers.push_back(block);
         losses.push_back(blocks.losses(block));
-        for (const ChunkEntry& entry : blocks.chunks(block))
-            (entry.tag == kVisibility ? visibility : runs[entry.owner]).push_back({block, entry});
     }
     ChunkWriter chunks;
     addShard(chunks, plan, shard);
     addLosses(chunks, losses);
     // META as in the identity: without entry counts and errors, which no shard knows.
-    const auto addStored = [&](const std::vector<Run>& stored) {
-        for (const Run& run : stored)
-            chunks.addStored(run.entry, [&blocks, run] { return blocks.load(run.block, run.entry); });
-    };
-    addChunks(
-        chunks, plan.asset, std::vector<uint64_t>(sets, 0), [&](uint32_t set) { addStored(runs[set]); },
-        plan.options.keepVisibility ? plan.visibilityKey : "");
-    addStored(visibility);
+    addBlocks(chunks, plan, blocks, numbers, std::vector<uint64_t>(plan.setCount(), 0));
     chunks.finish(output);
 }
 

@@ -130,43 +130,47 @@ uint64_t memoryBytes(const BakePlan& plan, uint32_t block, const ChunkEntry& ent
         transportOf(plan, block, entry));
 }
 
-uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,
-                   const std::function<void()>& poll) {
+void addBlocks(ChunkWriter& file, const BakePlan& plan, const StoredBlocks& blocks,
+               std::span<const uint32_t> numbers, std::span<const uint64_t> setEntries) {
     struct Run {
         uint32_t block;
         ChunkEntry entry;
     };
-    const size_t sets = plan.firstSet.back() + plan.asset.parts.back().sets.size();
-    std::vector<std::vector<Run>> runs(sets); // over all parts
+    std::vector<std::vector<Run>> runs(plan.setCount());
     std::vector<Run> visibility;
-    std::vector<uint64_t> entries(sets, 0);
+    for (const uint32_t block : numbers)
+        for (const ChunkEntry& entry : blocks.chunks(block))
+            (entry.tag == kVisibility ? visibility : runs[entry.owner]).push_back({block, entry});
+    const auto addStored = [&](const std::vector<Run>& stored) {
+        for (const Run& run : stored)
+            file.addStored(run.entry, [&blocks, run] { return blocks.load(run.block, run.entry); });
+    };
+    addChunks(
+        file, plan.asset, setEntries, [&](uint32_t set) { addStored(runs[set]); },
+        plan.options.keepVisibility ? plan.visibilityKey : "");
+    addStored(visibility);
+}
+
+uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,
+                   const std::function<void()>& poll) {
+    const std::vector<uint32_t> all = plan.allBlocks();
+    std::vector<uint64_t> entries(plan.setCount(), 0);
     TransportLosses losses;
     uint64_t bytes = 0;
-    for (uint32_t block = 0; block < plan.blocks.size(); block++) {
+    for (const uint32_t block : all) {
         if (poll) poll();
         losses.add(blocks.losses(block));
         for (const ChunkEntry& entry : blocks.chunks(block)) {
-            if (entry.tag == kVisibility) {
-                visibility.push_back({block, entry});
-                continue;
-            }
+            if (entry.tag == kVisibility) continue;
             entries[entry.owner] += entriesOf(plan, blocks, block, entry);
             bytes += memoryBytes(plan, block, entry);
-            runs[entry.owner].push_back({block, entry});
         }
     }
     setErrors(losses, plan.asset);
     checkSkeleton(plan.asset, "the bake");
 
     ChunkWriter chunks;
-    const auto addStored = [&](const std::vector<Run>& stored) {
-        for (const Run& run : stored)
-            chunks.addStored(run.entry, [&blocks, run] { return blocks.load(run.block, run.entry); });
-    };
-    addChunks(
-        chunks, plan.asset, entries, [&](uint32_t set) { addStored(runs[set]); },
-        plan.options.keepVisibility ? plan.visibilityKey : "");
-    addStored(visibility);
+    addBlocks(chunks, plan, blocks, all, entries);
     chunks.finish(output);
     return bytes;
 }

@@ -6,6 +6,7 @@
 #include "precompute/bake/baked_rows.h"
 
 #include <functional>
+#include <map>
 
 namespace relume {
 
@@ -51,11 +52,40 @@ class StoredBlocks {
     virtual std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const = 0;
 };
 
+// Adds all chunks of the plan's asset, of whose transport and visibility the file gets the blocks `numbers`,
+// in this order. `setEntries` is as for addChunks() (asset_file.h). `blocks` must outlive the writer's
+// finish().
+void addBlocks(ChunkWriter& file, const BakePlan& plan, const StoredBlocks& blocks,
+               std::span<const uint32_t> numbers, std::span<const uint64_t> setEntries);
+
 // Assembles the asset's file, holding one chunk of transport at a time. Transport in bases is loaded twice,
 // since its columns are counted before anything is written. Sets the plan's measured errors from the blocks'
 // losses. Returns the bytes that its transport takes in memory. Calls `poll` between blocks while counting
 // and passes on what it throws. Throws Error.
 uint64_t writeBake(BakePlan& plan, const StoredBlocks& blocks, const ChunkWriter::Output& output,
                    const std::function<void()>& poll = {});
+
+// Finished blocks held in memory.
+class MemoryBlocks : public StoredBlocks {
+  public:
+    void keep(uint32_t block, StoredBlock stored) {
+        std::vector<ChunkEntry>& entries = mEntries[block];
+        for (size_t i = 0; i < stored.chunks.size(); i++) {
+            entries.push_back(stored.chunks[i].entry);
+            entries.back().offset = i; // index of the chunk, in place of a file offset
+        }
+        mBlocks[block] = std::move(stored);
+    }
+
+    const std::vector<ChunkEntry>& chunks(uint32_t block) const override { return mEntries.at(block); }
+    const TransportLosses& losses(uint32_t block) const override { return mBlocks.at(block).losses; }
+    std::vector<std::byte> load(uint32_t block, const ChunkEntry& entry) const override {
+        return mBlocks.at(block).chunks[entry.offset].bytes;
+    }
+
+  private:
+    std::map<uint32_t, StoredBlock> mBlocks;
+    std::map<uint32_t, std::vector<ChunkEntry>> mEntries;
+};
 
 } // namespace relume

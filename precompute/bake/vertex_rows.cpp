@@ -1,7 +1,6 @@
 #include "precompute/bake/vertex_rows.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace relume {
 
@@ -47,19 +46,16 @@ class RowsSink : public BakeSink {
 } // namespace
 
 uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
-    uint64_t terms = 0;
-    for (const MaterialSet& set : part.sets) terms += uint64_t(set.brdf.terms);
     constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t);
     constexpr uint64_t kRowBytes = sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses);
-    return terms * (uint64_t(asset.coefficients) * kEntryBytes + kRowBytes);
+    return uint64_t(termCount(part)) * (uint64_t(asset.coefficients) * kEntryBytes + kRowBytes);
 }
 
 void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,
                   const BakeLimits& limits, const TakeRows& take, BakeObserver& observer, BakeTimes& times) {
     BakePlan fewer = planOfVertices(plan, vertices);
     std::swap(fewer.asset.occluder, plan.asset.occluder); // large: never two copies
-    std::vector<uint32_t> blocks(fewer.blocks.size());
-    std::iota(blocks.begin(), blocks.end(), 0u);
+    const std::vector<uint32_t> blocks = fewer.allBlocks();
     RowsSink sink(fewer, take);
     bakeBlocks(device, fewer, blocks, blocks, limits, sink, observer, times);
     std::swap(fewer.asset.occluder, plan.asset.occluder);

@@ -1,13 +1,14 @@
 #include "precompute/bounce/bounce_gather.h"
 
+#include "engine/math/hashed_numbers.h"
 #include "engine/math/tangent_frame.h"
-#include "engine/render/layer_weights.h"
-#include "precompute/bounce/bounce_rays.h"
+#include "engine/render/appearance.h"
 #include "precompute/transport/row_sum.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -19,11 +20,40 @@ using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 
 constexpr int kTogether = 16; // hits that are multiplied together; their rows fit in a core's cache
 
-int termsOf(const AssetPart& part) {
-    int terms = 0;
-    for (const MaterialSet& set : part.sets) terms += set.brdf.terms;
-    return terms;
-}
+// The rays along which a vertex gathers bounced light: cosine-distributed directions in its frame, kSide²
+// strata of a square, mapped to the hemisphere and shifted differently for every vertex.
+class BounceRays {
+  public:
+    static constexpr int kSide = 32;
+    static constexpr float kWeight = kPi / (kSide * kSide); // cosine · solid angle that a ray stands for
+
+    BounceRays(size_t part, uint32_t vertex) {
+        HashedNumbers random(vertex, uint32_t(part));
+        for (int axis = 0; axis < 3; axis++) mShift[axis] = random.next();
+    }
+
+    // Advances to the next ray; must be called before the first. Returns false after the last.
+    bool next() { return ++mRay < kSide * kSide; }
+
+    // Returns a unit vector in the frame.
+    vec3 direction() const {
+        const float u = (float(mRay / kSide) + mShift.x) / kSide,
+                    v = (float(mRay % kSide) + mShift.y) / kSide;
+        const float radius = std::sqrt(u), angle = 2 * kPi * v;
+        return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0f, 1 - u))};
+    }
+
+    // Returns a number in [0, 1), independent of the direction, for a random choice per ray.
+    float choice() const {
+        constexpr double kGoldenRatio = 0.6180339887498949; // its multiples are evenly distributed
+        const double place = double(mShift.z) + mRay * kGoldenRatio;
+        return float(place - std::floor(place));
+    }
+
+  private:
+    int mRay = -1;
+    vec3 mShift; // of the square's axes, and of choice()
+};
 
 std::vector<const Mesh*> meshesOf(const Asset& asset) {
     std::vector<const Mesh*> meshes;
@@ -156,7 +186,7 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
     const Mesh& mesh = part.mesh;
     const TangentFrame frame = frameOf(mesh, vertex);
     const vec3 origin = mesh.positions[vertex] + mAsset.visibilityOffset * mesh.normals[vertex];
-    const int terms = termsOf(part);
+    const int terms = termCount(part);
     for (Matrix& total : room.total) total.topRows(terms).setZero();
 
     int count = 0; // number of hits not yet added
@@ -217,7 +247,7 @@ std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const S
                                                                const Report& report) const {
     constexpr uint32_t kBlock = 32, kBatch = 1024; // vertices per task and between reports
     int mostTerms = 0;
-    for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termsOf(part));
+    for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termCount(part));
     tbb::enumerable_thread_specific<Room> rooms(mostTerms);
     const auto rowsOfSets = [](const AssetPart& part) {
         std::vector<SparseTransport> rows;

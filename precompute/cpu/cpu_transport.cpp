@@ -2,7 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
-#include "precompute/cpu/morton.h"
+#include "precompute/cpu/cpu_visibility.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,6 @@
 
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
-#include "precompute/cpu/morton.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 #include "precompute/error/advice.h"
 
 #include "engine/base/check.h"
+#include "engine/base/stopwatch.h"
 #include "precompute/error/error_grid.h"
 #include "precompute/error/layout_costs.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -217,9 +217,9 @@ Advice advise(const vk::Device& device, AdviceRequest request, const StudiedLigh
     if (!request.refinable) return advice;
     // Interpolation gets half of the error, which is a quarter of its square.
     const double wanted = std::clamp(request.error / 2, kLeastRefinementError, kMostRefinementError);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Scene refined = refinedScene(device, request, wanted, observer);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = watch.seconds();
     advice.refined = adviseMesh(device, request, refined, light, seconds, observer, shareOf(report, half, 1));
     for (auto* bake : {&advice.refined->bases, &advice.refined->rows})
         if (*bake) (*bake)->options.refinement = RefinementRecord{.wanted = wanted};

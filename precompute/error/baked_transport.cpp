@@ -35,7 +35,7 @@ void BakedTransport::forEachTerm(size_t part, uint32_t vertex, const FactoredBrd
     }
 }
 
-std::vector<vec3> coefficientsOf(const LightVector& light) {
+std::vector<vec3> dequantizedLight(const LightVector& light) {
     std::vector<vec3> coefficients(size_t(6 * light.faceSize * light.faceSize), vec3(0));
     for (size_t i = 0; i < light.indices.size(); i++) {
         const auto& value = light.values[i];

@@ -36,6 +36,6 @@ class BakedTransport {
 };
 
 // Returns all 6 F² Haar coefficients of a light vector, zero where it has no entry.
-std::vector<vec3> coefficientsOf(const LightVector& light);
+std::vector<vec3> dequantizedLight(const LightVector& light);
 
 } // namespace relume

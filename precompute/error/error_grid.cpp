@@ -6,7 +6,7 @@
 #include "precompute/error/unshadowed_light.h"
 #include "precompute/error/vertex_views.h"
 #include "precompute/reference/reference_image.h"
-#include "precompute/residual/irradiance_fit.h"
+#include "precompute/residual/residuals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light)
 class VertexLadders {
   public:
     VertexLadders(const Asset& asset, const Appearance& appearance, const LightVector& light)
-        : mAsset(asset), mAppearance(appearance), mTransport(asset), mLight(coefficientsOf(light)) {}
+        : mAsset(asset), mAppearance(appearance), mTransport(asset), mLight(dequantizedLight(light)) {}
 
     void add(uint32_t part, uint32_t vertex) { mLadders[{part, vertex}]; }
 

@@ -1,6 +1,6 @@
 #include "precompute/error/heat_maps.h"
 
-#include "engine/render/heat_color.h"
+#include "engine/render/compare.h"
 #include "engine/render/tone_map.h"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 #include "precompute/error/layout_costs.h"
 
 #include "engine/base/check.h"
+#include "engine/base/stopwatch.h"
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/cpu/cpu_relighter.h"
 #include "precompute/error/vertex_views.h"
 #include "precompute/layout/conversion.h"
 
-#include <chrono>
 #include <cmath>
 
 namespace relume {
@@ -85,10 +85,10 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
     LayoutCosts costs;
     costs.bakeSeconds = plan.factorizationSeconds + plan.occluderSeconds;
     if (plan.options.bounces > 0) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         BakeTimes times;
         plan.bounced = bounceTransport(device, plan, {}, observer, times);
-        costs.bakeSeconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        costs.bakeSeconds += watch.seconds();
     }
     std::array<double, kTriedLayoutErrors.size()> squares{};
     // A part's bake takes about as long as its encoding in bases for all errors.
@@ -101,11 +101,10 @@ LayoutCosts layoutCosts(const vk::Device& device, BakePlan& plan, const Appearan
         RowSink sink(plan, number);
         BakeTimes times;
         const std::vector<uint32_t> blocks = chooseBlocks(plan, number);
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         bakeBlocks(device, plan, blocks, blocks, {}, sink, observer, times);
         const double scale = double(part.mesh.vertexCount()) / double(sink.vertices.size());
-        costs.bakeSeconds +=
-            scale * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        costs.bakeSeconds += scale * watch.seconds();
         tell(kTriedLayoutErrors.size());
 
         // An asset of these vertices alone, encoded in bases for one error after another.

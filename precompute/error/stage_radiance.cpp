@@ -111,7 +111,7 @@ StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
     Light prepared{.paths = LightDistribution(light.fine)};
     prepared.haar = haarOf(light.coarse.radiance, mAsset.faceSize);
-    prepared.drawn = coefficientsOf(light.drawn);
+    prepared.drawn = dequantizedLight(light.drawn);
     prepared.coarse = light.coarse.radiance;
     const std::vector<vec3> ordered = mBaked.lighting().ordered(light.coarse);
     const size_t cells = mTruth.count() / mBaked.lighting().count();
@@ -134,7 +134,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
         std::vector<vec3> exact(direct.size());
         std::ranges::transform(direct, bounced, exact.begin(), std::plus());
         const std::vector<uint16_t> kept = indicesOfLargest(exact, mAsset.coefficients);
-        const std::vector<vec3> stored = coefficientsOf(set.transport, row, exact.size());
+        const std::vector<vec3> stored = dequantizedRow(set.transport, row, exact.size());
         for (size_t light = 0; light < lights.size(); light++) {
             vec3* of = &tuples.values[light * Tuples::kValues * terms + term];
             of[0] = product(stored, lights[light].drawn);

@@ -3,7 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
-#include "precompute/cpu/morton.h"
+#include "precompute/cpu/cpu_visibility.h"
 #include "precompute/error/vertex_views.h"
 
 namespace relume {
@@ -56,7 +56,7 @@ VertexProbe probeVertex(const Asset& asset, const CpuVisibility& occluder, size_
     glm::dvec3 radiance(0);
     for (size_t term = 0; term < probe.views.size(); term++) {
         const std::vector<vec3> coefficients =
-            coefficientsOf(set.transport, size_t(vertex) * probe.views.size() + term, transport.size());
+            dequantizedRow(set.transport, size_t(vertex) * probe.views.size() + term, transport.size());
         for (size_t i = 0; i < transport.size(); i++) transport[i] += probe.views[term] * coefficients[i];
         probe.tuple.push_back(innerProduct(coefficients, lightVector));
         radiance += glm::dvec3(probe.views[term]) * glm::dvec3(probe.tuple[term]);

@@ -1,7 +1,7 @@
 #include "precompute/error/vertex_views.h"
 
 #include "engine/math/tangent_frame.h"
-#include "engine/render/layer_weights.h"
+#include "engine/render/appearance.h"
 
 namespace relume {
 

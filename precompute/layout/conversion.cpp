@@ -37,7 +37,7 @@ double compress(const Asset& asset, const std::vector<MaterialSet*>& sets, const
         vertices += rowsOf(set->transport).vertices;
     }
     LayoutTarget target{{}, *options.error * *options.error * double(vertices)};
-    if (options.bytesPerVertex) target.bytes = *options.bytesPerVertex * double(verticesOf(asset));
+    if (options.bytesPerVertex) target.bytes = *options.bytesPerVertex * double(vertexCount(asset));
     const double squared =
         std::visit([&](const auto& layout) { return convertRows(layout, source, target, passes); },
                    emptyTransport(options.layout, 0, 0));
@@ -45,12 +45,6 @@ double compress(const Asset& asset, const std::vector<MaterialSet*>& sets, const
 }
 
 } // namespace
-
-uint64_t verticesOf(const Asset& asset) {
-    uint64_t vertices = 0;
-    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
-    return vertices;
-}
 
 Conversion convertLayout(Asset& asset, const LayoutOptions& given, const ConversionReport& progress,
                          std::optional<int> coefficients) {

@@ -14,8 +14,6 @@ struct Conversion {
     std::optional<double> error;
 };
 
-uint64_t verticesOf(const Asset& asset);
-
 // Converts by way of rows of at most asset.coefficients entries, or `coefficients` if that is less. The
 // asset's layout record adds the new error to the one recorded before, an estimate; rows made from another
 // layout keep the record. Calls progress(vertices done, total) over the vertices of all sets from the calling

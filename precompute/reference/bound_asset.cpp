@@ -1,7 +1,7 @@
 #include "precompute/reference/bound_asset.h"
 
 #include "engine/base/check.h"
-#include "engine/render/layer_weights.h"
+#include "engine/render/appearance.h"
 
 #include <algorithm>
 

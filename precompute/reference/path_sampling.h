@@ -1,13 +1,23 @@
-// Estimates, by tracing paths, the light of other surfaces that a point reflects.
+// Estimates the light that a point reflects: of lights, from a few shadow rays; of other surfaces, by tracing
+// paths.
 #pragma once
 
+#include "engine/math/hashed_numbers.h"
 #include "precompute/reference/bound_asset.h"
 #include "precompute/reference/light_distribution.h"
-#include "precompute/reference/sampled_reflection.h"
 
 #include <span>
 
 namespace relume {
+
+// Returns an unbiased estimate of ∫ radiance · BRDF · cosine · visibility dω above the horizon of the point's
+// frame, by resampled importance sampling (Talbot, Cline and Egbert, "Importance Resampling for Global
+// Illumination", EGSR 2005). Candidates come from the light, the cosine and lobes about the mirror direction,
+// weighted by their unshadowed contribution over the sum of all densities (Veach's balance heuristic); a few,
+// chosen in proportion to their weights, are traced. Rays are offset by `shadowOffset` along the point's
+// normal.
+vec3 sampleReflection(const SurfacePoint& point, const LightDistribution& light, const RayTracer& occluder,
+                      float shadowOffset, HashedNumbers& random);
 
 // The scene that paths traverse. Keeps references to all of it.
 struct PathScene {

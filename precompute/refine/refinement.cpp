@@ -1,11 +1,11 @@
 #include "precompute/refine/refinement.h"
 
 #include "engine/base/check.h"
+#include "engine/base/stopwatch.h"
 #include "precompute/refine/refined_part.h"
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -92,12 +92,11 @@ class Refiner {
     void probe() {
         for (size_t number = 0; number < mParts.size(); number++) {
             RefinedPart& part = mParts[number];
-            const auto start = std::chrono::steady_clock::now();
+            const Stopwatch watch;
             part.probe([&](size_t done, size_t count) {
                 if (mObserver.wantsStop()) throw BakeStopped("stopped while refining");
                 if (done == 0) return;
-                const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-                const double rate = double(done) / taken.count();
+                const double rate = double(done) / watch.seconds();
                 mObserver.progress({.vertices = count,
                                     .done = done,
                                     .fraction = double(done) / double(count),

@@ -3,7 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
-#include "precompute/cpu/morton.h"
+#include "precompute/cpu/cpu_visibility.h"
 #include "precompute/transport/light_spectrum.h"
 
 #include <cmath>

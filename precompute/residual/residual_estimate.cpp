@@ -1,5 +1,7 @@
 #include "precompute/residual/residual_estimate.h"
 
+#include "engine/math/color.h"
+
 #include <algorithm>
 
 namespace relume {
@@ -13,9 +15,8 @@ constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // bounds of a channel
 } // namespace
 
 float litShare(vec3 irradiance, vec3 unshadowed) {
-    const vec3 luminance(0.2126f, 0.7152f, 0.0722f);
-    const float all = glm::dot(unshadowed, luminance);
-    return all > 0 ? std::clamp(glm::dot(irradiance, luminance) / all, 0.0f, 1.0f) : 1;
+    const float all = luminance(unshadowed);
+    return all > 0 ? std::clamp(luminance(irradiance) / all, 0.0f, 1.0f) : 1;
 }
 
 vec3 differenceEstimate(const ResidualSums& sums, float share, bool isBounced) {

@@ -3,9 +3,9 @@
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "precompute/brdf/material_brdfs.h"
-#include "precompute/residual/irradiance_fit.h"
 #include "precompute/residual/sphere_kernel.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -68,9 +68,9 @@ bool isExact(const Reflectance& exact, const FactoredBrdf& factors, int layer) {
     return difference <= kExactTerms * all;
 }
 
-std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, bool isOfAll, MaterialBrdfs& brdfs) {
+std::shared_ptr<const ResidualSet> makeSet(const MaterialSet& set, bool includesExact, MaterialBrdfs& brdfs) {
     const std::vector<Layer> layers = layersOf(set, brdfs);
-    bool allExact = !isOfAll;
+    bool allExact = !includesExact;
     for (size_t layer = 0; layer < layers.size(); layer++)
         allExact &= isExact(layers[layer].exact, set.brdf, int(layer));
     if (allExact) return nullptr;
@@ -94,7 +94,7 @@ bool isSame(const MaterialSet& a, const MaterialSet& b) {
 
 } // namespace
 
-void makeResiduals(Asset& asset, bool isOfAll) {
+void makeResiduals(Asset& asset, bool includesExact) {
     MaterialBrdfs brdfs;
     // Sets that have a residual, of parts whose frames follow tangents or normals.
     std::vector<const MaterialSet*> ofTangents, ofNormals;
@@ -116,12 +116,42 @@ void makeResiduals(Asset& asset, bool isOfAll) {
             }
             known.push_back(&set);
             try {
-                set.residual = makeSet(set, isOfAll, brdfs);
+                set.residual = makeSet(set, includesExact, brdfs);
             } catch (const Error& error) {
                 log(LogLevel::Warning, fmt::format("{}: drawn without the residual, by its K terms alone: {}",
                                                    part.name, error.what()));
             }
         }
+}
+
+std::vector<vec3> irradianceWeights(const FactoredBrdf& factors) {
+    // Equal steps of the squared sine sample directions in proportion to the cosine.
+    constexpr int kAngles = 48, kAzimuths = 96;
+    const int terms = factors.terms;
+    std::vector<vec3> directions;
+    for (int j = 0; j < kAngles; j++)
+        for (int i = 0; i < kAzimuths; i++) {
+            const float squared = (float(j) + 0.5f) / kAngles, sine = std::sqrt(squared);
+            const float azimuth = 2 * kPi * (float(i) + 0.5f) / kAzimuths;
+            directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth),
+                                    std::sqrt(1 - squared));
+        }
+    const auto count = Eigen::Index(directions.size());
+    std::vector<vec3> result(size_t(terms), vec3(0));
+    for (int channel = 0; channel < 3; channel++) {
+        Eigen::MatrixXd maps(count, terms);
+        for (Eigen::Index i = 0; i < count; i++) {
+            const MapPlace place = placeInMap(factors.size, factors.mapping, directions[size_t(i)]);
+            for (int term = 0; term < terms; term++)
+                maps(i, term) = double(lookupMap(factors.lightMap(term), place)[channel]);
+        }
+        // Regularize, since terms may be linearly dependent and a channel may be black.
+        Eigen::MatrixXd normal = maps.transpose() * maps;
+        normal.diagonal().array() += 1e-9 * std::max(normal.trace(), 1e-30);
+        const Eigen::VectorXd weights = normal.ldlt().solve(maps.transpose() * Eigen::VectorXd::Ones(count));
+        for (int term = 0; term < terms; term++) result[size_t(term)][channel] = float(weights[term]);
+    }
+    return result;
 }
 
 } // namespace relume

@@ -1,7 +1,7 @@
 #include "precompute/twins/bounce_twin.h"
 
 #include "engine/math/cubemap.h"
-#include "engine/render/layer_weights.h"
+#include "engine/render/appearance.h"
 #include "precompute/bounce/bounce_gather.h"
 
 namespace relume {

@@ -138,7 +138,7 @@ class Bounces {
             bouncedVector(mAsset, mBound, mGains, mTracer, mFrom, part, vertex, set, term, kDirections);
         const SparseTransport& rows = mBounced->rows(part, set);
         std::vector<vec3> found(expected.size(), vec3(0));
-        rows.addCoefficients(size_t(vertex) * rows.terms + size_t(term), found);
+        rows.dequantizeRow(size_t(vertex) * rows.terms + size_t(term), found);
         for (size_t i = 0; i < expected.size(); i++) sum.add(found[i], expected[i]);
     }
 
@@ -174,7 +174,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
         for (size_t i = 0; i < expected.size(); i++) sums.transport.add(found[i], expected[i]);
 
         const size_t row = size_t(vertex) * size_t(set.brdf.terms) + size_t(term);
-        const std::vector<vec3> stored = coefficientsOf(set.transport, row, expected.size());
+        const std::vector<vec3> stored = dequantizedRow(set.transport, row, expected.size());
         std::vector<vec3> exact = reference.terms[size_t(term)].coefficients;
         if (bounces) {
             bounces->check(partIndex, setIndex, vertex, term, sums.bounce);
@@ -197,8 +197,7 @@ void checkVertex(const Asset& asset, size_t partIndex, size_t setIndex, uint32_t
 
 // Draws vertices at random; returns those of each part, ascending.
 std::map<size_t, std::vector<uint32_t>> drawSamples(const Asset& asset, int samples) {
-    uint64_t vertices = 0;
-    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
+    const uint64_t vertices = vertexCount(asset);
     std::mt19937_64 random(20040621);
     std::map<size_t, std::vector<uint32_t>> drawn;
     for (int sample = 0; sample < samples; sample++) {

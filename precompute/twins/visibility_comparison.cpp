@@ -15,8 +15,7 @@ namespace {
 constexpr uint32_t kBatch = 16;
 
 std::vector<shared::BakePoint> spreadPoints(const Asset& asset, uint64_t wanted) {
-    uint64_t vertices = 0;
-    for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();
+    const uint64_t vertices = vertexCount(asset);
     wanted = std::min(wanted, vertices);
     std::vector<shared::BakePoint> points;
     for (uint64_t i = 0; i < wanted; i++) {

@@ -49,7 +49,7 @@ void applyAll(Target& target, const nlohmann::json& settings) {
         }
     }
     // What they are can be kept, and set again: an exception here is a finding.
-    const nlohmann::json kept = keptSettings(target.state());
+    const nlohmann::json kept = rememberedSettings(target.state());
     for (const auto& [name, value] : kept.items()) target.set(name, value);
 }
 

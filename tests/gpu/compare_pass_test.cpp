@@ -1,7 +1,7 @@
 // Two images in one, held against what they are.
 #include "engine/image/image.h"
+#include "engine/render/compare.h"
 #include "engine/render/compare_pass.h"
-#include "engine/render/heat_color.h"
 #include "engine/vk/upload.h"
 #include "tests/support/test_device.h"
 

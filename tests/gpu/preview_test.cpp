@@ -45,7 +45,7 @@ std::vector<vec3> relit(const Asset& asset) {
     for (const AssetPart& part : asset.parts) {
         const Transport& transport = part.sets[0].transport;
         for (size_t row = 0; row < size_t(verticesOf(transport)) * termsOf(transport); row++) {
-            const std::vector<vec3> coefficients = coefficientsOf(transport, row, light.size());
+            const std::vector<vec3> coefficients = dequantizedRow(transport, row, light.size());
             vec3 sum(0);
             for (size_t i = 0; i < light.size(); i++) sum += coefficients[i] * light[i];
             sums.push_back(sum);

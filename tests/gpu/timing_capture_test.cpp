@@ -3,7 +3,7 @@
 #include "engine/render/light_pass.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
-#include "engine/vk/clock_reading.h"
+#include "engine/vk/tick_clock.h"
 #include "engine/vk/timing_capture.h"
 #include "tests/support/diffuse_asset.h"
 #include "tests/support/read_timings.h"

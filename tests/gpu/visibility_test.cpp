@@ -1,7 +1,6 @@
 // Rasterized and traced visibility against closed forms, against Embree and against each other.
 #include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
-#include "engine/import/ground.h"
 #include "engine/math/cubemap.h"
 #include "precompute/bake/bake.h"
 #include "precompute/twins/transport_twin.h"

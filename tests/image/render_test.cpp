@@ -5,7 +5,7 @@
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 #include "precompute/bake/bake.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/reference/reference_image.h"
 #include "tests/support/test_device.h"
 

@@ -1,4 +1,4 @@
-#include "engine/render/auto_exposure.h"
+#include "engine/render/tone_map.h"
 
 #include <cmath>
 #include <doctest/doctest.h>

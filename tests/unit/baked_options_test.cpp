@@ -1,6 +1,6 @@
 // Tests reading a bake's options from an asset, and assets without valid ones.
 #include "engine/base/error.h"
-#include "precompute/bake/bake_preset.h"
+#include "precompute/bake/bake_options.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_list.h"

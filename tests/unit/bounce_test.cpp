@@ -44,7 +44,7 @@ SparseTransport randomRows(const AssetPart& part, std::mt19937& random) {
 
 std::vector<vec3> denseRow(const SparseTransport& rows, size_t row) {
     std::vector<vec3> dense(kBounceCoefficients, vec3(0));
-    rows.addCoefficients(row, dense);
+    rows.dequantizeRow(row, dense);
     return dense;
 }
 

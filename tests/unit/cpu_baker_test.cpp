@@ -3,7 +3,7 @@
 #include "engine/import/builtin_mesh.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
-#include "precompute/cpu/morton.h"
+#include "precompute/cpu/cpu_visibility.h"
 #include "precompute/twins/transport_twin.h"
 #include "precompute/twins/vertex_check.h"
 

@@ -1,7 +1,6 @@
-#include "engine/import/ground.h"
+#include "engine/import/builtin_mesh.h"
 
 #include "engine/base/error.h"
-#include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
 
 #include <doctest/doctest.h>

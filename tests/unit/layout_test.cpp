@@ -91,8 +91,8 @@ double errorOf(const Transport& kept, const Transport& rows) {
     const std::vector<float> spectrum = lightSpectrum(kFace);
     double lost = 0;
     for (size_t row = 0; row < rowsOf(rows).rows(); row++) {
-        const std::vector<vec3> a = coefficientsOf(kept, row, kCoefficients),
-                                b = coefficientsOf(rows, row, kCoefficients);
+        const std::vector<vec3> a = dequantizedRow(kept, row, kCoefficients),
+                                b = dequantizedRow(rows, row, kCoefficients);
         for (size_t i = 0; i < a.size(); i++) {
             const vec3 away = (a[i] - b[i]) * spectrum[i];
             lost += double(glm::dot(away, away));
@@ -102,7 +102,7 @@ double errorOf(const Transport& kept, const Transport& rows) {
 }
 
 double bytesPerVertex(const Asset& asset) {
-    return double(bytesOf(asset.parts[0].sets[0].transport)) / double(verticesOf(asset));
+    return double(bytesOf(asset.parts[0].sets[0].transport)) / double(vertexCount(asset));
 }
 
 LayoutOptions bases(std::optional<double> budget, double error = 0.05) {

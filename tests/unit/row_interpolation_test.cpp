@@ -1,8 +1,8 @@
 // Tests which vertices a preview bakes, and how it interpolates their rows.
 #include "engine/import/builtin_mesh.h"
 #include "precompute/bake/coarse_neighbors.h"
+#include "precompute/bake/coarse_rows.h"
 #include "precompute/bake/coarse_vertices.h"
-#include "precompute/bake/row_interpolation.h"
 
 #include <algorithm>
 #include <cmath>

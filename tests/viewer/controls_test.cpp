@@ -166,7 +166,7 @@ TEST_CASE("controls: keys") {
                                                 {GLFW_KEY_B, Command::NextModel},
                                                 {GLFW_KEY_MINUS, Command::FewerTerms},
                                                 {GLFW_KEY_EQUAL, Command::MoreTerms},
-                                                {GLFW_KEY_W, Command::Why},
+                                                {GLFW_KEY_W, Command::ExplainVertex},
                                                 {GLFW_KEY_F5, Command::ReloadShaders},
                                                 {GLFW_KEY_F9, Command::Capture},
                                                 {GLFW_KEY_F11, Command::FullScreen},

@@ -42,20 +42,20 @@ TEST_CASE("settings: what is kept is the same the next time") {
                           {"model-panel", true},    {"light-panel", false}, {"material-panel", false},
                           {"view-panel", true},     {"trust-panel", false}, {"background", "none"},
                           {"background-blur", 2.5}, {"ground-fade", false}, {"samples", 8}};
-    const json before = keptSettings(state);
+    const json before = rememberedSettings(state);
     for (const auto& [name, value] : changed.items()) {
         CAPTURE(name);
         CHECK_NE(before.at(name), value);
         applySetting(state, name, value, nullptr);
     }
-    const json kept = keptSettings(state);
+    const json kept = rememberedSettings(state);
     CHECK_EQ(kept, changed);
     SceneState next = freshState();
     for (const auto& [name, value] : kept.items()) applySetting(next, name, value, nullptr);
-    CHECK_EQ(keptSettings(next), kept);
+    CHECK_EQ(rememberedSettings(next), kept);
     CHECK_EQ(next.light.selection.count, 77);
     for (const auto& [name, value] : before.items()) applySetting(next, name, value, nullptr);
-    CHECK_EQ(keptSettings(next), before);
+    CHECK_EQ(rememberedSettings(next), before);
 }
 
 TEST_CASE("settings: each changes what it is called after") {
@@ -70,7 +70,7 @@ TEST_CASE("settings: each changes what it is called after") {
     CHECK(state.exposesItself);
     CHECK(state.wantsExposure);
     set("background", "none");
-    CHECK_EQ(state.background, Behind::None);
+    CHECK_EQ(state.background, BackgroundKind::None);
     set("background-blur", 3);
     CHECK_EQ(state.backgroundBlur, 3);
     set("ground-fade", false);

@@ -1,7 +1,7 @@
 #include "engine/transport/bases/basis_chunk.h"
 
+#include "engine/chunk/block_chunk.h"
 #include "engine/chunk/byte_stream.h"
-#include "engine/chunk/rising_indices.h"
 #include "engine/scene/factored_brdf.h"
 
 #include <bit>

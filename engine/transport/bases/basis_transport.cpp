@@ -1,7 +1,6 @@
 #include "engine/transport/bases/basis_transport.h"
 
-#include "engine/chunk/expect.h"
-#include "engine/chunk/rising_indices.h"
+#include "engine/chunk/block_chunk.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,7 +22,7 @@ uint64_t BasisTransport::bytes() const {
     return sum;
 }
 
-void BasisTransport::addCoefficients(size_t row, std::span<vec3> coefficients) const {
+void BasisTransport::dequantizeRow(size_t row, std::span<vec3> coefficients) const {
     const size_t vertex = row / terms, term = row % terms;
     const size_t number = vertex / kBasisVertices, own = vertex % kBasisVertices;
     const BasisCluster& cluster = clusters[number];

@@ -60,8 +60,8 @@ struct BasisTransport {
     }
     size_t entries() const; // columns of all clusters
     uint64_t bytes() const;
-    // Adds the dequantized coefficients of a row to `coefficients`.
-    void addCoefficients(size_t row, std::span<vec3> coefficients) const;
+    // Dequantizes a row to `coefficients`, which must be zero before.
+    void dequantizeRow(size_t row, std::span<vec3> coefficients) const;
 };
 
 // Checks the kinds. Throws Error.

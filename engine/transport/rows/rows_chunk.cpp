@@ -1,7 +1,7 @@
 #include "engine/transport/rows/rows_chunk.h"
 
+#include "engine/chunk/block_chunk.h"
 #include "engine/chunk/byte_stream.h"
-#include "engine/chunk/rising_indices.h"
 
 #include <algorithm>
 #include <bit>

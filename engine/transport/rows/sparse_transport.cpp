@@ -1,7 +1,6 @@
 #include "engine/transport/rows/sparse_transport.h"
 
-#include "engine/chunk/expect.h"
-#include "engine/chunk/rising_indices.h"
+#include "engine/chunk/block_chunk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +18,7 @@ uint64_t SparseTransport::bytes() const {
            values.size() * sizeof(uint32_t);
 }
 
-void SparseTransport::addCoefficients(size_t row, std::span<vec3> coefficients) const {
+void SparseTransport::dequantizeRow(size_t row, std::span<vec3> coefficients) const {
     const vec3 unit = scales[row] * kCoefficientUnit;
     for (uint64_t entry = rowStarts[row]; entry < rowStarts[row + 1]; entry++)
         coefficients[indices[entry]] = vec3(unpackCoefficient(values[entry])) * unit;

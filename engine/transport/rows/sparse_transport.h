@@ -26,8 +26,8 @@ struct SparseTransport {
     size_t rows() const { return size_t(vertices) * terms; }
     size_t entries() const { return values.size(); }
     uint64_t bytes() const;
-    // Writes the dequantized entries of a row to `coefficients`; leaves the others.
-    void addCoefficients(size_t row, std::span<vec3> coefficients) const;
+    // Dequantizes a row to `coefficients`, which must be zero before.
+    void dequantizeRow(size_t row, std::span<vec3> coefficients) const;
 };
 
 // The packing of a coefficient in 11, 11 and 10 signed bits, red lowest. GLSL twin: shaders/lib/packing.glsl.

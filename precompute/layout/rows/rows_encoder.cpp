@@ -14,7 +14,7 @@ void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, Conversion
         const size_t terms = termsOf(transport), first = places[i].first * terms;
         for (size_t row = first; row < first + places[i].count * terms; row++) {
             const std::vector<vec3> coefficients =
-                coefficientsOf(transport, row, size_t(6 * asset.faceSize * asset.faceSize));
+                dequantizedRow(transport, row, size_t(6 * asset.faceSize * asset.faceSize));
             packed[i].push_back(packLargest(coefficients, asset.coefficients));
         }
     });

@@ -7,22 +7,22 @@
 namespace relume {
 
 // A vertex, an eye, and the light, as given and as the selected entries.
-struct WhyQuestion {
+struct VertexQuestion {
     std::shared_ptr<const Model> model;
     PartAppearance bound;
     size_t part = 0;
     uint32_t vertex = 0;
     vec3 eye{0};
     LightCube light;
-    LightVector kept;
+    LightVector selected;
 };
 
 // Sizes of pictures: faces of crosses by crossOf() have at most kCrossSide pixels per side; maps are
 // kMapWidth wide.
 constexpr int kCrossSide = 64, kMapWidth = 512;
 
-// The answer to a WhyQuestion.
-struct Why {
+// The answer to a VertexQuestion.
+struct VertexExplanation {
     std::string part;
     uint32_t vertex = 0;
     vec3 position{0};
@@ -35,6 +35,6 @@ struct Why {
 };
 
 // Answers in a few hundredths of a second, on any thread.
-Why explain(const WhyQuestion& question);
+VertexExplanation explainVertex(const VertexQuestion& question);
 
 } // namespace relume

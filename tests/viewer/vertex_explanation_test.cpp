@@ -1,5 +1,5 @@
 // The explanation of a vertex is that of what is drawn.
-#include "apps/viewer/why.h"
+#include "apps/viewer/vertex_explanation.h"
 
 #include "apps/viewer/cube_images.h"
 #include "engine/math/cubemap.h"
@@ -32,25 +32,25 @@ TEST_CASE("why: tuple and radiance are those of the relit vertex, and the lamp i
             vertex = i;
     const vec3 position = mesh.positions[vertex], normal = mesh.normals[vertex];
     const Camera camera{position + 4.0f * glm::normalize(normal + vec3(0.2f, 0.1f, -0.1f)), position, 0.5f};
-    const Why why = explain({model, model->appearance[0], 0, vertex, camera.eye, model->light.readCube(),
-                             model->light.readVector()});
-    CHECK_EQ(why.part, model->asset.parts[0].name);
-    CHECK_EQ(why.vertex, vertex);
-    CHECK_EQ(why.position, position);
+    const VertexExplanation explanation = explainVertex({model, model->appearance[0], 0, vertex, camera.eye,
+                                                         model->light.readCube(), model->light.readVector()});
+    CHECK_EQ(explanation.part, model->asset.parts[0].name);
+    CHECK_EQ(explanation.vertex, vertex);
+    CHECK_EQ(explanation.position, position);
 
     const std::vector<vec3> tuples = model->relighter.readTuples(0);
     const auto terms = size_t(termsOf(*model));
-    REQUIRE_EQ(why.tuple.size(), terms);
+    REQUIRE_EQ(explanation.tuple.size(), terms);
     for (size_t term = 0; term < terms; term++) {
         const vec3 relit = tuples[vertex * terms + term];
-        CHECK(glm::distance(why.tuple[term], relit) <= 1e-4f * glm::length(relit) + 1e-6f);
+        CHECK(glm::distance(explanation.tuple[term], relit) <= 1e-4f * glm::length(relit) + 1e-6f);
     }
     // The vertex is in the middle of the image; its terms are what is explained.
     model->view.resize(401, 401);
     model->view.setResidual(false);
     const vec3 drawn = vec3(model->view.render(camera, model->relighter).at(200, 200));
     CHECK_GT(drawn.x, 0.05f);
-    CHECK(glm::distance(why.radiance, drawn) < 0.05f * glm::length(drawn));
+    CHECK(glm::distance(explanation.radiance, drawn) < 0.05f * glm::length(drawn));
 
     const Mesh* const occluderMesh = &model->asset.occluder;
     const RayTracer occluder({&occluderMesh, 1});
@@ -63,9 +63,9 @@ TEST_CASE("why: tuple and radiance are those of the relit vertex, and the lamp i
         if (!occluder.occluded(position + model->asset.visibilityOffset * normal, direction))
             open += cubeTexelSolidAngle(x, y, 64);
     }
-    CHECK(why.openShare == doctest::Approx(open / above).epsilon(0.02));
-    CHECK_EQ(why.visibility.width, 4 * kCrossSide);
-    CHECK_EQ(why.visibility.height, 3 * kCrossSide);
+    CHECK(explanation.openShare == doctest::Approx(open / above).epsilon(0.02));
+    CHECK_EQ(explanation.visibility.width, 4 * kCrossSide);
+    CHECK_EQ(explanation.visibility.height, 3 * kCrossSide);
     // Where its normal points to it is open; the other way is below its horizon.
     const auto onCross = [&](vec3 direction) {
         LightCube cube{64, std::vector<vec3>(6 * 64 * 64, vec3(0))};
@@ -73,13 +73,13 @@ TEST_CASE("why: tuple and radiance are those of the relit vertex, and the lamp i
         cube.radiance[size_t(cubeTexelIndex(texel.face, texel.x, texel.y, cube.size))] = vec3(1);
         const Image cross = crossOf(cube, kCrossSide / cube.size);
         const auto pixel = std::ranges::find_if(cross.pixels, [](vec4 p) { return p.x > 0; });
-        return why.visibility.pixels[size_t(pixel - cross.pixels.begin())];
+        return explanation.visibility.pixels[size_t(pixel - cross.pixels.begin())];
     };
     CHECK_EQ(onCross(normal), vec4(1));
     CHECK_EQ(onCross(-normal).w, 0);
 
     // What reaches the eye comes from the lamp.
-    const Image& map = why.contributions;
+    const Image& map = explanation.contributions;
     CHECK_EQ(map.width, kMapWidth);
     const auto hottest =
         std::ranges::max_element(map.pixels, {}, [](const vec4& p) { return p.x + p.y + p.z; });

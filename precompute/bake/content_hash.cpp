@@ -1,5 +1,3 @@
-#include "precompute/bake/visibility_key.h"
-
 #include "precompute/bake/content_hash.h"
 
 namespace relume {

@@ -1,8 +1,8 @@
-#include "apps/viewer/why.h"
+#include "apps/viewer/vertex_explanation.h"
 
 #include "apps/viewer/cube_images.h"
 #include "engine/math/cubemap.h"
-#include "engine/render/heat_color.h"
+#include "engine/render/compare.h"
 #include "precompute/error/vertex_probe.h"
 
 #include <algorithm>
@@ -65,17 +65,17 @@ Image contributionsPicture(const LightCube& light, const LightCube& transport) {
 
 } // namespace
 
-Why explain(const WhyQuestion& question) {
+VertexExplanation explainVertex(const VertexQuestion& question) {
     const Model& model = *question.model;
     const AssetPart& part = model.asset.parts[question.part];
     const VertexProbe probe = probeVertex(model.asset, model.occluder, question.part, question.vertex,
-                                          question.eye, question.bound, question.light, question.kept);
-    Why why;
-    why.part = part.name;
-    why.vertex = question.vertex;
-    why.position = part.mesh.positions[question.vertex];
-    why.tuple = probe.tuple;
-    why.radiance = probe.radiance;
+                                          question.eye, question.bound, question.light, question.selected);
+    VertexExplanation explanation;
+    explanation.part = part.name;
+    explanation.vertex = question.vertex;
+    explanation.position = part.mesh.positions[question.vertex];
+    explanation.tuple = probe.tuple;
+    explanation.radiance = probe.radiance;
     const vec3 normal = part.mesh.normals[question.vertex];
     const int size = model.asset.faceSize;
     float open = 0, above = 0;
@@ -86,13 +86,13 @@ Why explain(const WhyQuestion& question) {
                 open += angle * probe.visibility[size_t(cubeTexelIndex(face, x, y, size))];
                 if (glm::dot(cubeTexelDirection(face, x, y, size), normal) > 0) above += angle;
             }
-    why.openShare = std::min(1.0f, open / above);
-    why.visibility = visibilityPicture(probe.visibility, size, normal);
-    why.transport =
+    explanation.openShare = std::min(1.0f, open / above);
+    explanation.visibility = visibilityPicture(probe.visibility, size, normal);
+    explanation.transport =
         toneMap(crossOf(scaled(probe.transport, 1 / brightestOf(probe.transport)), kCrossSide / size),
                 ToneCurve::None, 0);
-    why.contributions = contributionsPicture(question.light, probe.transport);
-    return why;
+    explanation.contributions = contributionsPicture(question.light, probe.transport);
+    return explanation;
 }
 
 } // namespace relume

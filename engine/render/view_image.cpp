@@ -1,6 +1,10 @@
-#include "engine/render/view_formats.h"
+#include "engine/render/view_image.h"
 
 #include "engine/render/pixel_samples.h"
+#include "engine/vk/commands.h"
+
+#include <algorithm>
+#include <span>
 
 namespace relume {
 
@@ -44,6 +48,19 @@ int supportedViewSamples(const vk::Device& device, VkFormat depthFormat, int wan
     for (int samples = wanted; samples > 1; samples /= 2)
         if (counts & VkSampleCountFlags(samples)) return samples;
     return 1;
+}
+
+Image downloadImage(const vk::Device& device, const vk::Image& source) {
+    Image image(int(source.options().width), int(source.options().height));
+    const vk::Buffer readback(device, std::span(image.pixels).size_bytes(), vk::BufferUse::Readback,
+                              "image download");
+    vk::Commands commands(device, "image download");
+    commands.begin();
+    commands.copy(source, readback, 1);
+    commands.barrier(vk::Stage::Transfer, vk::Stage::Host);
+    commands.submitAndWait();
+    std::ranges::copy(readback.map<vec4>(), image.pixels.begin());
+    return image;
 }
 
 } // namespace relume
