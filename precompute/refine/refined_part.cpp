@@ -21,10 +21,27 @@ double squaredLength(const ProbeResponses& responses) {
     return sum;
 }
 
-double squaredError(const ProbeResponses& first, const ProbeResponses& second, const ProbeResponses& middle) {
+// Returns the share of a point's unshadowed transport that is seen, by least squares.
+double litShare(const ProbedPoint& point) {
+    double both = 0, all = 0;
+    for (size_t i = 0; i < point.seen.size(); i++) {
+        const double unshadowed = double(point.seen[i]) + double(point.blocked[i]);
+        both += double(point.seen[i]) * unshadowed;
+        all += unshadowed * unshadowed;
+    }
+    return all > 0 ? std::clamp(both / all, 0.0, 1.0) : 0;
+}
+
+// Returns the squared error of the mean of two points' transport, less `share` of the error of their
+// unshadowed transport: interpolation changes both alike where light is neither found nor lost.
+double squaredError(const ProbedPoint& first, const ProbedPoint& second, const ProbedPoint& middle,
+                    double share) {
     double sum = 0;
-    for (size_t i = 0; i < middle.size(); i++) {
-        const double error = 0.5 * (double(first[i]) + double(second[i])) - double(middle[i]);
+    for (size_t i = 0; i < middle.seen.size(); i++) {
+        const auto away = [i, &first, &second, &middle](ProbeResponses ProbedPoint::*of) {
+            return 0.5 * (double((first.*of)[i]) + double((second.*of)[i])) - double((middle.*of)[i]);
+        };
+        const double error = (1 - share) * away(&ProbedPoint::seen) - share * away(&ProbedPoint::blocked);
         sum += error * error;
     }
     return sum;
@@ -54,7 +71,7 @@ void RefinedPart::probe(const std::function<void(size_t, size_t)>& report) {
         mOfVertices.resize(mesh.vertexCount());
         std::iota(mOfVertices.begin(), mOfVertices.end(), 0u);
     }
-    auto number = uint32_t(mResponses.size() + points.size());
+    auto number = uint32_t(mPoints.size() + points.size());
     std::vector<ProbedEdge*> fresh;
     for (ProbedEdge& edge : mEdges) {
         if (edge.middle != kUnknown) continue;
@@ -64,10 +81,11 @@ void RefinedPart::probe(const std::function<void(size_t, size_t)>& report) {
     }
     probe(points, report);
     for (ProbedEdge* edge : fresh) {
-        const ProbeResponses& middle = mResponses[edge->middle];
-        edge->squaredResponse = squaredLength(middle);
-        edge->squaredError = squaredError(mResponses[mOfVertices[edge->edge.first]],
-                                          mResponses[mOfVertices[edge->edge.second]], middle);
+        const ProbedPoint& middle = mPoints[edge->middle];
+        edge->squaredResponse = squaredLength(middle.seen);
+        edge->squaredError =
+            squaredError(mPoints[mOfVertices[edge->edge.first]], mPoints[mOfVertices[edge->edge.second]],
+                         middle, mProbe.hasResiduals() ? litShare(middle) : 0);
     }
 }
 
@@ -75,13 +93,13 @@ void RefinedPart::probe(std::span<const EdgeMiddle> points,
                         const std::function<void(size_t, size_t)>& report) {
     tbb::enumerable_thread_specific<TransportProbe::Workspace> workspaces(
         [this] { return mProbe.makeWorkspace(); });
-    const size_t start = mResponses.size();
-    mResponses.resize(start + points.size());
+    const size_t start = mPoints.size();
+    mPoints.resize(start + points.size());
     for (size_t first = 0; first < points.size(); first += kProbesAtOnce) {
         report(first, points.size());
         tbb::parallel_for(first, std::min(points.size(), first + kProbesAtOnce), [&](size_t i) {
             const vec3 lifted = points[i].position + mOffset * points[i].normal;
-            mResponses[start + i] = mProbe.responses(lifted, points[i].frame(), workspaces.local());
+            mPoints[start + i] = mProbe.probe(lifted, points[i].frame(), workspaces.local());
         });
     }
     report(points.size(), points.size());

@@ -14,7 +14,7 @@ struct ProbedEdge {
     double area = 0; // a third of the area of its triangles, which the midpoints of their edges represent
     double squaredError = 0; // of the mean of the ends' projections against the midpoint's
     double squaredResponse = 0;
-    uint32_t middle; // index of its projection
+    uint32_t middle; // number of its probed point
 };
 
 class RefinedPart {
@@ -34,15 +34,15 @@ class RefinedPart {
     void split(std::span<const uint32_t> numbers);
 
   private:
-    // Appends the projections of points.
+    // Appends what is found at points.
     void probe(std::span<const EdgeMiddle> points, const std::function<void(size_t, size_t)>& report);
     void findEdges();
 
     AssetPart& mPart;
     TransportProbe mProbe;
     float mOffset;
-    std::vector<ProbeResponses> mResponses;
-    std::vector<uint32_t> mOfVertices; // per vertex: index of its projection
+    std::vector<ProbedPoint> mPoints;
+    std::vector<uint32_t> mOfVertices; // per vertex: its index in mPoints
     std::vector<ProbedEdge> mEdges;
 };
 

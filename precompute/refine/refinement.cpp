@@ -48,7 +48,7 @@ class Places {
     std::map<Key, uint32_t> mNumbers;
 };
 
-// Edges of all parts that coincide, and their total error: squared, times area.
+// Edges of all parts that coincide, and their total error: squared, times area and their parts' weights.
 struct EdgeGain {
     Edge places;
     double error = 0;
@@ -59,7 +59,8 @@ class Refiner {
   public:
     Refiner(const std::vector<AssetPart*>& parts, const std::vector<const Mesh*>& others,
             const Mesh& occluder, float offset, BakeObserver& observer)
-        : mVisibility(occluder, TransportProbe::kVisibilitySize), mOffset(offset), mObserver(observer) {
+        : mVisibility(occluder, TransportProbe::kVisibilitySize), mOffset(offset), mObserver(observer),
+          mWhiteEnergy(mLights.whiteEnergy()) {
         mParts.reserve(parts.size());
         for (AssetPart* part : parts) mParts.emplace_back(*part, mVisibility, mLights, offset);
         mPlaces.resize(parts.size());
@@ -137,19 +138,34 @@ class Refiner {
                    kShortestEdge * mOffset;
     }
 
+    // Returns the weight of a part's squared light. What reflects more than a white surface does, polished
+    // metal or a clear coat above all, counts as if it reflected as much: else its peaks, which few eyes see,
+    // take all vertices, and the ground keeps none for shadows.
+    double weightOf(const RefinedPart& part) const {
+        double area = 0, energy = 0;
+        for (const ProbedEdge& edge : part.edges()) {
+            area += edge.area;
+            energy += edge.area * edge.squaredResponse;
+        }
+        return area > 0 ? 1 / std::max(mWhiteEnergy, energy / area) : 0;
+    }
+
     void measure() {
         mError = mEnergy = 0;
         std::map<Edge, EdgeGain> gains;
-        for (size_t part = 0; part < mParts.size(); part++)
+        for (size_t part = 0; part < mParts.size(); part++) {
+            const double weight = weightOf(mParts[part]);
             for (const ProbedEdge& edge : mParts[part].edges()) {
-                mError += edge.area * edge.squaredError;
-                mEnergy += edge.area * edge.squaredResponse;
+                const double error = weight * edge.area * edge.squaredError;
+                mError += error;
+                mEnergy += weight * edge.area * edge.squaredResponse;
                 if (!isSplittable(part, edge.edge)) continue;
                 const Edge places = placesOf(part, edge.edge);
                 EdgeGain& gain = gains.try_emplace(places, EdgeGain{places}).first->second;
-                gain.error += edge.area * edge.squaredError;
+                gain.error += error;
                 gain.sides++;
             }
+        }
         mGains.clear();
         for (const auto& [places, gain] : gains) mGains.push_back(gain);
     }
@@ -189,7 +205,8 @@ class Refiner {
     std::vector<std::vector<uint32_t>> mPlaces; // per part and vertex
     std::set<Edge> mKept;                       // edges that stay whole, by places
     uint64_t mMostVertices = 0;
-    double mError = 0, mEnergy = 0; // squared, times area
+    double mWhiteEnergy;            // per area
+    double mError = 0, mEnergy = 0; // squared, times area and weight
     std::vector<EdgeGain> mGains;
 };
 

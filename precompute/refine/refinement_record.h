@@ -8,7 +8,7 @@ namespace relume {
 // Range of --refine.
 constexpr double kLeastRefinementError = 0.001, kMostRefinementError = 1;
 
-// Limit on vertices of all refined parts; each takes about a kilobyte of memory during refinement.
+// Limit on vertices of all refined parts; each takes about two kilobytes of memory during refinement.
 constexpr uint64_t kMostRefinedVertices = 1u << 20;
 
 // Limits of --refine auto: it refines parts of fewer than kCoarseVertices, up to kMostAutoGiven vertices
@@ -19,7 +19,8 @@ constexpr uint64_t kMostAutoVertices = 20000, kMostAutoGiven = 200000;
 
 // Errors are estimates for transport interpolated between vertices: the RMS over the surface of all refined
 // parts of the error in reflected light, weighted by the mean spectrum of light
-// (precompute/transport/light_spectrum.h), relative to the RMS of that light.
+// (precompute/transport/light_spectrum.h), relative to the RMS of that light. Parts that reflect more than a
+// white surface count as if they reflected as much.
 struct RefinementRecord {
     double wanted = 0;                        // kLeastRefinementError to kMostRefinementError
     double startError = 0;                    // of the input meshes

@@ -6,6 +6,7 @@
 #include "precompute/cpu/cpu_visibility.h"
 #include "precompute/transport/light_spectrum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -60,9 +61,27 @@ ProbeLights::ProbeLights() : mValues(size_t(kCubeFaces * kFaceSize * kFaceSize) 
         }
 }
 
+double ProbeLights::whiteEnergy() const {
+    std::array<double, kProbeLights> responses{};
+    for (int face = 0; face < kCubeFaces; face++)
+        for (uint32_t i = 0; i < uint32_t(kFaceSize * kFaceSize); i++) {
+            const ivec2 place = mortonPlace(i);
+            const vec3 direction = cubeTexelDirection(face, place.x, place.y, kFaceSize);
+            if (direction.y <= 0) continue;
+            const float* light = texel(size_t(face * kFaceSize * kFaceSize) + i);
+            const double share = double(direction.y * cubeTexelSolidAngle(place.x, place.y, kFaceSize) / kPi);
+            for (size_t j = 0; j < kProbeLights; j++) responses[j] += share * double(light[j]);
+        }
+    double energy = 0;
+    for (const double response : responses) energy += 3 * response * response; // of three channels
+    return energy;
+}
+
 TransportProbe::TransportProbe(const AssetPart& part, const CpuVisibility& visibility,
                                const ProbeLights& lights)
-    : mVisibility(visibility), mLights(lights), mTransport(weightedTransport(part)) {
+    : mVisibility(visibility), mLights(lights), mTransport(weightedTransport(part)),
+      mHasResiduals(
+          std::ranges::all_of(part.sets, [](const MaterialSet& set) { return set.residual != nullptr; })) {
     RELUME_CHECK_EQ(visibility.texels(), size_t(kCubeFaces * kVisibilitySize * kVisibilitySize));
 }
 
@@ -72,9 +91,19 @@ TransportProbe::Workspace TransportProbe::makeWorkspace() const {
     return workspace;
 }
 
-ProbeResponses TransportProbe::responses(vec3 origin, const TangentFrame& frame, Workspace& workspace) const {
-    constexpr size_t kBlock = CpuCoefficients::kBlock;
+ProbedPoint TransportProbe::probe(vec3 origin, const TangentFrame& frame, Workspace& workspace) const {
     mVisibility.trace(origin, frame.n, workspace.bits);
+    ProbedPoint point{.seen = responses(frame, workspace)};
+    if (mHasResiduals) {
+        // Directions below the horizon are blocked too, and have no transport.
+        for (uint64_t& bits : workspace.bits) bits = ~bits;
+        point.blocked = responses(frame, workspace);
+    }
+    return point;
+}
+
+ProbeResponses TransportProbe::responses(const TangentFrame& frame, Workspace& workspace) const {
+    constexpr size_t kBlock = CpuCoefficients::kBlock;
     CpuCoefficients& texels = workspace.texels;
     mTransport.evaluate(frame, workspace.bits, texels);
     const auto stride = size_t(texels.stride);

@@ -24,8 +24,17 @@ class ProbeLights {
 
     const float* texel(size_t place) const { return &mValues[place * kProbeLights]; }
 
+    // Returns the sum of the squared responses of a white diffuse surface that nothing shadows.
+    double whiteEnergy() const;
+
   private:
     std::vector<float> mValues;
+};
+
+// What is found at a point.
+struct ProbedPoint {
+    ProbeResponses seen{};    // of its transport
+    ProbeResponses blocked{}; // of what is hidden of its unshadowed transport; 0 unless hasResiduals()
 };
 
 // Probes points of one part. Terms are weighted by the RMS of their view maps, so that projections are of
@@ -45,14 +54,21 @@ class TransportProbe {
     };
     Workspace makeWorkspace() const;
 
-    // Returns the random projection of the transport at a point already lifted off the surface. Thread-safe
-    // and deterministic.
-    ProbeResponses responses(vec3 origin, const TangentFrame& frame, Workspace& workspace) const;
+    // Returns whether all sets of the part have a residual. Then unshadowed light is found at every pixel,
+    // and only the share of it that arrives is interpolated (docs/residual.md).
+    bool hasResiduals() const { return mHasResiduals; }
+
+    // Probes a point that is already lifted off the surface. Thread-safe and deterministic.
+    ProbedPoint probe(vec3 origin, const TangentFrame& frame, Workspace& workspace) const;
 
   private:
+    // Returns the responses of the transport of the directions in workspace.bits.
+    ProbeResponses responses(const TangentFrame& frame, Workspace& workspace) const;
+
     const CpuVisibility& mVisibility;
     const ProbeLights& mLights;
     CpuTransport mTransport;
+    bool mHasResiduals;
 };
 
 } // namespace relume

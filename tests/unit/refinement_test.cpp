@@ -80,7 +80,7 @@ double interpolationError(const RoofedPlane& scene) {
     const TransportProbe probe(scene.parts[0], visibility, lights);
     TransportProbe::Workspace workspace = probe.makeWorkspace();
     const auto responsesAt = [&](vec3 position) {
-        return probe.responses(position + vec3(0, 1e-3f, 0), tangentFrame({0, 1, 0}), workspace);
+        return probe.probe(position + vec3(0, 1e-3f, 0), tangentFrame({0, 1, 0}), workspace).seen;
     };
     const Mesh& plane = scene.parts[0].mesh;
     std::vector<ProbeResponses> responses;
@@ -188,8 +188,8 @@ TEST_CASE("transport probe: responses differ as transport does that light weighs
     for (const float x : {0.1f, 0.4f, 0.6f, 1.2f})
         for (const float step : {0.05f, 0.3f}) {
             const vec3 first(x, 1e-3f, 0.1f), other(x + step, 1e-3f, 0.2f);
-            const ProbeResponses a = probe.responses(first, tangentFrame(up), workspace),
-                                 b = probe.responses(other, tangentFrame(up), workspace);
+            const ProbeResponses a = probe.probe(first, tangentFrame(up), workspace).seen,
+                                 b = probe.probe(other, tangentFrame(up), workspace).seen;
             double between = 0, weighted = 0;
             for (size_t i = 0; i < a.size(); i++) between += double(a[i] - b[i]) * double(a[i] - b[i]);
             const std::vector<vec3> one = coefficients(first), two = coefficients(other);
@@ -203,6 +203,52 @@ TEST_CASE("transport probe: responses differ as transport does that light weighs
             answered += between, expected += weighted;
         }
     CHECK(answered == doctest::Approx(expected).epsilon(0.25));
+}
+
+TEST_CASE("transport probe: a white surface in the open has the energy that is said") {
+    const Mesh plane = makePlane(1, 1);
+    const AssetPart part = makeDiffusePart(plane, 1);
+    const CpuVisibility visibility(plane, TransportProbe::kVisibilitySize);
+    const ProbeLights lights;
+    const TransportProbe probe(part, visibility, lights);
+    TransportProbe::Workspace workspace = probe.makeWorkspace();
+    double energy = 0;
+    for (const float response : probe.probe({0, 1, 0}, tangentFrame({0, 1, 0}), workspace).seen)
+        energy += double(response) * double(response);
+    CHECK(energy == doctest::Approx(lights.whiteEnergy()).epsilon(0.3));
+}
+
+TEST_CASE("transport probe: what is blocked is what the unshadowed transport has more") {
+    RoofedPlane scene;
+    scene.parts[0].sets[0].residual = std::make_shared<ResidualSet>();
+    const CpuVisibility visibility(scene.occluder, TransportProbe::kVisibilitySize);
+    const ProbeLights lights;
+    const TransportProbe probe(scene.parts[0], visibility, lights);
+    TransportProbe::Workspace workspace = probe.makeWorkspace();
+    const TangentFrame frame = tangentFrame({0, 1, 0});
+    const ProbedPoint under = probe.probe({0.1f, 1e-3f, 0.1f}, frame, workspace),
+                      above = probe.probe({0, 1, 0}, frame, workspace);
+    CHECK(above.blocked == ProbeResponses{});
+    CHECK(under.blocked != ProbeResponses{});
+    for (size_t i = 0; i < under.seen.size(); i++)
+        CHECK(under.seen[i] + under.blocked[i] == doctest::Approx(above.seen[i]).epsilon(1e-3));
+}
+
+// Of two spheres, the one in the open sees everything, the one in the closed shell nothing.
+TEST_CASE("refinement: a curved surface with a residual is refined where its shadow changes alone") {
+    for (const bool isHidden : {false, true}) {
+        CAPTURE(isHidden);
+        std::vector<AssetPart> parts = {makeDiffusePart(makeSphere(1), 0.8f)};
+        Mesh occluder = makeSphere(3);
+        for (vec3& position : occluder.positions) position *= isHidden ? 2.0f : 0.1f;
+        BakeObserver silent;
+        parts[0].sets[0].residual = std::make_shared<ResidualSet>();
+        const RefinementRecord record = refine(parts, occluder, 1e-3f, {kLeastRefinementError}, silent);
+        CHECK(record.vertices == record.startVertices);
+        if (isHidden) continue;
+        parts[0].sets[0].residual = nullptr;
+        CHECK(refine(parts, occluder, 1e-3f, {0.05}, silent).startError > 100 * record.error);
+    }
 }
 
 TEST_CASE("refinement: a plane that nothing shadows stays as it is") {
