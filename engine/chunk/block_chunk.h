@@ -1,4 +1,5 @@
-// What layouts of transport share to describe, code and check the chunk of a block of vertices.
+// Helpers shared by the layouts of transport, which describe, code and check the chunk of a block of
+// vertices.
 #pragma once
 
 #include "engine/base/error.h"

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kExtension = "EXT_meshopt_compression";
 
-// The codecs' best: attributes that are all equal take two bits for 16 bytes.
+// The most bytes that a packed byte unfolds to: attributes that are all equal take two bits for 16 bytes.
 constexpr size_t kMostRatio = 64;
 
 constexpr size_t kLargestStride = 256;
@@ -27,7 +27,7 @@ struct PackedView {
     std::string mode, filter;
 };
 
-size_t sizeOf(const Json& json, const char* key, const std::string& place) {
+size_t readSize(const Json& json, const char* key, const std::string& place) {
     const Json* found = findGltfMember(json, key, place);
     if (!found) return 0;
     if (!found->is_number_unsigned())
@@ -35,20 +35,20 @@ size_t sizeOf(const Json& json, const char* key, const std::string& place) {
     return found->get<size_t>();
 }
 
-// The description, checked against the specification, with the bytes that it refers to.
+// Reads a description, checks it against the specification, and finds the bytes that it refers to.
 PackedView readView(const Json& json, const tinygltf::Model& model, const std::string& place) {
-    const size_t number = sizeOf(json, "buffer", place);
+    const size_t number = readSize(json, "buffer", place);
     if (number >= model.buffers.size())
         throw Error(fmt::format("{}: refers to buffer {}, but there are only {}", place, number,
                                 model.buffers.size()));
     const std::span<const unsigned char> buffer = model.buffers[number].data;
-    const size_t offset = sizeOf(json, "byteOffset", place), length = sizeOf(json, "byteLength", place);
+    const size_t offset = readSize(json, "byteOffset", place), length = readSize(json, "byteLength", place);
     if (offset > buffer.size() || length > buffer.size() - offset)
         throw Error(
             fmt::format("{}: does not fit in its buffer of {} bytes: the file is truncated or corrupt", place,
                         buffer.size()));
-    PackedView view{buffer.subspan(offset, length), sizeOf(json, "count", place),
-                    sizeOf(json, "byteStride", place), gltfText(json, "mode", place),
+    PackedView view{buffer.subspan(offset, length), readSize(json, "count", place),
+                    readSize(json, "byteStride", place), gltfText(json, "mode", place),
                     gltfText(json, "filter", place)};
     if (view.filter.empty()) view.filter = "NONE";
     const size_t stride = view.stride;
@@ -69,7 +69,7 @@ PackedView readView(const Json& json, const tinygltf::Model& model, const std::s
 
 using Decoder = int (*)(void*, size_t count, size_t stride, const unsigned char*, size_t);
 
-Decoder decoderOf(const std::string& mode) {
+Decoder findDecoder(const std::string& mode) {
     if (mode == "TRIANGLES") return meshopt_decodeIndexBuffer;
     if (mode == "INDICES") return meshopt_decodeIndexSequence;
     return meshopt_decodeVertexBuffer;
@@ -78,7 +78,7 @@ Decoder decoderOf(const std::string& mode) {
 std::vector<unsigned char> unpack(const PackedView& view, const std::string& place) {
     std::vector<unsigned char> unpacked(view.count * view.stride);
     unsigned char* const data = unpacked.data();
-    if (decoderOf(view.mode)(data, view.count, view.stride, view.bytes.data(), view.bytes.size()) != 0)
+    if (findDecoder(view.mode)(data, view.count, view.stride, view.bytes.data(), view.bytes.size()) != 0)
         throw Error(fmt::format("{}: cannot be unpacked: the file is truncated or corrupt", place));
     if (view.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(data, view.count, view.stride);
     if (view.filter == "QUATERNION") meshopt_decodeFilterQuat(data, view.count, view.stride);
@@ -86,7 +86,7 @@ std::vector<unsigned char> unpack(const PackedView& view, const std::string& pla
     return unpacked;
 }
 
-// The extension's member of an object whose extensions may be anything.
+// Returns the extension's member of an object whose extensions may be anything, or null.
 const Json* findExtension(const Json& object) {
     if (!object.is_object()) return nullptr;
     const auto extensions = object.find("extensions");

@@ -9,12 +9,13 @@
 
 namespace relume {
 
-// What a document says of its packed buffer views; nothing of it has been checked.
+// The packed buffer views of a document, as it describes them, unchecked.
 struct GltfPacking {
     std::map<size_t, nlohmann::json> views; // by number
     std::set<size_t> placeholders;          // numbers of buffers without bytes, for what views unpack to
 };
 
+// Finds the packed views, and the buffers that need no bytes since only views are unpacked to them.
 GltfPacking readGltfPacking(const nlohmann::json& document);
 
 // Unpacks each view into a buffer of its own. Throws Error, in which `name` stands for the file.

@@ -187,7 +187,7 @@ tinygltf::Model readModel(Json document, const GltfPacking& packing, Container c
             if (!buffer.is_object()) continue;
             const std::string place = fmt::format("{}: buffers[{}]", name, i);
             const bool isPlaceholder = packing.placeholders.contains(i);
-            if (isPlaceholder) buffer["byteLength"] = 1; // the library wants something
+            if (isPlaceholder) buffer["byteLength"] = 1; // TinyGLTF refuses an empty buffer
             files[fmt::format("{}/{}", kBuffers, i)] =
                 isPlaceholder ? std::vector<unsigned char>(1) : readBuffer(buffer, container, folder, place);
             buffer["uri"] = fmt::format("{}", i);

@@ -22,22 +22,22 @@ struct GltfParameters {
     float clearcoat, clearcoatRoughness;
 };
 
-float largestOf(vec3 color) { return std::max({color.x, color.y, color.z}); }
+float largestChannel(vec3 color) { return std::max({color.x, color.y, color.z}); }
 
-float widthOf(float roughness) { return std::max(roughness * roughness, kMinAlpha); }
+float facetWidth(float roughness) { return std::max(roughness * roughness, kMinAlpha); }
 
 Ggx stretched(float alpha, float anisotropy) {
     return {glm::mix(alpha, 1.0f, anisotropy * anisotropy), alpha};
 }
 
 // Schlick's Fresnel term at normal incidence.
-float reflectanceOf(float ior) {
+float normalReflectance(float ior) {
     const double ratio = (double(ior) - 1) / (double(ior) + 1);
     return float(ratio * ratio);
 }
 
-// What an interface lets through on the way in and out: (1 - F(cosθi)) (1 - F(cosθo)) / (1 - F(1)), which at
-// normal incidence is the specification's 1 - F.
+// The share of light that crosses an interface on the way in and out: (1 - F(cosθi)) (1 - F(cosθo)) /
+// (1 - F(1)), which at normal incidence is the specification's 1 - F.
 class Transmission {
   public:
     Transmission(float atNormal, float atHorizon)
@@ -55,14 +55,14 @@ class Gltf final : public Brdf {
   public:
     explicit Gltf(const GltfParameters& given)
         : mGiven(given),
-          mAtNormal(given.specular * glm::min(reflectanceOf(given.ior) * given.specularColor, vec3(1))),
-          mIntoBase(largestOf(mAtNormal), given.specular),
+          mAtNormal(given.specular * glm::min(normalReflectance(given.ior) * given.specularColor, vec3(1))),
+          mIntoBase(largestChannel(mAtNormal), given.specular),
           mIntoCoat(given.clearcoat * kCoatF0, given.clearcoat),
-          mFacets(stretched(widthOf(given.roughness), given.anisotropy)),
+          mFacets(stretched(facetWidth(given.roughness), given.anisotropy)),
           mBrush(std::cos(glm::radians(given.anisotropyRotation)),
                  std::sin(glm::radians(given.anisotropyRotation))),
-          mSheen(given.sheenColor, given.sheenRoughness), mCoat{widthOf(given.clearcoatRoughness),
-                                                                widthOf(given.clearcoatRoughness)} {}
+          mSheen(given.sheenColor, given.sheenRoughness), mCoat{facetWidth(given.clearcoatRoughness),
+                                                                facetWidth(given.clearcoatRoughness)} {}
 
     vec3 evaluate(vec3 incoming, vec3 outgoing) const override {
         const Geometry geometry(*this, incoming, outgoing);
@@ -75,7 +75,7 @@ class Gltf final : public Brdf {
 
     bool isIsotropic() const override { return mFacets.alphaU == mFacets.alphaV; }
 
-    // Extensions that change nothing are left out.
+    // Leaves out extensions that change nothing.
     nlohmann::json describe() const override {
         nlohmann::json json = {{"model", "gltf"},
                                {"base_color", colorToJson(mGiven.baseColor)},

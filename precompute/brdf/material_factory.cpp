@@ -11,11 +11,10 @@ namespace relume {
 
 namespace {
 
-// The expected error of reflected radiance above which nonnegative terms are taken to have missed all but a
-// narrow lobe.
-constexpr float kMissed = 0.6f;
+// Above this expected error of reflected radiance, nonnegative terms have missed all but a narrow lobe.
+constexpr float kMissedError = 0.6f;
 
-bool isAny(const BrdfTable& table) {
+bool isNonzero(const BrdfTable& table) {
     return std::ranges::any_of(table.channels, [](const auto& channel) { return !channel.isZero(0); });
 }
 
@@ -56,7 +55,7 @@ MaterialSet MaterialFactory::factorAnew(const std::vector<NamedMaterial>& materi
         bool hasBase = false;
         if (isTextured) {
             BrdfTable base = tabulate(*material.brdf, mMapSize, mMapping, value, BrdfPart::Base);
-            hasBase = isAny(base);
+            hasBase = isNonzero(base);
             if (hasBase) {
                 tables.push_back(tabulate(*material.brdf, mMapSize, mMapping, value, BrdfPart::Rest));
                 tables.push_back(std::move(base));
@@ -67,8 +66,9 @@ MaterialSet MaterialFactory::factorAnew(const std::vector<NamedMaterial>& materi
     }
     set.brdf = factorize(tables, mOptions);
     const bool isMissed = !isTextured && mOptions.method == Factorization::NonNegative &&
-                          std::ranges::any_of(expectedErrors(tables, set.brdf),
-                                              [](const auto& errors) { return errors.back() > kMissed; });
+                          std::ranges::any_of(expectedErrors(tables, set.brdf), [](const auto& errors) {
+                              return errors.back() > kMissedError;
+                          });
     return isMissed ? withBases(std::move(set), materials, std::move(tables)) : set;
 }
 
@@ -78,7 +78,7 @@ MaterialSet MaterialFactory::withBases(MaterialSet set, const std::vector<NamedM
     for (const NamedMaterial& material : materials) {
         BrdfTable base =
             tabulate(*material.brdf, mMapSize, mMapping, texelValueOf(mOptions.method), BrdfPart::Base);
-        if (isAny(base)) tables.push_back(std::move(base));
+        if (isNonzero(base)) tables.push_back(std::move(base));
     }
     if (tables.size() == layers) return set;
     set.brdf = factorize(tables, mOptions);

@@ -28,8 +28,8 @@ class MaterialFactory {
     MaterialSet factor(const std::vector<NamedMaterial>& materials, bool isTextured);
     MaterialSet factorAnew(const std::vector<NamedMaterial>& materials, bool isTextured) const;
     // Factors the bases along with the tables, so that light maps represent them, and drops their view maps.
-    // Where a lobe is too narrow for its maps, all nonnegative terms go after its peaks, and what light is
-    // reflected otherwise would be in none.
+    // All nonnegative terms go to the peaks of a lobe that is too narrow for its maps, and the rest of the
+    // reflected light would be in none.
     MaterialSet withBases(MaterialSet set, const std::vector<NamedMaterial>& materials,
                           std::vector<BrdfTable> tables) const;
 

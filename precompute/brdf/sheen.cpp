@@ -7,7 +7,7 @@ namespace relume {
 
 namespace {
 
-// The authors' fit for the masking of their distribution, between its parameters at α = 1 and at α = 0.
+// Returns the authors' fit for the masking of their distribution, between its parameters at α = 1 and α = 0.
 float maskingFit(float cosine, float alpha) {
     const float narrow = (1 - alpha) * (1 - alpha);
     const auto between = [&](float wide, float thin) { return wide + (thin - wide) * narrow; };
@@ -31,7 +31,7 @@ float visibility(float cosine, float otherCosine, float alpha) {
     return 1 / (4 * (cosine * otherCosine) * masking);
 }
 
-// By the midpoint rule, dense at the horizon: within .001.
+// Returns the albedo of a white sheen, undivided, within .001: by the midpoint rule, dense at the horizon.
 float integrateAlbedo(float cosine, float alpha) {
     constexpr int kSteps = 32;
     const float sine = std::sqrt(1 - cosine * cosine);

@@ -15,17 +15,17 @@ class Sheen {
     // `color`: in [0, 1], as `roughness`. A black sheen reflects nothing and hides nothing.
     Sheen(vec3 color, float roughness);
 
-    // f in sr⁻¹; `half` is the unit half vector. The formulas of narrow sheens (roughness below .3) reflect
-    // up to 1.6 times what they receive at grazing angles; these are divided by the larger albedo of the two
-    // directions.
+    // Returns f in sr⁻¹; `half` is the unit half vector. The formulas of narrow sheens (roughness below .3)
+    // reflect up to 1.6 times what they receive at grazing angles; these are divided by the larger albedo of
+    // the two directions.
     vec3 evaluate(vec3 wi, vec3 wo, vec3 half) const;
 
-    // The factor of what lies below: 1 less the largest channel's albedo, in the direction where that is
-    // larger.
+    // Returns the factor on what lies below: 1 less the largest channel's albedo, in the direction where that
+    // is larger.
     float scaleBelow(vec3 wi, vec3 wo) const;
 
   private:
-    // The integral of f cosθi over the hemisphere for a white sheen, undivided.
+    // Returns the integral of f cosθi over the hemisphere for a white sheen, undivided.
     float albedo(float cosine) const;
 
     static constexpr int kAlbedos = 64;

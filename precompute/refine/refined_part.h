@@ -34,7 +34,7 @@ class RefinedPart {
     void split(std::span<const uint32_t> numbers);
 
   private:
-    // Appends what is found at points.
+    // Probes points and appends their responses.
     void probe(std::span<const EdgeMiddle> points, const std::function<void(size_t, size_t)>& report);
     void findEdges();
 

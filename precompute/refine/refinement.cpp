@@ -141,7 +141,7 @@ class Refiner {
     // Returns the weight of a part's squared light. What reflects more than a white surface does, polished
     // metal or a clear coat above all, counts as if it reflected as much: else its peaks, which few eyes see,
     // take all vertices, and the ground keeps none for shadows.
-    double weightOf(const RefinedPart& part) const {
+    double energyWeight(const RefinedPart& part) const {
         double area = 0, energy = 0;
         for (const ProbedEdge& edge : part.edges()) {
             area += edge.area;
@@ -154,7 +154,7 @@ class Refiner {
         mError = mEnergy = 0;
         std::map<Edge, EdgeGain> gains;
         for (size_t part = 0; part < mParts.size(); part++) {
-            const double weight = weightOf(mParts[part]);
+            const double weight = energyWeight(mParts[part]);
             for (const ProbedEdge& edge : mParts[part].edges()) {
                 const double error = weight * edge.area * edge.squaredError;
                 mError += error;

@@ -31,7 +31,7 @@ class ProbeLights {
     std::vector<float> mValues;
 };
 
-// What is found at a point.
+// The responses of a point.
 struct ProbedPoint {
     ProbeResponses seen{};    // of its transport
     ProbeResponses blocked{}; // of what is hidden of its unshadowed transport; 0 unless hasResiduals()

@@ -53,7 +53,7 @@ struct PackedGlb {
 
     std::string bytes() const { return glbOf(json.dump(), buffer); }
 
-    // What the extension says of a view.
+    // Returns the extension's description of a view.
     nlohmann::json& description(size_t view) {
         return json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
     }
@@ -69,7 +69,7 @@ struct PackedGlb {
                 {"type", type}};
     }
 
-    // What a view of the plain file has.
+    // Returns the numbers in a view of the plain file.
     std::vector<float> floats(size_t view, size_t count) const {
         std::vector<float> values(count);
         std::memcpy(values.data(), buffer.data() + json["bufferViews"][view]["byteOffset"].get<size_t>(),

@@ -234,7 +234,7 @@ TEST_CASE("transport probe: what is blocked is what the unshadowed transport has
         CHECK(under.seen[i] + under.blocked[i] == doctest::Approx(above.seen[i]).epsilon(1e-3));
 }
 
-// Of two spheres, the one in the open sees everything, the one in the closed shell nothing.
+// A sphere in the open sees everything, one in a closed shell nothing.
 TEST_CASE("refinement: a curved surface with a residual is refined where its shadow changes alone") {
     for (const bool isHidden : {false, true}) {
         CAPTURE(isHidden);
