@@ -1,12 +1,18 @@
 // A binary glTF file of two textured squares, for tests of its reader.
 #pragma once
 
+#include "engine/import/mesh_formats.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/texture_samples.h"
 
 #include <fmt/format.h>
 
 namespace relume::test {
+
+// Decodes a binary glTF file, whose references are relative to `folder`.
+inline GltfParts decodeGlb(const std::string& bytes, const std::filesystem::path& folder = {}) {
+    return decodeGltfParts(std::as_bytes(std::span(bytes)), folder, "a.glb");
+}
 
 inline std::string encodeBase64(const std::string& bytes) {
     static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

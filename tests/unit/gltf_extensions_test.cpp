@@ -15,15 +15,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<GltfPart> decode(const std::string& bytes) {
-    return decodeGltfParts(std::as_bytes(std::span(bytes)), "", "a.glb").parts;
-}
-
 // The first square's part in a material of these members.
 GltfPart decodeMaterial(const std::string& members) {
     TexturedGlb glb;
     glb.materials = "[{" + members + R"(},{"name":"other"}])";
-    return decode(glb.bytes())[0];
+    return decodeGlb(glb.bytes()).parts[0];
 }
 
 std::string failureOf(const std::string& members) {
@@ -54,7 +50,7 @@ std::vector<GltfPart> decodeBrushed(const std::string& material, const std::stri
     for (int i = 0; i < 12; i++)
         for (const float value : {1.0f, 0.0f, 0.0f, i < 6 ? 1.0f : -1.0f}) put(buffer, value);
     json["buffers"][0]["byteLength"] = buffer.size();
-    return decode(glbOf(json.dump(), buffer));
+    return decodeGlb(glbOf(json.dump(), buffer)).parts;
 }
 
 } // namespace
@@ -75,7 +71,7 @@ TEST_CASE("glTF extensions: factors become parameters of the model") {
         R"("clearcoat_roughness":0.125})");
     CHECK_FALSE(makeBrdf(part.material)->isIsotropic());
     CHECK_FALSE(log.says("ignored"));
-    // What is not there keeps the model's defaults, which are the specifications'.
+    // Absent factors keep the model's defaults, which are the specifications'.
     CHECK(!says(decodeMaterial(R"("extensions":{"KHR_materials_sheen":{},"KHR_materials_ior":{}})").material,
                 "ior"));
 }
@@ -159,6 +155,6 @@ TEST_CASE("glTF extensions: without tangents, anisotropy follows texture coordin
     TexturedGlb glb;
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":3,"material":0}])";
     glb.materials = "[{" + brushed + "}]";
-    CHECK(decode(glb.bytes())[0].mesh.uvs.empty());
+    CHECK(decodeGlb(glb.bytes()).parts[0].mesh.uvs.empty());
     CHECK(log.says("directions of anisotropy"));
 }

@@ -17,13 +17,9 @@ using namespace relume::test;
 
 namespace {
 
-GltfParts decode(const std::string& bytes, const std::filesystem::path& folder = "") {
-    return decodeGltfParts(std::as_bytes(std::span(bytes)), folder, "a.glb");
-}
-
 std::string failureOf(const TexturedGlb& glb, const std::filesystem::path& folder = "") {
     try {
-        decode(glb.bytes(), folder);
+        decodeGlb(glb.bytes(), folder);
     } catch (const Error& error) {
         return error.what();
     }
@@ -35,7 +31,7 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 } // namespace
 
 TEST_CASE("glTF parts: two textured materials come in apart, each with its own") {
-    const GltfParts file = decode(TexturedGlb().bytes());
+    const GltfParts file = decodeGlb(TexturedGlb().bytes());
     REQUIRE(file.parts.size() == 2);
     const GltfPart &red = file.parts[0], &blue = file.parts[1];
     CHECK(red.name == "red");
@@ -74,7 +70,7 @@ TEST_CASE("glTF parts: images as data, as files, and from nowhere else") {
     TexturedGlb data;
     data.images = R"([{"uri":"data:image/png;base64,)" + encodeBase64(samplePng(TexturedGlb::kBlue)) +
                   R"("},{"bufferView":5}])";
-    CHECK(decode(data.bytes()).parts[0].baseColor->texels == TexturedGlb::kBlue.texels);
+    CHECK(decodeGlb(data.bytes()).parts[0].baseColor->texels == TexturedGlb::kBlue.texels);
 
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder.path() / "inner/maps");
@@ -88,7 +84,7 @@ TEST_CASE("glTF parts: images as data, as files, and from nowhere else") {
         return glb;
     };
     const std::filesystem::path inner = folder.path() / "inner";
-    const GltfParts file = decode(withImage("maps/red%20wood.png").bytes(), inner);
+    const GltfParts file = decodeGlb(withImage("maps/red%20wood.png").bytes(), inner);
     CHECK(file.parts[0].baseColor->texels == TexturedGlb::kRed.texels);
     REQUIRE(file.images.size() == 1);
     CHECK(says(file.images[0].file, "red wood.png"));
@@ -110,7 +106,7 @@ TEST_CASE("glTF parts: metalness and roughness are averaged, texture coordinates
         "metallicRoughnessTexture":{"index":0},"baseColorTexture":{"index":1,"extensions":{
         "KHR_texture_transform":{"offset":[1,2],"rotation":1.5707963267948966,"scale":[4,2]}}}}},
         {"name":"material 0"}])";
-    const GltfParts file = decode(glb.bytes());
+    const GltfParts file = decodeGlb(glb.bytes());
     REQUIRE(file.parts.size() == 2);
     CHECK(file.parts[0].material.find("\"metallic\":0.0,\"roughness\":0.25") != std::string::npos);
     // (0.75, 0.5) is scaled to (3, 1), turned counter-clockwise, u to the lesser v, and moved.
@@ -127,14 +123,14 @@ TEST_CASE("glTF parts: what is not supported is ignored, factors are clamped") {
         "occlusionTexture":{"index":77},"alphaMode":"BLEND",
         "extensions":{"KHR_materials_volume":{"thicknessTexture":[[[]]]}},"extras":[[[]]]},
         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1,"texCoord":3}}}])";
-    const GltfParts file = decode(glb.bytes());
+    const GltfParts file = decodeGlb(glb.bytes());
     REQUIRE(file.parts.size() == 2);
     CHECK(
         file.parts[0].material ==
         R"({"name":"material 0","model":"gltf","base_color":[1.0,0.0,0.5],"metallic":1.0,"roughness":1.0})");
     CHECK(!file.parts[1].baseColor); // there is no TEXCOORD_3
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":3}])";
-    const GltfParts bare = decode(glb.bytes());
+    const GltfParts bare = decodeGlb(glb.bytes());
     REQUIRE(bare.parts.size() == 1);
     CHECK(bare.parts[0].name == "default material");
 }
@@ -144,7 +140,7 @@ TEST_CASE("glTF parts: metalness and roughness that vary become a set and its we
     // The red image: G of 0 and 255, B of 0; so two roughnesses.
     glb.materials = R"([{"name":"tin","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],
         "roughnessFactor":0.8,"metallicRoughnessTexture":{"index":0},"baseColorTexture":{"index":1}}},{}])";
-    const GltfPart part = decode(glb.bytes()).parts[0];
+    const GltfPart part = decodeGlb(glb.bytes()).parts[0];
     const nlohmann::json set = nlohmann::json::parse(part.material)["set"];
     REQUIRE(set.size() == 4);
     CHECK(set[0]["name"] == "tin (metallic 0.00, roughness 0.14)");
@@ -155,7 +151,7 @@ TEST_CASE("glTF parts: metalness and roughness that vary become a set and its we
     CHECK(part.baseColor.has_value());
     // Without texture coordinates its mean is all there is.
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":3,"material":0}])";
-    const GltfPart bare = decode(glb.bytes()).parts[0];
+    const GltfPart bare = decodeGlb(glb.bytes()).parts[0];
     CHECK(!bare.materialMap);
     CHECK(says(bare.material, "\"metallic\":0.0,\"roughness\":0.4"));
 }
@@ -166,7 +162,7 @@ TEST_CASE("glTF parts: normal maps, emission and vertex colors") {
         "emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}},
         {"normalTexture":{"index":1,"texCoord":1},"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},
         "emissiveFactor":[0,0,3]}])";
-    const GltfParts file = decode(glb.bytes());
+    const GltfParts file = decodeGlb(glb.bytes());
     const SurfaceDetail &first = file.parts[0].detail, &second = file.parts[1].detail;
     REQUIRE(first.normalMap);
     CHECK(!first.normalMap->srgb);
@@ -181,7 +177,7 @@ TEST_CASE("glTF parts: normal maps, emission and vertex colors") {
     CHECK(file.parts[0].mesh.colors.empty());
     // Normals as colors: (0, 0, 1) at every corner.
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1},"indices":3,"material":0}])";
-    const GltfPart tinted = decode(glb.bytes()).parts[0];
+    const GltfPart tinted = decodeGlb(glb.bytes()).parts[0];
     REQUIRE(tinted.mesh.colors.size() == tinted.mesh.vertexCount());
     CHECK(vec3(tinted.mesh.colors[0]) == vec3(0, 0, 1));
     CHECK(!tinted.detail.normalMap); // no texture coordinates
@@ -190,7 +186,7 @@ TEST_CASE("glTF parts: normal maps, emission and vertex colors") {
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1},"indices":3,"material":0},
         {"attributes":{"POSITION":0,"NORMAL":1},"indices":4,"material":0},
         {"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":77},"indices":4,"material":1}])";
-    const GltfParts mixed = decode(glb.bytes());
+    const GltfParts mixed = decodeGlb(glb.bytes());
     const std::vector<vec4>& colors = mixed.parts[0].mesh.colors;
     REQUIRE(colors.size() == mixed.parts[0].mesh.vertexCount());
     CHECK(std::ranges::count(colors, vec4(1)) == std::ptrdiff_t(colors.size() / 2));
@@ -202,7 +198,7 @@ TEST_CASE("glTF parts: masks cut holes, and so do blended textures that are near
         TexturedGlb glb;
         glb.materials = "[{" + first + R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},{)" +
                         second + R"(,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]}}])";
-        return decode(glb.bytes()).parts;
+        return decodeGlb(glb.bytes()).parts;
     };
     const auto lowest = [](const Mesh& mesh) {
         float low = 1;
@@ -230,18 +226,18 @@ TEST_CASE("glTF parts: masks cut holes, and so do blended textures that are near
                  R"("},{"bufferView":5}])";
     glb.materials = R"([{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},{}])";
     float highest = 0;
-    for (const vec2& uv : decode(glb.bytes()).parts[0].mesh.uvs) highest = std::max(highest, uv.y);
+    for (const vec2& uv : decodeGlb(glb.bytes()).parts[0].mesh.uvs) highest = std::max(highest, uv.y);
     CHECK(highest == doctest::Approx(0.25).epsilon(0.01));
     // Colors without alpha are opaque.
     glb.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1},"indices":3,"material":0}])";
     glb.materials = R"([{"alphaMode":"MASK"}])";
-    CHECK(decode(glb.bytes()).parts[0].mesh.triangleCount() == 2);
+    CHECK(decodeGlb(glb.bytes()).parts[0].mesh.triangleCount() == 2);
 }
 
 TEST_CASE("glTF parts: scales of normals are bounded") {
     TexturedGlb glb;
     glb.materials = R"([{"normalTexture":{"index":1,"scale":1e300}},{}])";
-    CHECK(decode(glb.bytes()).parts[0].detail.normalScale == kLargestNormalScale);
+    CHECK(decodeGlb(glb.bytes()).parts[0].detail.normalScale == kLargestNormalScale);
 }
 
 TEST_CASE("glTF parts: materials that lie") {
@@ -305,7 +301,7 @@ TEST_CASE("glTF parts: truncated anywhere or with any bit flipped, parts or an E
     std::mt19937 random(3);
     const auto tryDecode = [](const std::string& damaged) {
         try {
-            decode(damaged);
+            decodeGlb(damaged);
         } catch (const Error&) {
         }
     };
@@ -316,5 +312,5 @@ TEST_CASE("glTF parts: truncated anywhere or with any bit flipped, parts or an E
             damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
         tryDecode(damaged);
     }
-    CHECK(decode(bytes).parts.size() == 2);
+    CHECK(decodeGlb(bytes).parts.size() == 2);
 }
