@@ -31,8 +31,7 @@ VkRenderPass makeRenderPass(const vk::Device& device, VkFormat format) {
     create.pAttachments = &color;
     create.subpassCount = 1;
     create.pSubpasses = &subpass;
-    VkRenderPass pass;
-    RELUME_VK(vkCreateRenderPass(device.handle(), &create, nullptr, &pass));
+    const VkRenderPass pass = RELUME_VK_CREATE(vkCreateRenderPass, device.handle(), create);
     device.setName(VK_OBJECT_TYPE_RENDER_PASS, reinterpret_cast<uint64_t>(pass), "ui");
     return pass;
 }
@@ -44,9 +43,7 @@ VkDescriptorPool makeDescriptorPool(const vk::Device& device) {
     create.maxSets = 8;
     create.poolSizeCount = 1;
     create.pPoolSizes = &size;
-    VkDescriptorPool pool;
-    RELUME_VK(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool));
-    return pool;
+    return RELUME_VK_CREATE(vkCreateDescriptorPool, device.handle(), create);
 }
 
 } // namespace
@@ -110,7 +107,7 @@ void Ui::resized() {
         create.width = mSwapchain.width();
         create.height = mSwapchain.height();
         create.layers = 1;
-        RELUME_VK(vkCreateFramebuffer(mDevice.handle(), &create, nullptr, &mFramebuffers.emplace_back()));
+        mFramebuffers.push_back(RELUME_VK_CREATE(vkCreateFramebuffer, mDevice.handle(), create));
     }
 }
 

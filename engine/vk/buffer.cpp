@@ -30,7 +30,7 @@ Buffer::Buffer(const Device& device, uint64_t bytes, BufferUse use, std::string_
                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     try {
-        RELUME_VK(vkCreateBuffer(device.handle(), &create, nullptr, &mBuffer));
+        mBuffer = RELUME_VK_CREATE(vkCreateBuffer, device.handle(), create);
         VkMemoryRequirements requirements;
         vkGetBufferMemoryRequirements(device.handle(), mBuffer, &requirements);
         if (requirements.size > device.info().largestAllocation)

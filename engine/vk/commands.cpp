@@ -67,21 +67,24 @@ StageMasks masksOf(Stage stage) {
 
 } // namespace
 
-Commands::Commands(const Device& device, std::string_view name) : mDevice(device) {
+Commands::Commands(const Device& device) : mDevice(device) {}
+
+// Delegates, so that the destructor runs if an object cannot be made.
+Commands::Commands(const Device& device, std::string_view name) : Commands(device) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();
-    RELUME_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &mPool));
+    mPool = RELUME_VK_CREATE(vkCreateCommandPool, device.handle(), pool);
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = mPool;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     RELUME_VK(vkAllocateCommandBuffers(device.handle(), &allocate, &mOwnCommands));
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mFence));
+    mFence = RELUME_VK_CREATE(vkCreateFence, device.handle(), fence);
     VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = 2 * kMaxTimedPasses;
-    RELUME_VK(vkCreateQueryPool(device.handle(), &queries, nullptr, &mQueries));
+    mQueries = RELUME_VK_CREATE(vkCreateQueryPool, device.handle(), queries);
     device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(mOwnCommands), name);
     device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<uint64_t>(mPool), name);
     device.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<uint64_t>(mFence), name);
@@ -213,10 +216,7 @@ VkBufferView Commands::texelView(const Binding& binding) {
     const uint64_t texel = texelBytes(binding.texelFormat);
     RELUME_CHECK_LE(binding.bytes / texel, mDevice.mostTexels(texel));
     create.range = binding.bytes / texel * texel;
-    VkBufferView view;
-    RELUME_VK(vkCreateBufferView(mDevice.handle(), &create, nullptr, &view));
-    mTexelViews.push_back(view);
-    return view;
+    return mTexelViews.emplace_back(RELUME_VK_CREATE(vkCreateBufferView, mDevice.handle(), create));
 }
 
 void Commands::dropTexelViews() {
@@ -235,9 +235,8 @@ VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
             create.maxSets = kSetsPerPool;
             create.poolSizeCount = uint32_t(std::size(sizes));
             create.pPoolSizes = sizes;
-            VkDescriptorPool pool;
-            RELUME_VK(vkCreateDescriptorPool(mDevice.handle(), &create, nullptr, &pool));
-            mDescriptorPools.push_back(pool);
+            const VkDescriptorPool pool = mDescriptorPools.emplace_back(
+                RELUME_VK_CREATE(vkCreateDescriptorPool, mDevice.handle(), create));
             mDevice.setName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, reinterpret_cast<uint64_t>(pool), "descriptors");
         }
         VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
@@ -413,6 +412,7 @@ void Commands::submitAndWait() {
     CpuSpan submission(mCapture, "submit");
     RELUME_CHECK(mCommands == mOwnCommands);
     RELUME_VK(vkEndCommandBuffer(mCommands));
+    RELUME_VK(vkResetFences(mDevice.handle(), 1, &mFence));
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     buffer.commandBuffer = mCommands;
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
@@ -424,8 +424,12 @@ void Commands::submitAndWait() {
     }
     submission.end();
     CpuSpan waiting(mCapture, "wait");
-    RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mFence, VK_TRUE, UINT64_MAX));
-    RELUME_VK(vkResetFences(mDevice.handle(), 1, &mFence));
+    const VkResult waited = vkWaitForFences(mDevice.handle(), 1, &mFence, VK_TRUE, UINT64_MAX);
+    if (waited != VK_SUCCESS) { // nothing that the device still uses may be destroyed
+        const auto lock = mDevice.lockQueue();
+        vkQueueWaitIdle(mDevice.queue());
+    }
+    check(waited, "vkWaitForFences");
     waiting.end();
     collectTimes();
 }

@@ -134,6 +134,7 @@ class Commands {
     void clearTimes() { mTimes.clear(); }
 
   private:
+    explicit Commands(const Device& device);
     void dispatchBytes(const ComputeProgram& program, std::initializer_list<Binding> bindings,
                        std::span<const std::byte> push, uvec3 items);
     void bindBytes(const Program& program, VkPipelineBindPoint point, std::initializer_list<Binding> bindings,

@@ -22,9 +22,9 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 bool hasLayer(const char* name) {
     uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    RELUME_VK(vkEnumerateInstanceLayerProperties(&count, nullptr));
     std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    RELUME_VK(vkEnumerateInstanceLayerProperties(&count, layers.data()));
     return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
         return std::strcmp(layer.layerName, name) == 0;
     });
@@ -38,9 +38,9 @@ bool hasExtension(const std::vector<VkExtensionProperties>& extensions, const ch
 
 bool hasInstanceExtension(const char* name) {
     uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    RELUME_VK(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr));
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    RELUME_VK(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()));
     return hasExtension(extensions, name);
 }
 
@@ -113,8 +113,8 @@ VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, Vk
 }
 
 Device::Device(const DeviceOptions& options) {
-    createInstance(options);
     try {
+        createInstance(options);
         pickPhysicalDevice(options.select, options.leastFeatures);
         createDevice(!options.surfaceExtensions.empty());
         mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, options.pipelineCache);
@@ -196,9 +196,13 @@ void Device::createInstance(const DeviceOptions& options) {
     if (canDebug) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     create.enabledExtensionCount = uint32_t(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
-    if (vkCreateInstance(&create, nullptr, &mInstance) != VK_SUCCESS)
+    VkInstance instance;
+    const VkResult created = vkCreateInstance(&create, nullptr, &instance);
+    checkMemory(created, "vkCreateInstance");
+    if (created != VK_SUCCESS)
         throw NoDeviceError("no Vulkan driver was found; on Debian, mesa-vulkan-drivers brings one that runs "
                             "everywhere");
+    mInstance = instance;
     if (canDebug) loadDebugUtils();
     if (validation.empty()) return;
     VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
@@ -210,7 +214,7 @@ void Device::createInstance(const DeviceOptions& options) {
     messenger.pUserData = this;
     const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(mInstance, "vkCreateDebugUtilsMessengerEXT"));
-    RELUME_VK(createMessenger(mInstance, &messenger, nullptr, &mMessenger));
+    mMessenger = RELUME_VK_CREATE(createMessenger, mInstance, messenger);
 }
 
 // Loads the debug functions, which are null without the extension.
@@ -290,7 +294,7 @@ void Device::createDevice(bool showsImages) {
     }
     create.enabledExtensionCount = uint32_t(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
-    RELUME_VK(vkCreateDevice(mPhysical, &create, nullptr, &mDevice));
+    mDevice = RELUME_VK_CREATE(vkCreateDevice, mPhysical, create);
     mMemoryPool = std::make_unique<MemoryPool>(mDevice);
     vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
     setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(mQueue), "queue");

@@ -118,9 +118,14 @@ bool DeviceInfo::takesPortableShaders() const {
 
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
     uint32_t count = 0;
-    if (vkEnumeratePhysicalDevices(instance, &count, nullptr) != VK_SUCCESS) return {};
-    std::vector<VkPhysicalDevice> devices(count);
-    if (vkEnumeratePhysicalDevices(instance, &count, devices.data()) != VK_SUCCESS) return {};
+    std::vector<VkPhysicalDevice> devices;
+    for (const bool isFilled : {false, true}) {
+        devices.resize(count);
+        const VkResult listed =
+            vkEnumeratePhysicalDevices(instance, &count, isFilled ? devices.data() : nullptr);
+        checkMemory(listed, "vkEnumeratePhysicalDevices");
+        if (listed != VK_SUCCESS) return {};
+    }
     devices.resize(count);
     return devices;
 }
@@ -131,7 +136,9 @@ std::vector<DeviceInfo> listDevices() {
     VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     create.pApplicationInfo = &application;
     VkInstance instance;
-    if (vkCreateInstance(&create, nullptr, &instance) != VK_SUCCESS) return {};
+    const VkResult created = vkCreateInstance(&create, nullptr, &instance);
+    checkMemory(created, "vkCreateInstance");
+    if (created != VK_SUCCESS) return {};
     std::vector<DeviceInfo> infos;
     for (VkPhysicalDevice physical : physicalDevices(instance))
         infos.push_back(describeDevice(physical, uint32_t(infos.size())));

@@ -25,7 +25,7 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
             throw Error(fmt::format("{}: {} x {} x {} texels asked for, {} allows {} x {} x {}", name,
                                     options.width, options.height, options.layers, device.name(), side, side,
                                     device.limits().maxImageArrayLayers));
-        RELUME_VK(vkCreateImage(device.handle(), &create, nullptr, &mImage));
+        mImage = RELUME_VK_CREATE(vkCreateImage, device.handle(), create);
         VkMemoryRequirements requirements;
         vkGetImageMemoryRequirements(device.handle(), mImage, &requirements);
         if (requirements.size > device.info().largestAllocation)
@@ -59,7 +59,7 @@ void Image::createView() {
     view.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
     view.format = mOptions.format;
     view.subresourceRange = {aspect(), 0, mOptions.mips, 0, mOptions.layers};
-    RELUME_VK(vkCreateImageView(mDevice->handle(), &view, nullptr, &mView));
+    mView = RELUME_VK_CREATE(vkCreateImageView, mDevice->handle(), view);
 }
 
 VkImageAspectFlags Image::aspect() const {
@@ -96,7 +96,7 @@ Sampler::Sampler(const Device& device, VkSamplerAddressMode addressU, VkSamplerA
     create.mipmapMode =
         filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     create.maxLod = VK_LOD_CLAMP_NONE;
-    RELUME_VK(vkCreateSampler(device.handle(), &create, nullptr, &mSampler));
+    mSampler = RELUME_VK_CREATE(vkCreateSampler, device.handle(), create);
     device.setName(VK_OBJECT_TYPE_SAMPLER, reinterpret_cast<uint64_t>(mSampler), name);
 }
 

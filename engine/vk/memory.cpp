@@ -109,7 +109,7 @@ MemoryPool::Block& MemoryPool::makeBlock(uint64_t bytes, uint32_t type, MemoryKi
     allocate.allocationSize = bytes;
     allocate.memoryTypeIndex = type;
     mBlocks.reserve(mBlocks.size() + 1); // nothing may throw between allocation and ownership
-    RELUME_VK(vkAllocateMemory(mDevice, &allocate, nullptr, &block->memory));
+    block->memory = RELUME_VK_CREATE(vkAllocateMemory, mDevice, allocate);
     mBlocks.push_back(std::move(block));
     if (kind == MemoryKind::MappedBuffer) {
         void* mapped = nullptr;

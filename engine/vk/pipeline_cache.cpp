@@ -92,7 +92,7 @@ PipelineCache::PipelineCache(VkDevice device, const VkPhysicalDeviceProperties& 
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     create.initialDataSize = kept.size();
     create.pInitialData = kept.data();
-    RELUME_VK(vkCreatePipelineCache(device, &create, nullptr, &mCache));
+    mCache = RELUME_VK_CREATE(vkCreatePipelineCache, device, create);
 }
 
 PipelineCache::~PipelineCache() { vkDestroyPipelineCache(mDevice, mCache, nullptr); }

@@ -19,7 +19,7 @@ class Module {
         VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         create.codeSize = spirv.size_bytes();
         create.pCode = spirv.data();
-        RELUME_VK(vkCreateShaderModule(device.handle(), &create, nullptr, &mModule));
+        mModule = RELUME_VK_CREATE(vkCreateShaderModule, device.handle(), create);
         device.setName(VK_OBJECT_TYPE_SHADER_MODULE, reinterpret_cast<uint64_t>(mModule), name);
     }
     ~Module() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
@@ -74,7 +74,7 @@ void Program::createLayout(const Device& device, std::span<const ShaderInterface
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set.bindingCount = uint32_t(list.size());
     set.pBindings = list.data();
-    RELUME_VK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &mSetLayout));
+    mSetLayout = RELUME_VK_CREATE(vkCreateDescriptorSetLayout, device.handle(), set);
 
     RELUME_CHECK_LE(mPushConstantBytes, device.limits().maxPushConstantsSize);
     const VkPushConstantRange range{mStages, 0, mPushConstantBytes};
@@ -83,7 +83,7 @@ void Program::createLayout(const Device& device, std::span<const ShaderInterface
     layout.pSetLayouts = &mSetLayout;
     layout.pushConstantRangeCount = mPushConstantBytes ? 1 : 0;
     layout.pPushConstantRanges = &range;
-    RELUME_VK(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &mLayout));
+    mLayout = RELUME_VK_CREATE(vkCreatePipelineLayout, device.handle(), layout);
     device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(mSetLayout), name);
     device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<uint64_t>(mLayout), name);
 }

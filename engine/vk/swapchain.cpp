@@ -46,7 +46,7 @@ Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface, bool waitsForDi
             fmt::format("{}: cannot show images in this window; name another", device.name()));
     mFormat = formatOf(device.physical(), surface);
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    RELUME_VK(vkCreateFence(device.handle(), &fence, nullptr, &mAcquired));
+    mAcquired = RELUME_VK_CREATE(vkCreateFence, device.handle(), fence);
 }
 
 Swapchain::~Swapchain() {
@@ -111,7 +111,10 @@ bool Swapchain::resize(uint32_t width, uint32_t height) {
                                 : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     create.presentMode = modeOf(mDevice.physical(), mSurface, mWaitsForDisplay);
     create.clipped = VK_FALSE; // screenshots include areas behind other windows
-    RELUME_VK(vkCreateSwapchainKHR(mDevice.handle(), &create, nullptr, &mSwapchain));
+    VkSwapchainKHR made;
+    if (!isGood(vkCreateSwapchainKHR(mDevice.handle(), &create, nullptr, &made), "vkCreateSwapchainKHR"))
+        return false;
+    mSwapchain = made;
     uint32_t count = 0;
     RELUME_VK(vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, &count, nullptr));
     std::vector<VkImage> images(count);

@@ -28,7 +28,6 @@ bool PartPasses::halveBatch(const std::string& why) {
         log(LogLevel::Warning, fmt::format("{}; going on with batches of {} vertices instead of {}", reason,
                                            mBatch / 2, mBatch));
         mBatch /= 2;
-        vkDeviceWaitIdle(mDevice.handle()); // a failed submission may still use what is about to be destroyed
         try {
             create();
             return true;

@@ -231,7 +231,10 @@ TEST_CASE("durable bake: batches, threads and a device out of memory do not show
              {"--memory 3M", kNoThreads, ""},
              {"--memory 20M --threads 2", "", ""},
              {"--threads 1", "", ""},
-             {"", std::string(kNoThreads) + " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_SUBMIT=9",
+             {"",
+              std::string(kNoThreads) + " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_VULKAN=device-memory "
+                                        "RELUME_FAULT_VULKAN_FUNCTION=vkQueueSubmit2 "
+                                        "RELUME_FAULT_VULKAN_CALL=9",
               "instead of 64"}}) {
         CAPTURE(arguments);
         const BakeFolder folder;

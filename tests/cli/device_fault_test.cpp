@@ -1,0 +1,133 @@
+// Every call of Vulkan that may fail does so once: the program goes on to the same output, or says what
+// failed and what to do, and leaves the output that was there.
+#include "tests/support/run_relume.h"
+
+#include <doctest/doctest.h>
+#include <set>
+
+using namespace relume::test;
+
+namespace {
+
+// A command that reads in.relume or mesh.obj, and the file that it writes. Validation tells of what is done
+// to objects that were not made, and of those that are left.
+struct Command {
+    std::string arguments, output;
+};
+
+const std::string kSmallBake =
+    "bake mesh.obj -m clay --refine off -K 1 -N 8 --visibility-size 64 --face-size 32 "
+    "--map-size 8 -q --validation core,sync -o out.relume ";
+const Command kBake{kSmallBake + "--bounces 0 --layout rows", "out.relume"};
+const Command kBounces{kSmallBake + "--bounces 1 --ground --ground-tessellation 3", "out.relume"};
+const Command kPicture{"render in.relume --size 16x12 --validation core,sync -o out.png", "out.png"};
+
+// What became of the calls that failed, one in each run.
+struct Tally {
+    int calls = 0, failed = 0, recovered = 0, refused = 0;
+};
+
+struct FaultFolder : TemporaryFolder {
+    FaultFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
+};
+
+// Fails one call in each run, and of all calls every `stride`-th, or each if RELUME_EVERY_FAULT is set.
+class Sweep {
+  public:
+    explicit Sweep(const Command& command) : mCommand(command) {
+        const Outcome input = runRelume(mFolder, kBake.arguments, kNoThreads);
+        REQUIRE_MESSAGE(input.exitCode == 0, input.err);
+        std::filesystem::rename(mFolder.path() / kBake.output, mFolder.path() / "in.relume");
+        const Outcome whole = runRelume(mFolder, mCommand.arguments, kNoThreads);
+        REQUIRE_MESSAGE(whole.exitCode == 0, whole.err);
+        mWhole = contents(output());
+    }
+
+    Tally run(const std::string& result, int stride) {
+        if (std::getenv("RELUME_EVERY_FAULT")) stride = 1;
+        Tally tally;
+        const std::string said = faulty(result, 0).err;
+        REQUIRE_EQ(std::sscanf(said.c_str() + said.rfind("faults: "), "faults: %d calls", &tally.calls), 1);
+        for (int call = 1; call <= tally.calls; call += stride) {
+            CAPTURE(result);
+            CAPTURE(call);
+            fail(result, call, tally);
+        }
+        MESSAGE(mCommand.arguments << ", " << result << ": " << tally.calls << " calls, " << tally.failed
+                                   << " failed, " << tally.recovered << " recovered, " << tally.refused
+                                   << " errors");
+        return tally;
+    }
+
+  private:
+    static constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
+
+    std::filesystem::path output() const { return mFolder.path() / mCommand.output; }
+
+    Outcome faulty(const std::string& result, int call) const {
+        return runRelume(
+            mFolder, mCommand.arguments,
+            "timeout 100 env LP_NUM_THREADS=0 LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_VULKAN=" + result +
+                " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call));
+    }
+
+    void fail(const std::string& result, int call, Tally& tally) {
+        std::ofstream(output(), std::ios::binary) << "precious";
+        const Outcome outcome = faulty(result, call);
+        CAPTURE(outcome.err);
+        char function[64] = "";
+        const size_t fault = outcome.err.find("faults: vk");
+        REQUIRE_NE(fault, std::string::npos);
+        REQUIRE_EQ(std::sscanf(outcome.err.c_str() + fault, "faults: %63s fails", function), 1);
+        CHECK_FALSE(says(outcome.err, "validation:"));
+        tally.failed++;
+        const bool isRefused = outcome.exitCode != 0;
+        (isRefused ? tally.refused : tally.recovered)++;
+        if (isRefused) {
+            CHECK_EQ(outcome.exitCode, 1);
+            CHECK(says(outcome.err, std::string("error: ") + function));
+            CHECK(says(outcome.err, result == "lost" ? "--device" : "close other programs"));
+            CHECK_EQ(contents(output()), "precious");
+            const bool isBegun = std::filesystem::exists(output().string() + ".checkpoint");
+            if (isBegun) CHECK_EQ(runRelume(mFolder, mCommand.arguments, kNoThreads).exitCode, 0);
+            if (isBegun) CHECK((contents(output()) == mWhole));
+        } else {
+            CHECK((contents(output()) == mWhole));
+        }
+        std::set<std::string> left;
+        for (const auto& file : std::filesystem::directory_iterator(mFolder.path()))
+            left.insert(file.path().filename());
+        CHECK(
+            (left == std::set<std::string>{"mesh.obj", "in.relume", mCommand.output, "out.txt", "err.txt"}));
+    }
+
+    const Command& mCommand;
+    FaultFolder mFolder;
+    std::string mWhole; // the output of a run that nothing disturbs
+};
+
+} // namespace
+
+TEST_CASE("device faults: a bake goes on, or ends with an error and can be resumed") {
+    Sweep sweep(kBake);
+    const Tally memory = sweep.run("device-memory", 3);
+    CHECK_GT(memory.calls, 100);
+    CHECK_GT(memory.recovered, 30);
+    CHECK_GT(memory.refused, 3);
+    sweep.run("host-memory", 11);
+    CHECK_EQ(sweep.run("lost", 1).recovered, 1); // the wait at the end
+}
+
+TEST_CASE("device faults: a bake with bounces goes on, or ends with an error and can be resumed") {
+    Sweep sweep(kBounces);
+    sweep.run("device-memory", 97);
+    sweep.run("host-memory", 101);
+    sweep.run("lost", 13);
+}
+
+TEST_CASE("device faults: a picture is drawn whole or not at all") {
+    Sweep sweep(kPicture);
+    sweep.run("device-memory", 97);
+    sweep.run("host-memory", 101);
+    sweep.run("lost", 13);
+}
