@@ -254,7 +254,9 @@ BakePlan planBake(const vk::Device& device, Scene scene, const BakeOptions& opti
 
     Asset& asset = plan.asset;
     describeTo(device, options, asset);
-    asset.provenance.inputs = describeInputs(scene).dump();
+    // Names of files may be any bytes, and JSON is UTF-8.
+    asset.provenance.inputs =
+        describeInputs(scene).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 
     Stopwatch watch;
     observer.stage(BakeStage::Occluder, "");
