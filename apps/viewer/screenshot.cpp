@@ -54,10 +54,12 @@ nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, 
         options["time"] = light.seconds;
     } else if (!needsLightFile(light) && !light.chosen().file.empty())
         options["environment"] = light.chosen().file.string();
-    for (const WeightedMaterial& material : state.material)
-        options["material"].push_back(state.material.size() == 1
-                                          ? material.name
-                                          : fmt::format("{}={}", material.name, material.weight));
+    for (const WeightedMaterial& material : state.material) {
+        // A name with an equals sign would be read as a name and a weight.
+        const bool isPlain = state.material.size() == 1 && material.name.find('=') == std::string::npos;
+        options["material"].push_back(isPlain ? material.name
+                                              : fmt::format("{}={}", material.name, material.weight));
+    }
     if (state.samples != kDefaultSamples) options["samples"] = state.samples;
     if (state.terms > 0) options["terms"] = state.terms;
     if (!state.addsResidual) options["residual"] = "off";

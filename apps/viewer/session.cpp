@@ -8,8 +8,7 @@
 #include "engine/import/session_file.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
+#include <charconv>
 #include <fmt/format.h>
 
 namespace relume {
@@ -18,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr float kLargest = 1e6f, kMostDegrees = 1e6f, kMostWeight = 1e9f;
+constexpr float kLargest = 1e6f, kMostDegrees = 1e6f, kMostWeight = 1e6f;
 
 // Reads one of `names`, which are in the order of an enumeration.
 template <typename Choice>
@@ -36,23 +35,28 @@ int wholeOf(const JsonObject& object, const char* key, int fallback, int low, in
     return int(number);
 }
 
-// Reads material names, with optional weights: "gold=0.5".
+// Reads material names, with optional weights: "gold=0.5". Takes what `relume render` takes.
 std::vector<WeightedMaterial> materialOf(const JsonObject& object) {
+    constexpr const char* kExpected = "names, or \"NAME=WEIGHT\", each once, with a weight above 0";
     std::vector<WeightedMaterial> material;
+    float sum = 0;
     if (!object.find("material")) return material;
     for (const Json& value : *object.find("material")) {
         const auto text = value.get<std::string>();
         const size_t equals = text.rfind('=');
-        if (equals == std::string::npos) {
-            material.push_back({text});
-            continue;
+        WeightedMaterial each{text.substr(0, equals)};
+        if (equals != std::string::npos) {
+            const char* const end = text.data() + text.size();
+            const auto [rest, failure] = std::from_chars(text.data() + equals + 1, end, each.weight);
+            if (failure != std::errc() || rest != end || !(each.weight >= 0 && each.weight <= kMostWeight))
+                object.fail("material", kExpected);
         }
-        char* end = nullptr;
-        const float weight = std::strtof(text.c_str() + equals + 1, &end);
-        if (*end != '\0' || !(weight > 0 && weight < kMostWeight))
-            object.fail("material", "names, or \"NAME=WEIGHT\" with weights above 0");
-        material.push_back({text.substr(0, equals), weight});
+        if (std::ranges::find(material, each.name, &WeightedMaterial::name) != material.end())
+            object.fail("material", kExpected);
+        sum += each.weight;
+        material.push_back(each);
     }
+    if (!(sum > 0)) object.fail("material", kExpected);
     return material;
 }
 
