@@ -48,10 +48,16 @@ VkDescriptorPool makeDescriptorPool(const vk::Device& device) {
 
 } // namespace
 
-Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swapchain)
-    : mDevice(device), mSwapchain(swapchain), mScale(window.scale()),
-      mDescriptors(makeDescriptorPool(device)), mRenderPass(makeRenderPass(device, swapchain.format())) {
+Ui::Ui(const vk::Device& device, const vk::Swapchain& swapchain, float scale)
+    : mDevice(device), mSwapchain(swapchain), mScale(scale) {
     ImGui::CreateContext();
+}
+
+// Delegates, so that the destructor runs if an object cannot be made.
+Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swapchain)
+    : Ui(device, swapchain, window.scale()) {
+    mDescriptors = makeDescriptorPool(device);
+    mRenderPass = makeRenderPass(device, swapchain.format());
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // the viewer saves its own preferences
     io.LogFilename = nullptr;
@@ -82,8 +88,8 @@ Ui::Ui(const Window& window, const vk::Device& device, const vk::Swapchain& swap
 }
 
 Ui::~Ui() {
-    ImGui_ImplVulkan_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
+    if (ImGui::GetIO().BackendRendererUserData) ImGui_ImplVulkan_Shutdown();
+    if (ImGui::GetIO().BackendPlatformUserData) ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
     destroyFramebuffers();
     vkDestroyRenderPass(mDevice.handle(), mRenderPass, nullptr);

@@ -45,6 +45,7 @@ class Ui {
     static bool isItemHeld();
 
   private:
+    Ui(const vk::Device& device, const vk::Swapchain& swapchain, float scale);
     void destroyFramebuffers();
 
     const vk::Device& mDevice;

@@ -17,7 +17,8 @@ std::filesystem::path folder(const char* variable, const char* inHome) {
     std::error_code failure;
     std::filesystem::create_directories(base / "relume", failure);
     if (failure)
-        throw Error(fmt::format("{}: cannot be made: {}", (base / "relume").string(), failure.message()));
+        throw Error(fmt::format("{}: cannot be made: {}; {} names another place for it",
+                                (base / "relume").string(), failure.message(), variable));
     return base / "relume";
 }
 

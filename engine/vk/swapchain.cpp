@@ -21,19 +21,6 @@ VkSurfaceFormatKHR formatOf(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     throw NoDeviceError("the window takes no images of 8 bits a channel without conversion");
 }
 
-// Returns the mode for presenting without waiting: the newest image at the next refresh, else any
-// immediately, else as if waiting.
-VkPresentModeKHR modeOf(VkPhysicalDevice physical, VkSurfaceKHR surface, bool waitsForDisplay) {
-    if (waitsForDisplay) return VK_PRESENT_MODE_FIFO_KHR;
-    uint32_t count = 0;
-    RELUME_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface, &count, nullptr));
-    std::vector<VkPresentModeKHR> modes(count);
-    RELUME_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface, &count, modes.data()));
-    for (const VkPresentModeKHR mode : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR})
-        if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return mode;
-    return VK_PRESENT_MODE_FIFO_KHR;
-}
-
 } // namespace
 
 Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface, bool waitsForDisplay)
@@ -72,6 +59,22 @@ bool Swapchain::isGood(VkResult result, const char* call) {
     return true;
 }
 
+// Without waiting: the newest image at the next refresh, else any immediately, else as if waiting.
+std::optional<VkPresentModeKHR> Swapchain::presentMode() {
+    if (mWaitsForDisplay) return VK_PRESENT_MODE_FIFO_KHR;
+    uint32_t count = 0;
+    std::vector<VkPresentModeKHR> modes;
+    for (const bool isFilled : {false, true}) {
+        modes.resize(count);
+        const VkResult listed = vkGetPhysicalDeviceSurfacePresentModesKHR(
+            mDevice.physical(), mSurface, &count, isFilled ? modes.data() : nullptr);
+        if (!isGood(listed, "vkGetPhysicalDeviceSurfacePresentModesKHR")) return std::nullopt;
+    }
+    for (const VkPresentModeKHR mode : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR})
+        if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return mode;
+    return VK_PRESENT_MODE_FIFO_KHR;
+}
+
 void Swapchain::setSurface(VkSurfaceKHR surface) {
     destroy();
     mSurface = surface;
@@ -91,6 +94,9 @@ bool Swapchain::resize(uint32_t width, uint32_t height) {
                    std::clamp(height, can.minImageExtent.height, can.maxImageExtent.height)};
     if (mExtent.width == 0 || mExtent.height == 0) return false;
 
+    const std::optional<VkPresentModeKHR> mode = presentMode();
+    if (!mode) return false;
+
     constexpr VkImageUsageFlags kUsage =
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if ((can.supportedUsageFlags & kUsage) != kUsage)
@@ -109,7 +115,7 @@ bool Swapchain::resize(uint32_t width, uint32_t height) {
     create.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                 ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                 : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    create.presentMode = modeOf(mDevice.physical(), mSurface, mWaitsForDisplay);
+    create.presentMode = *mode;
     create.clipped = VK_FALSE; // screenshots include areas behind other windows
     VkSwapchainKHR made;
     if (!isGood(vkCreateSwapchainKHR(mDevice.handle(), &create, nullptr, &made), "vkCreateSwapchainKHR"))
@@ -131,7 +137,10 @@ std::optional<uint32_t> Swapchain::acquire() {
     const VkResult result =
         vkAcquireNextImageKHR(mDevice.handle(), mSwapchain, UINT64_MAX, VK_NULL_HANDLE, mAcquired, &image);
     if (result != VK_SUBOPTIMAL_KHR && !isGood(result, "vkAcquireNextImageKHR")) return std::nullopt;
-    RELUME_VK(vkWaitForFences(mDevice.handle(), 1, &mAcquired, VK_TRUE, UINT64_MAX));
+    const auto wait = [&] { return vkWaitForFences(mDevice.handle(), 1, &mAcquired, VK_TRUE, UINT64_MAX); };
+    const VkResult waited = wait();
+    if (waited != VK_SUCCESS) wait(); // the fence may not be destroyed before it is signaled
+    check(waited, "vkWaitForFences");
     RELUME_VK(vkResetFences(mDevice.handle(), 1, &mAcquired));
     return image;
 }

@@ -47,6 +47,8 @@ class Swapchain {
 
   private:
     void destroy();
+    // Returns how images are presented; none if isGood() fails.
+    std::optional<VkPresentModeKHR> presentMode();
     // Returns false if another surface or size would help; otherwise behaves like check().
     bool isGood(VkResult result, const char* call);
 

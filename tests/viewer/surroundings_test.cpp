@@ -1,0 +1,197 @@
+// Surroundings that the viewer does not choose: calls of Vulkan that fail, folders that cannot be written,
+// and a full disk.
+#include "tests/support/viewer_session.h"
+
+#include <chrono>
+#include <csignal>
+#include <future>
+#include <thread>
+
+using namespace relume;
+using namespace relume::test;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kFaults = "LD_PRELOAD='" RELUME_FAULTS "' ";
+
+// What became of the calls that failed, one in each run.
+struct Tally {
+    int calls = 0, failed = 0, recovered = 0, refused = 0;
+};
+
+// A session that shows a bake, another view of it, and that in a smaller window. One call of Vulkan fails in
+// each run.
+class Sweep {
+  public:
+    Sweep() {
+        const Outcome whole = run("");
+        REQUIRE_MESSAGE(whole.exitCode == 0, whole.err);
+        REQUIRE(isQuiet(whole.err));
+        for (const char* image : kImages) mWhole.push_back(mSession.bytes(image));
+    }
+
+    // Fails every `stride`-th call, of all functions or of one; each if RELUME_EVERY_FAULT is set. The number
+    // of frames, and with it of calls, differs a little from run to run.
+    Tally fail(const std::string& result, int stride, const std::string& function = "") {
+        if (std::getenv("RELUME_EVERY_FAULT")) stride = 1;
+        const auto faulty = [&](int call) {
+            return run(kFaults + ("RELUME_FAULT_VULKAN=" + result) +
+                       " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call) +
+                       (function.empty() ? "" : " RELUME_FAULT_VULKAN_FUNCTION=" + function));
+        };
+        Tally tally;
+        const std::string said = faulty(0).err;
+        REQUIRE_EQ(std::sscanf(said.c_str() + said.rfind("faults: "), "faults: %d calls", &tally.calls), 1);
+        for (int call = 1; call <= tally.calls; call += stride) {
+            CAPTURE(result);
+            CAPTURE(call);
+            check(faulty(call), result, tally);
+        }
+        MESSAGE(result << " " << function << ": " << tally.calls << " calls, " << tally.failed << " failed, "
+                       << tally.recovered << " recovered, " << tally.refused << " errors");
+        return tally;
+    }
+
+  private:
+    static constexpr const char* kImages[] = {"first.exr", "turned.exr", "small.exr"};
+
+    Outcome run(const std::string& environment) {
+        for (const char* image : kImages) std::filesystem::remove(mSession.path(image));
+        return mSession.replay({{{"wait", "settled"}},
+                                {{"screenshot", "first.exr"}},
+                                {{"set", {{"azimuth", 40}, {"rotation", 30}}}},
+                                {{"wait", "settled"}},
+                                {{"screenshot", "turned.exr"}},
+                                {{"resize", {400, 300}}},
+                                {{"wait", "settled"}},
+                                {{"screenshot", "small.exr"}},
+                                {{"quit", true}}},
+                               "--no-vsync ring.relume room.exr", environment);
+    }
+
+    void check(const Outcome& outcome, const std::string& result, Tally& tally) {
+        CAPTURE(outcome.err);
+        CHECK_FALSE(says(outcome.err, "validation:"));
+        const bool isRefused = outcome.exitCode != 0;
+        if (says(outcome.err, "faults: vk")) {
+            tally.failed++;
+            (isRefused ? tally.refused : tally.recovered)++;
+        } else // so many calls there were not
+            CHECK_FALSE(isRefused);
+        if (isRefused) {
+            CHECK_EQ(outcome.exitCode, 1);
+            CHECK(says(outcome.err, result == "lost"            ? "the Vulkan device was lost"
+                                    : result == "device-memory" ? "too little free memory"
+                                                                : "ErrorSurfaceLostKHR"));
+            CHECK(says(outcome.err, result == "device-memory" ? "close other programs" : "--device"));
+            return;
+        }
+        for (size_t i = 0; i < std::size(kImages); i++) CHECK((mSession.bytes(kImages[i]) == mWhole[i]));
+    }
+
+    Session mSession;
+    std::vector<std::string> mWhole; // the images of a run that nothing disturbs
+};
+
+} // namespace
+
+TEST_CASE(
+    "viewer surroundings: an image or a surface that is lost is made again, and a lost device is told") {
+    Sweep sweep;
+    const Tally outOfDate = sweep.fail("out-of-date", 5);
+    CHECK_GT(outOfDate.failed, 3);
+    CHECK_EQ(outOfDate.refused, 0);
+    const Tally surface = sweep.fail("surface-lost", 5);
+    CHECK_GT(surface.recovered, 3);
+    const Tally lost = sweep.fail("lost", 31);
+    CHECK_GT(lost.refused, 1);
+    sweep.fail("device-memory", 13, "vkWaitForFences");
+}
+
+TEST_CASE("viewer surroundings: a home that cannot be written is told, and a bake is shown all the same") {
+    Session session;
+    const std::string nowhere = "HOME=/proc XDG_CACHE_HOME=/proc/cache XDG_STATE_HOME=/proc/state";
+    const json script = {{{"wait", "settled"}}, {{"screenshot", "look.exr"}}, {{"quit", true}}};
+    REQUIRE_EQ(session.replay(script, "ring.relume").exitCode, 0);
+    const std::string whole = session.bytes("look.exr");
+    const Outcome shown = session.replay(script, "ring.relume", nowhere);
+    CAPTURE(shown.err);
+    CHECK_EQ(shown.exitCode, 0);
+    CHECK(isQuiet(shown.err));
+    CHECK(says(shown.err, "/proc/cache/relume: cannot be made"));
+    CHECK(says(shown.err, "XDG_CACHE_HOME"));
+    CHECK((session.bytes("look.exr") == whole));
+    // There is no place for the bake of a mesh.
+    const Outcome refused = session.replay(script, "ring.obj", nowhere);
+    CHECK_EQ(refused.exitCode, 1);
+    CHECK(says(refused.err, "error: /proc/cache/relume: cannot be made"));
+}
+
+TEST_CASE("viewer surroundings: settings that cannot be remembered are told at the end") {
+    Session session;
+    // The first frame says so: its image is out of date. A script would remember nothing.
+    auto viewer = std::async(std::launch::async, [&] {
+        return session.view("ring.relume",
+                            kFaults + std::string("RELUME_FAULT_VULKAN=out-of-date "
+                                                  "RELUME_FAULT_VULKAN_FUNCTION=vkQueuePresentKHR "
+                                                  "RELUME_FAULT_VULKAN_CALL=1 XDG_STATE_HOME=/proc/state "
+                                                  "sh -c 'echo $$ >pid.txt; exec \"$0\" \"$@\"'"));
+    });
+    const auto isOver = [&] {
+        return viewer.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
+    };
+    while (!says(session.bytes("err.txt"), "vkQueuePresentKHR fails"))
+        if (isOver()) break;
+    kill(std::stoi(session.bytes("pid.txt")), SIGINT);
+    const Outcome outcome = viewer.get();
+    CAPTURE(outcome.err);
+    CHECK_EQ(outcome.exitCode, 130);
+    CHECK(says(outcome.err, "settings are not remembered: /proc/state/relume: cannot be made"));
+}
+
+TEST_CASE("viewer surroundings: at every write of a picture or session the disk can be full") {
+    Session session;
+    const auto namesOf = [&](const std::string& ending) {
+        std::vector<std::string> names;
+        for (const auto& file : std::filesystem::directory_iterator(session.folder().path()))
+            if (says(file.path().filename(), ending)) names.push_back(file.path().filename());
+        return names;
+    };
+    const std::vector<std::pair<std::string, json>> outputs = {{"look.png", {{"screenshot", "look.png"}}},
+                                                               {"look.exr", {{"screenshot", "look.exr"}}},
+                                                               {".session.json", {{"key", "ctrl+S"}}}};
+    for (const auto& [output, step] : outputs) {
+        CAPTURE(output);
+        const bool isNamed = output[0] != '.';
+        int call = 1;
+        for (;; call++) {
+            CAPTURE(call);
+            if (isNamed) session.folder().write(output, "precious");
+            const Outcome outcome =
+                session.replay({{{"wait", "shown"}}, step, {{"frames", 2}}, {{"quit", true}}}, "ring.relume",
+                               kFaults + ("RELUME_FAULT=full RELUME_FAULT_PATH=" + output) +
+                                   " RELUME_FAULT_CALL=" + std::to_string(call));
+            CAPTURE(outcome.err);
+            REQUIRE_EQ(outcome.exitCode, 0); // it goes on
+            if (isQuiet(outcome.err)) break;
+            CHECK(says(outcome.err, "error: "));
+            CHECK(says(outcome.err, output));
+            CHECK_FALSE(says(outcome.err, "is written"));
+            CHECK_EQ(namesOf(output).size(), isNamed ? 1u : 0u);
+            if (isNamed) CHECK_EQ(session.bytes(output), "precious");
+        }
+        CHECK_GT(call, 3); // a write, a flush and a rename
+        CHECK_EQ(namesOf(output).size(), 1u);
+        if (isNamed) CHECK_NE(session.bytes(output), "precious");
+    }
+    // Where a window ends by itself, nobody would see what is told.
+    session.folder().write("look.png", "precious");
+    const Outcome outcome = session.view("ring.relume --exit-frame 1 --screenshot look.png",
+                                         kFaults + std::string("RELUME_FAULT=full RELUME_FAULT_PATH=look.png "
+                                                               "RELUME_FAULT_CALL=1"));
+    CAPTURE(outcome.err);
+    CHECK_EQ(outcome.exitCode, 1);
+    CHECK(says(outcome.err, "look.png"));
+    CHECK_EQ(session.bytes("look.png"), "precious");
+}
