@@ -14,6 +14,7 @@ class LogCapture {
     LogCapture(const LogCapture&) = delete;
     LogCapture& operator=(const LogCapture&) = delete;
 
+    const std::string& text() const { return mText; }
     bool says(const std::string& part) const { return mText.find(part) != std::string::npos; }
 
   private:
