@@ -47,7 +47,7 @@ Image::Image(const Device& device, const ImageOptions& options, std::string_view
 }
 
 Image::Image(const Device& device, VkImage image, const ImageOptions& options, std::string_view name)
-    : mDevice(&device), mOptions(options), mImage(image) {
+    : mDevice(&device), mOptions(options), mImage(image), mIsForeign(true) {
     createView();
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(mImage), name);
     device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(mView), name);
@@ -71,6 +71,7 @@ Image& Image::operator=(Image&& other) noexcept {
     std::swap(mDevice, other.mDevice);
     std::swap(mOptions, other.mOptions);
     std::swap(mImage, other.mImage);
+    std::swap(mIsForeign, other.mIsForeign);
     std::swap(mMemory, other.mMemory);
     std::swap(mView, other.mView);
     return *this;
@@ -79,7 +80,7 @@ Image& Image::operator=(Image&& other) noexcept {
 void Image::destroy() {
     if (!mDevice) return;
     vkDestroyImageView(mDevice->handle(), mView, nullptr);
-    if (mMemory) vkDestroyImage(mDevice->handle(), mImage, nullptr);
+    if (!mIsForeign) vkDestroyImage(mDevice->handle(), mImage, nullptr);
     mMemory = {};
     mDevice = nullptr;
 }

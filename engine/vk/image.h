@@ -43,7 +43,8 @@ class Image {
     const Device* mDevice = nullptr;
     ImageOptions mOptions;
     VkImage mImage = VK_NULL_HANDLE;
-    MemoryPool::Range mMemory; // none: the image is owned elsewhere
+    bool mIsForeign = false; // owned elsewhere
+    MemoryPool::Range mMemory;
     VkImageView mView = VK_NULL_HANDLE;
 };
 

@@ -43,7 +43,9 @@ class Sweep {
         mWhole = contents(output());
     }
 
-    Tally run(const std::string& result, int stride) {
+    // Of all functions, or of one.
+    Tally run(const std::string& result, int stride, const std::string& function = "") {
+        mFunction = function;
         if (std::getenv("RELUME_EVERY_FAULT")) stride = 1;
         Tally tally;
         const std::string said = faulty(result, 0).err;
@@ -65,10 +67,11 @@ class Sweep {
     std::filesystem::path output() const { return mFolder.path() / mCommand.output; }
 
     Outcome faulty(const std::string& result, int call) const {
+        const std::string only = mFunction.empty() ? "" : " RELUME_FAULT_VULKAN_FUNCTION=" + mFunction;
         return runRelume(
             mFolder, mCommand.arguments,
             "timeout 100 env LP_NUM_THREADS=0 LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_VULKAN=" + result +
-                " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call));
+                " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call) + only);
     }
 
     void fail(const std::string& result, int call, Tally& tally) {
@@ -103,6 +106,7 @@ class Sweep {
 
     const Command& mCommand;
     FaultFolder mFolder;
+    std::string mFunction;
     std::string mWhole; // the output of a run that nothing disturbs
 };
 
@@ -127,6 +131,7 @@ TEST_CASE("device faults: a bake with bounces goes on, or ends with an error and
 
 TEST_CASE("device faults: a picture is drawn whole or not at all") {
     Sweep sweep(kPicture);
+    CHECK_GT(sweep.run("device-memory", 1, "vkAllocateMemory").refused, 3);
     sweep.run("device-memory", 97);
     sweep.run("host-memory", 101);
     sweep.run("lost", 13);
