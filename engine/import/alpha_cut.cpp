@@ -100,7 +100,8 @@ class EdgeSet {
     void add(uint32_t a, uint32_t b) { mEdges.push_back({std::min(a, b), std::max(a, b)}); }
     void sort() {
         std::ranges::sort(mEdges);
-        mEdges.erase(std::ranges::unique(mEdges).begin(), mEdges.end());
+        // Clang 14, which builds the fuzz targets, cannot compile std::ranges::unique().
+        mEdges.erase(std::unique(mEdges.begin(), mEdges.end()), mEdges.end());
     }
     std::optional<uint32_t> find(uint32_t a, uint32_t b) const {
         const auto found = std::ranges::lower_bound(mEdges, Edge{std::min(a, b), std::max(a, b)});
