@@ -12,12 +12,13 @@ namespace relume {
 
 namespace {
 
+constexpr float kMostRadiance = 1e9f; // of a lamp
 constexpr double kDegreesPerSecond = 20, kHoursPerSecond = 0.5;
 
 vec3 radianceOf(const LampChoice& lamp) {
     // Irradiance of a surface facing the lamp is π sin² radius times its radiance.
     const float sine = std::sin(glm::radians(lamp.radius));
-    return lamp.brightness / (sine * sine) * lamp.color;
+    return glm::min(lamp.brightness / (sine * sine) * lamp.color, vec3(kMostRadiance));
 }
 
 constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
@@ -179,7 +180,7 @@ void setLight(LightState& state, const nlohmann::json& light, const std::string&
                         object.requiredNumber("elevation", -90, 90),
                         object.requiredNumber("radius", 0.5f, 60), vec3(1), 0};
         const float sine = std::sin(glm::radians(lamp.radius));
-        const vec3 lit = sine * sine * object.requiredVector("radiance", 0, 1e9f);
+        const vec3 lit = sine * sine * object.requiredVector("radiance", 0, kMostRadiance);
         lamp.brightness = std::max({lit.x, lit.y, lit.z});
         if (lamp.brightness > 0) lamp.color = lit / lamp.brightness;
         set.lamps.push_back(lamp);
