@@ -5,6 +5,7 @@
 //                               stays lost. stderr says which function it is, and in the end how many calls
 //                               there were
 // RELUME_FAULT_VULKAN_FUNCTION  the only function to count and to fail, such as vkQueueSubmit2
+// RELUME_FAULT_VULKAN_NULL      if set, a failed call gives null handles, for libraries that use what it left
 // RELUME_FAULT_EXTENSION        a device extension to hide
 // RELUME_FAULT_TIMESTAMP_BITS   valid bits of every queue's timestamps
 #include "tests/support/faults.h"
@@ -67,10 +68,10 @@ VkResult vulkanFault(const char* function, Results possible) {
     if (std::getenv("RELUME_FAULT_VULKAN")) std::fprintf(stderr, "faults: %d calls\n", int(gCalls));
 }
 
-// Leaves nonsense where a failed call has no result, as Vulkan permits.
+// Leaves nonsense where a failed call has no result, as Vulkan permits; or null.
 template <typename Handle>
 void spoil(Handle* handle) {
-    std::memset(handle, 0xee, sizeof *handle);
+    std::memset(handle, std::getenv("RELUME_FAULT_VULKAN_NULL") ? 0 : 0xee, sizeof *handle);
 }
 
 } // namespace
