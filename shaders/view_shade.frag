@@ -19,9 +19,11 @@ layout(constant_id = 0) const uint kTerms = 4;
 layout(constant_id = 1) const bool kGray = false; // whether all view maps are gray: ViewMapTexture
 layout(constant_id = 2) const uint kLook = 0;
 layout(constant_id = 3) const bool kAllTerms = true; // else the first push.terms only
-layout(constant_id = 4) const uint kEstimate = 0; // how the residual is added: unshadowed.glsl
+layout(constant_id = 4) const uint kDrawn = 0; // how the residual is added (unshadowed.glsl), and kShadow
 layout(constant_id = 7) const uint kHarmonics = 0; // most harmonics of a bound layer's lit spheres
 layout(constant_id = 8) const bool kTangents = false; // frames follow from vertex tangents; else from normals
+const uint kEstimate = kDrawn & ~kShadow;
+const bool kShowsShadow = (kDrawn & kShadow) != 0;
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGray ? kQuads : (3 * kTerms + 3) / 4;
@@ -128,7 +130,12 @@ struct TuplePlace {
     float turn; // rotation of the frame against that of the normal, in turns; 0 without tangents
 };
 
-Quad unshadowedTuple(vec2 place, uint image) {
+Quad mixed(Quad a, Quad b, float share) {
+    return Quad(mix(a.a, b.a, share), mix(a.b, b.b, share), mix(a.c, b.c, share));
+}
+
+Quad tupleAt(float azimuth, float row, uint rows, uint band, uint image) {
+    const vec2 place = placeInBand(unshadowedTuples, azimuth, row, rows, band);
     return Quad(textureLod(unshadowedTuples, vec3(place, image), 0),
                 textureLod(unshadowedTuples, vec3(place, image + 1), 0),
                 textureLod(unshadowedTuples, vec3(place, image + 2), 0));
@@ -138,16 +145,24 @@ Quad unshadowedTuple(vec2 place, uint image) {
 Quad unshadowedTuple(TuplePlace at, uint quad) {
     const uint image = push.firstTuples + 3 * quad;
     const float ring = at.polar.y * kTupleRings;
-    if (!kTangents)
-        return unshadowedTuple(placeInBand(unshadowedTuples, at.polar.x, ring, kTupleRings, 0), image);
+    // Between the center of the last ring and a pole, the opposite normals of that ring take part. Without tangents
+    // frames differ around -Y.
+    const float beyond = max(0.5 - ring, kTangents ? ring - (float(kTupleRings) - 0.5) : 0);
+    const float opposite = fract(at.polar.x + 0.5);
+    if (!kTangents) {
+        const Quad own = tupleAt(at.polar.x, ring, kTupleRings, 0, image);
+        return beyond > 0 ? mixed(own, tupleAt(opposite, ring, kTupleRings, 0, image), beyond) : own;
+    }
     const float turn = fract(at.turn) * kTupleTurns, row = ring - at.isBelow * (kTupleRings - kTupleSideRings);
-    const uint low = uint(turn) % kTupleTurns, high = (low + 1) % kTupleTurns, first = at.isBelow * kTupleTurns;
-    const Quad a = unshadowedTuple(
-        placeInBand(unshadowedTuples, at.polar.x, row, kTupleSideRings, first + low), image);
-    const Quad b = unshadowedTuple(
-        placeInBand(unshadowedTuples, at.polar.x, row, kTupleSideRings, first + high), image);
-    const float share = fract(turn);
-    return Quad(mix(a.a, b.a, share), mix(a.b, b.b, share), mix(a.c, b.c, share));
+    const uint first = at.isBelow * kTupleTurns;
+    Quad ofTurn[2];
+    for (uint i = 0; i < 2; i++) {
+        const uint band = first + (uint(turn) + i) % kTupleTurns;
+        ofTurn[i] = tupleAt(at.polar.x, row, kTupleSideRings, band, image);
+        if (beyond > 0)
+            ofTurn[i] = mixed(ofTurn[i], tupleAt(opposite, row, kTupleSideRings, band, image), beyond);
+    }
+    return mixed(ofTurn[0], ofTurn[1], fract(turn));
 }
 
 // Returns the unshadowed radiance towards the eye, whose direction in the frame is `local`; or, if `isLimit`, the
@@ -162,8 +177,10 @@ vec3 unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base,
     return sum;
 }
 
-// Returns the radiance, which is never negative.
-vec3 shade(uint triangle, vec3 direction) {
+// Returns the radiance, which is never negative; and, for the residual or a shadow, what it would be if nothing cast
+// shadows.
+vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
+    unshadowed = vec3(0);
     const uvec3 corners = texelOf(triangles, int(triangle)).xyz;
     vec4 low[3], high[3];
     for (int c = 0; c < 3; c++) {
@@ -225,16 +242,17 @@ vec3 shade(uint triangle, vec3 direction) {
         }
     }
     vec3 exact = vec3(0);
+    tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
+    // At -Y tangentFrame() is singular, and equals the frames at this azimuth.
+    if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
     if (kEstimate != kTermsAlone) {
         // Mapped normals may face light below the surface's horizon, for which there is no visibility. They raise the
         // radiance at most by the concentration of its kernel, which is too little if a low sun is the only light.
         exact = unshadowedAt(direction, mapped, seen, paint, base, false);
         if (kLook == kSurfaceLook && detail.normalScale != 0)
             exact = min(exact, unshadowedAt(direction, frame, local, paint, base, true));
+        unshadowed = exact;
         if (kEstimate == kUnshadowed) return exact + emitted;
-        tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
-        // At -Y tangentFrame() is singular, and equals the frames at this azimuth.
-        if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
     }
 
     Quad sum = Quad(vec4(0), vec4(0), vec4(0)), terms = sum, lit = sum, unlit = sum;
@@ -257,25 +275,27 @@ vec3 shade(uint triangle, vec3 direction) {
         sum.a += maps.a * tuple.a;
         sum.b += maps.b * tuple.b;
         sum.c += maps.c * tuple.c;
-        if (kEstimate != kTermsAlone) {
-            const Quad unshadowed = unshadowedTuple(tuplePlace, quad);
-            terms.a += maps.a * unshadowed.a;
-            terms.b += maps.b * unshadowed.b;
-            terms.c += maps.c * unshadowed.c;
+        if (kDrawn != kTermsAlone) {
+            const Quad free = unshadowedTuple(tuplePlace, quad);
+            terms.a += maps.a * free.a;
+            terms.b += maps.b * free.b;
+            terms.c += maps.c * free.c;
             vec4 a = vec4(1), b = vec4(1), c = vec4(1);
             if ((kEstimate & kResidualDifference) != 0) {
-                const int first = int(push.firstWeight + 3 * quad);
+                const int first = int(push.firstTuples + 3 * quad);
                 a = texelOf(irradianceWeights, first);
                 b = texelOf(irradianceWeights, first + 1);
                 c = texelOf(irradianceWeights, first + 2);
             }
             lit = Quad(lit.a + a * tuple.a, lit.b + b * tuple.b, lit.c + c * tuple.c);
-            unlit = Quad(unlit.a + a * unshadowed.a, unlit.b + b * unshadowed.b, unlit.c + c * unshadowed.c);
+            unlit = Quad(unlit.a + a * free.a, unlit.b + b * free.b, unlit.c + c * free.c);
         }
     }
     const float weight = kLook == kSingleLook ? push.weight : 1;
-    // A truncated sum of products can be negative.
-    if (kEstimate == kTermsAlone) return max(weight * sumOf(sum), 0) + emitted;
+    if (kEstimate == kTermsAlone) {
+        unshadowed = weight * sumOf(terms);
+        return max(weight * sumOf(sum), 0) + emitted; // a truncated sum of products can be negative
+    }
     const bool isBounced = (kEstimate & kBounced) != 0;
     if ((kEstimate & kResidualRatio) != 0)
         return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit), isBounced) +
@@ -303,7 +323,10 @@ float groundCoverage(uint triangle, vec3 direction) {
 vec4 shadeAt(uint triangle, vec2 place) {
     const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
     const float coverage = groundCoverage(triangle, direction);
-    return coverage > 0 ? coverage * vec4(shade(triangle, direction), 1) : vec4(0);
+    if (!(coverage > 0)) return vec4(0);
+    vec3 unshadowed;
+    const vec3 seen = shade(triangle, direction, unshadowed);
+    return coverage * (kShowsShadow ? vec4(vec3(0), 1 - litShare(seen, unshadowed)) : vec4(seen, 1));
 }
 
 bool isOfPart(uint triangleId) { return triangleId - push.firstTriangleId < push.triangleCount; }

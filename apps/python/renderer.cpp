@@ -48,7 +48,7 @@ class Renderer {
             if (!mBackground) mBackground.emplace(*mDevice);
             mBackground->setLight(light, 0);
         }
-        mView.setGroundFade(showsLight ? makeGroundFade(*mAsset) : std::nullopt);
+        mView.setGroundFade(makeGroundFade(*mAsset, showsLight ? GroundStyle::Shadow : GroundStyle::Whole));
         mLight.setLight(light);
         vk::Commands commands(*mDevice, "render");
         commands.begin();

@@ -266,9 +266,13 @@ void ImageArguments::add(CLI::App& command) {
         ->check(between(0, 90))
         ->type_name("DEGREES")
         ->capture_default_str();
-    command.add_flag_function(
-        "--ground-fade,!--no-ground-fade", [this](int64_t count) { mFades = count > 0; },
-        "Let the ground end before its edge, around the object (default: where there is a background)");
+    const std::map<std::string, std::optional<GroundStyle>> styles = {
+        {"shadow", GroundStyle::Shadow}, {"fade", GroundStyle::Fade}, {"whole", GroundStyle::Whole}};
+    addChoice(
+        command, "--ground-style", mGround, styles,
+        "A ground as a shadow on the background (shadow, the default where there is one), ending around the "
+        "object (fade), or as it is (whole, the default otherwise)")
+        ->type_name("STYLE");
 }
 
 void ImageArguments::check() const {
@@ -324,10 +328,11 @@ std::optional<vec3> ImageArguments::color() const {
 }
 
 std::optional<GroundFade> ImageArguments::groundFade(const Asset& asset) const {
-    if (!mFades.value_or(showsLight() || color())) return std::nullopt;
-    const std::optional<GroundFade> fade = makeGroundFade(asset);
-    if (!fade && mFades)
-        throw UsageError("--ground-fade: expected a part called \"ground\", found none; bake with --ground");
+    const bool hasBackground = showsLight() || color();
+    const GroundStyle style = mGround.value_or(hasBackground ? GroundStyle::Shadow : GroundStyle::Whole);
+    const std::optional<GroundFade> fade = makeGroundFade(asset, style);
+    if (!fade && mGround && style != GroundStyle::Whole)
+        throw UsageError("--ground-style: expected a part called \"ground\", found none; bake with --ground");
     return fade;
 }
 

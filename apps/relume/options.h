@@ -78,7 +78,7 @@ struct LightArguments {
 // its beginning; with what backgrounds are drawn from if `withPictures`.
 Light stillLight(const std::string& file, bool withPictures);
 
-// -o, --exposure, --tone, --background, --background-blur, --ground-fade
+// -o, --exposure, --tone, --background, --background-blur, --ground-style
 struct ImageArguments {
     std::filesystem::path output;
 
@@ -92,8 +92,8 @@ struct ImageArguments {
     bool showsLight() const;
     float backgroundBlur() const { return radians(mBlurDegrees); }
 
-    // Returns the fade of the ground, or nothing to draw all of it. Throws UsageError if a fade is asked for
-    // but the bake has no ground.
+    // Returns the fade of the ground, or nothing to draw all of it. Throws UsageError if one is asked for but
+    // the bake has no ground.
     std::optional<GroundFade> groundFade(const Asset& asset) const;
 
     // Returns the stops given by --exposure or, with "auto", those chosen for the object in `view`, which are
@@ -110,7 +110,7 @@ struct ImageArguments {
 
     std::string mExposure = "auto", mTone = "agx", mBackground;
     float mBlurDegrees = 0;
-    std::optional<bool> mFades;
+    std::optional<GroundStyle> mGround;
 };
 
 // --samples

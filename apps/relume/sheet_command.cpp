@@ -54,7 +54,7 @@ class SheetPass {
                  .height = arguments.camera.height,
                  .samples = arguments.samples}),
           mBackground(device), mCamera(arguments.camera.camera(asset)) {
-        mView.setGroundFade(makeGroundFade(asset));
+        mView.setGroundFade(makeGroundFade(asset, GroundStyle::Shadow));
     }
 
     // Draws a picture. `exposure` is in stops; if empty, it is set to suit the object.

@@ -33,11 +33,11 @@ std::string Files::saveLight(const std::filesystem::path& file) const {
     return fmt::format("{} is written; its turn is --rotate={}", file.string(), mState.light.rotation);
 }
 
-std::string Files::saveSession(const std::filesystem::path& file, const SceneState& drawn, bool fadesGround,
+std::string Files::saveSession(const std::filesystem::path& file, const SceneState& drawn, GroundStyle ground,
                                ivec2 size) const {
     if (!mContent.shown() || !drawn.orbit) throw Error("nothing is shown yet that a session could keep");
     const std::filesystem::path& bake = mContent.shown()->file;
-    writeJsonFile(file, sessionOf(drawn, fadesGround, bake, mContent.inputOf(bake), size));
+    writeJsonFile(file, sessionOf(drawn, ground, bake, mContent.inputOf(bake), size));
     return fmt::format("{0} is written; relume render --session {0} -o IMAGE draws it{1}", file.string(),
                        mContent.shown()->isSketch ? " once it is baked" : "");
 }

@@ -17,10 +17,10 @@ class Files {
     // Call it when a model is shown: a session that waits for this one gets its camera and materials.
     void resumeSession();
 
-    // Write the light or the look to `file`. `drawn`, `fadesGround`: SceneView's. Return what to tell the
+    // Write the light or the look to `file`. `drawn`, `ground`: SceneView's. Return what to tell the
     // user. Throw Error.
     std::string saveLight(const std::filesystem::path& file) const;
-    std::string saveSession(const std::filesystem::path& file, const SceneState& drawn, bool fadesGround,
+    std::string saveSession(const std::filesystem::path& file, const SceneState& drawn, GroundStyle ground,
                             ivec2 size) const;
 
   private:

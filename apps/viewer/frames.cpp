@@ -193,7 +193,7 @@ void Frames::save(bool mustWrite) {
     const SceneView& view = mShown.view;
     const auto write = [&] {
         mOutputs.save(view.drawn(mShown.state), view.image() ? mShown.content.shown().get() : nullptr,
-                      view.fadesGround(mShown.state));
+                      view.groundStyle(mShown.state));
     };
     mustWrite ? write() : attempt(mShown.notice, write);
 }

@@ -15,7 +15,7 @@ auto edits(auto& state) {
     return std::tie(light.environment, light.environmentGain, light.sky, light.lamps, light.strokes,
                     light.rotation, light.file, light.fileName, light.selection, state.material, state.terms,
                     state.addsResidual, state.samples, state.tone, state.exposesItself, state.background,
-                    state.backgroundBlur, state.fadesGround, state.fovDegrees);
+                    state.backgroundBlur, state.ground, state.fovDegrees);
 }
 
 // An exposure that was found for the user is no edit.

@@ -156,8 +156,11 @@ void drawBackground(SceneState& state) {
     if (state.background == BackgroundKind::None) return;
     slider("Blur", state.backgroundBlur, 0, 30, "%.1f deg");
     explain("The background out of focus; the light stays as it is");
-    ImGui::Checkbox("Fade the ground", &state.fadesGround);
-    explain("The ground ends before its edge; comparing shows all of it");
+    constexpr const char* kGrounds[] = {"Whole", "Faded", "Shadow"};
+    int ground = int(state.ground);
+    if (ImGui::Combo("Ground", &ground, kGrounds, 3)) state.ground = GroundStyle(ground);
+    explain(
+        "As it is, fading around the object, or as a shadow on the background; comparing shows all of it");
 }
 
 } // namespace

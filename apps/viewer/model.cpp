@@ -15,9 +15,9 @@ Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset 
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset whole, bool isUnshadowed)
     : file(path), isSketch(isUnshadowed), asset(std::move(whole)), bounds(objectBounds(asset)),
-      groundFade(makeGroundFade(asset)), appearance(defaultAppearance(asset)), light(device, asset.faceSize),
-      relighter(device, asset, {}), view(device, asset, {.isUnshadowed = isUnshadowed}),
-      surfaces(partMeshes(asset)), occluder(asset.occluder, asset.visibilitySize) {}
+      appearance(defaultAppearance(asset)), light(device, asset.faceSize), relighter(device, asset, {}),
+      view(device, asset, {.isUnshadowed = isUnshadowed}), surfaces(partMeshes(asset)),
+      occluder(asset.occluder, asset.visibilitySize) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

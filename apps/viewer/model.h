@@ -21,7 +21,6 @@ struct Model {
     bool isSketch;
     Asset asset;
     Bounds bounds; // of the object
-    std::optional<GroundFade> groundFade;
     Appearance appearance;
     LightPass light;
     Relighter relighter;

@@ -99,13 +99,13 @@ bool Outputs::record(const vk::Image& window) {
     return true;
 }
 
-void Outputs::save(const SceneState& state, const Model* model, bool fadesGround) {
+void Outputs::save(const SceneState& state, const Model* model, GroundStyle ground) {
     const Image screen =
         screenImage(mScreen.map<uint8_t>(), int(mWindow.width), int(mWindow.height), mWindow.format);
     std::string failure;
     for (const std::filesystem::path& file : std::exchange(mScreenshots, {})) {
         try {
-            saveScreenshot(file, screen, state, model, fadesGround);
+            saveScreenshot(file, screen, state, model, ground);
             mTell(file.string() + " is written", false);
         } catch (const std::exception& why) {
             failure = why.what();
@@ -116,7 +116,7 @@ void Outputs::save(const SceneState& state, const Model* model, bool fadesGround
 }
 
 void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
-                             const Model* model, bool fadesGround) {
+                             const Model* model, GroundStyle ground) {
     if (file.extension() != ".exr") return writePng(file, screen);
     if (!model) throw Error(fmt::format("{}: nothing is shown yet", file.string()));
     writeExr(file, model->view.read());
@@ -125,7 +125,7 @@ void Outputs::saveScreenshot(const std::filesystem::path& file, const Image& scr
     light.replace_extension(".light.json");
     if (needsLightFile(state.light)) writeJsonFile(light, lightFileOf(state.light));
     const auto command = [&](Drawn drawn) {
-        nlohmann::ordered_json options = renderOptions(state, fadesGround, drawn);
+        nlohmann::ordered_json options = renderOptions(state, ground, drawn);
         if (needsLightFile(state.light)) options["light"] = light.string();
         return renderCommand(options, model->file, int(mWindow.width), int(mWindow.height), drawn);
     };

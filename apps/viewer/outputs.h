@@ -48,13 +48,13 @@ class Outputs {
     // Copies the window's image, in COLOR_ATTACHMENT_OPTIMAL, if a file is wanted of it. Returns true if so:
     // the image is then in TRANSFER_SRC_OPTIMAL, and save() must be called after the submission.
     bool record(const vk::Image& window);
-    // Writes all wanted files. `model` is the one in the view, null before the first; `fadesGround` is from
-    // SceneView::fadesGround(). Throws Error for files that cannot be written, after writing the others.
-    void save(const SceneState& state, const Model* model, bool fadesGround);
+    // Writes all wanted files. `model` is the one in the view, null before the first; `ground` is from
+    // SceneView::groundStyle(). Throws Error for files that cannot be written, after writing the others.
+    void save(const SceneState& state, const Model* model, GroundStyle ground);
 
   private:
     void saveScreenshot(const std::filesystem::path& file, const Image& screen, const SceneState& state,
-                        const Model* model, bool fadesGround);
+                        const Model* model, GroundStyle ground);
 
     const vk::Device& mDevice;
     vk::Commands& mCommands;

@@ -39,8 +39,8 @@ struct SceneState {
     // `wantsExposure`.
     bool exposesItself = true, wantsExposure = true;
     BackgroundKind background = BackgroundKind::Environment;
-    float backgroundBlur = 0; // degrees
-    bool fadesGround = true;  // if there is a background
+    float backgroundBlur = 0;                 // degrees
+    GroundStyle ground = GroundStyle::Shadow; // if there is a background
     Inspect inspect = Inspect::Off;
     Compare compare = Compare::Off;
     float split = 0.5f;      // share of the window's width: relit image to its left, reference to its right

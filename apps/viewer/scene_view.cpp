@@ -124,12 +124,12 @@ void SceneView::recordLight(vk::Commands& commands, SceneState& state) {
 
 void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec2 size, bool isFinal) {
     Seen now{state.orbit->camera(), size,          state.terms,       state.addsResidual,
-             state.samples,         state.inspect, fadesGround(state)};
+             state.samples,         state.inspect, groundStyle(state)};
     const bool isSame = mSeen && mSeen->camera.eye == now.camera.eye &&
                         mSeen->camera.target == now.camera.target &&
                         mSeen->camera.verticalFov == now.camera.verticalFov && mSeen->size == size &&
                         mSeen->terms == now.terms && mSeen->addsResidual == now.addsResidual &&
-                        mSeen->inspect == now.inspect && mSeen->fadesGround == now.fadesGround;
+                        mSeen->inspect == now.inspect && mSeen->ground == now.ground;
     if (isSame && mSeen->samples == now.samples) return;
     // Edges may be jagged while things move; a still view is drawn again with all samples.
     if (!isSame && !isFinal) now.samples = 1;
@@ -139,7 +139,7 @@ void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec
     mModel->view.setTerms(now.terms);
     mModel->view.setResidual(now.addsResidual || mModel->isSketch);
     mModel->view.setInspect(now.inspect);
-    mModel->view.setGroundFade(now.fadesGround ? mModel->groundFade : std::nullopt);
+    mModel->view.setGroundFade(makeGroundFade(mModel->asset, now.ground));
     mModel->view.record(commands, now.camera, mModel->relighter);
     mSeen = now;
     mViewVersion++;
@@ -169,10 +169,11 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
     mImage = &mComparePass->image();
 }
 
-bool SceneView::fadesGround(const SceneState& state) const {
+GroundStyle SceneView::groundStyle(const SceneState& state) const {
     // The reference shows all of the ground.
-    return mModel && mModel->groundFade && state.fadesGround && state.background != BackgroundKind::None &&
-           state.inspect == Inspect::Off && !compares(state);
+    const bool isStyled = mModel && groundOf(mModel->asset) && state.background != BackgroundKind::None &&
+                          state.inspect == Inspect::Off && !compares(state);
+    return isStyled ? state.ground : GroundStyle::Whole;
 }
 
 void SceneView::recordBackground(vk::Commands& commands, const SceneState& state) {

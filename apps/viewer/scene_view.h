@@ -58,7 +58,7 @@ class SceneView {
     // Returns whether a reference is wanted: comparison is on, and radiance is shown.
     static bool compares(const SceneState& state);
     // Returns whether the ground of the model shown fades out before its edge.
-    bool fadesGround(const SceneState& state) const;
+    GroundStyle groundStyle(const SceneState& state) const;
     // Returns the result for the reference of the view; without passes if there is none.
     const Comparison::Result& compared() const { return mCompared; }
 
@@ -70,7 +70,7 @@ class SceneView {
         bool addsResidual = true;
         int samples = 0;
         Inspect inspect = Inspect::Off;
-        bool fadesGround = false;
+        GroundStyle ground = GroundStyle::Whole;
     };
     // The model and light for which exposure was chosen.
     struct Exposed {

@@ -38,7 +38,7 @@ bool needsLightFile(const LightState& light) {
            (light.isDay() || !light.lamps.empty() || !light.strokes.empty() || light.environmentGain != 1);
 }
 
-nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, Drawn drawn) {
+nlohmann::ordered_json renderOptions(const SceneState& state, GroundStyle ground, Drawn drawn) {
     const LightState& light = state.light;
     const Camera camera = state.orbit->camera();
     nlohmann::ordered_json options{{"eye", listOf(camera.eye)},
@@ -63,17 +63,19 @@ nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, 
     if (state.samples != kDefaultSamples) options["samples"] = state.samples;
     if (state.terms > 0) options["terms"] = state.terms;
     if (!state.addsResidual) options["residual"] = "off";
-    if (drawn == Drawn::Radiance) {
-        if (fadesGround) options["ground-fade"] = true;
+    const auto withGround = [&](GroundStyle unsaid) {
+        if (ground != unsaid) options["ground-style"] = kGroundStyleNames[size_t(ground)];
         return options;
+    };
+    if (drawn == Drawn::Radiance) {
+        return withGround(GroundStyle::Whole);
     }
     const bool isSeen = state.background == BackgroundKind::Environment; // default of .png
     options["exposure"] = shortest(state.exposure);
     options["tone"] = kToneNames[size_t(state.tone)];
     if (!isSeen) options["background"] = "none";
     if (isSeen && state.backgroundBlur > 0) options["background-blur"] = shortest(state.backgroundBlur);
-    if (isSeen && !fadesGround) options["ground-fade"] = false;
-    return options;
+    return withGround(isSeen ? GroundStyle::Shadow : GroundStyle::Whole);
 }
 
 std::string renderCommand(const nlohmann::ordered_json& options, const std::filesystem::path& bake, int width,
@@ -86,9 +88,7 @@ std::string renderCommand(const nlohmann::ordered_json& options, const std::file
                                  : fmt::format("={}", value.get<double>());
     };
     for (const auto& [name, value] : options.items()) {
-        if (value.is_boolean()) {
-            command += (value ? " --" : " --no-") + name;
-        } else if (!value.is_array()) {
+        if (!value.is_array()) {
             command += " --" + name + textOf(value);
         } else if (value[0].is_string()) {
             for (const auto& each : value) command += " --" + name + textOf(each);

@@ -19,8 +19,8 @@ bool needsLightFile(const LightState& light);
 enum class Drawn { Radiance, Picture };
 
 // Returns the options of `relume render`, by name, that draw the same view bit for bit, without a light that
-// needsLightFile(). `state` must have an orbit; `fadesGround` is from SceneView::fadesGround().
-nlohmann::ordered_json renderOptions(const SceneState& state, bool fadesGround, Drawn drawn);
+// needsLightFile(). `state` must have an orbit; `ground` is from SceneView::groundStyle().
+nlohmann::ordered_json renderOptions(const SceneState& state, GroundStyle ground, Drawn drawn);
 
 // Returns the command line with these options.
 std::string renderCommand(const nlohmann::ordered_json& options, const std::filesystem::path& bake, int width,

@@ -88,13 +88,15 @@ void setLight(const JsonObject& object, LightState& light) {
 
 } // namespace
 
-nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
-                                 const std::filesystem::path& input, ivec2 size) {
+nlohmann::ordered_json sessionOf(const SceneState& state, GroundStyle ground,
+                                 const std::filesystem::path& bake, const std::filesystem::path& input,
+                                 ivec2 size) {
     nlohmann::ordered_json session{{"session", 1}, {"bake", std::filesystem::absolute(bake).string()}};
     if (!input.empty()) session["model"] = input.string();
     session["size"] = fmt::format("{}x{}", size.x, size.y);
-    session.update(renderOptions(state, fadesGround, Drawn::Picture));
-    if (fadesGround) session["ground-fade"] = true; // regardless of the image's default
+    session.update(renderOptions(state, ground, Drawn::Picture));
+    // Say what a picture shows by default, since linear images do not.
+    if (ground != GroundStyle::Whole) session["ground-style"] = kGroundStyleNames[size_t(ground)];
     if (state.light.file)
         session["light"] = std::filesystem::absolute(state.light.fileName).string();
     else if (needsLightFile(state.light))
@@ -138,7 +140,8 @@ Session readSession(const std::filesystem::path& file, const SceneState& state) 
     set.background = choiceOf(object, "background", BackgroundKind::Environment, {"environment", "none"},
                               "\"environment\" or \"none\"");
     set.backgroundBlur = object.number("background-blur", 0, 0, 90);
-    set.fadesGround = object.flag("ground-fade", true);
+    set.ground = choiceOf(object, "ground-style", GroundStyle::Shadow, {"whole", "fade", "shadow"},
+                          "\"whole\", \"fade\" or \"shadow\"");
     return session;
 }
 

@@ -17,10 +17,11 @@ struct Session {
     std::vector<WeightedMaterial> material;
 };
 
-// Returns the content of a session file. `state` must have an orbit; `fadesGround` is from
-// SceneView::fadesGround(); `input` is the file from which the viewer made the bake, or empty.
-nlohmann::ordered_json sessionOf(const SceneState& state, bool fadesGround, const std::filesystem::path& bake,
-                                 const std::filesystem::path& input, ivec2 size);
+// Returns the content of a session file. `state` must have an orbit; `ground` is from
+// SceneView::groundStyle(); `input` is the file from which the viewer made the bake, or empty.
+nlohmann::ordered_json sessionOf(const SceneState& state, GroundStyle ground,
+                                 const std::filesystem::path& bake, const std::filesystem::path& input,
+                                 ivec2 size);
 
 // Reads a session file; what it does not mention stays as in `state`. Throws Error.
 Session readSession(const std::filesystem::path& file, const SceneState& state);

@@ -231,7 +231,7 @@ const std::vector<Setting>& settings() {
         {"exposure", setExposure, exposureOf},
         choice("background", &SceneState::background, {"environment", "none"}, kRemembered),
         number("background-blur", &SceneState::backgroundBlur, 0, 90, kRemembered),
-        flag("ground-fade", &SceneState::fadesGround, kRemembered),
+        choice("ground-style", &SceneState::ground, {"whole", "fade", "shadow"}, kRemembered),
         number("terms", &SceneState::terms, 0, 1024),
         number("split", &SceneState::split, 0, 1),
         choice("tone", &SceneState::tone, {"none", "aces", "agx"}, kRemembered),

@@ -337,7 +337,7 @@ void Viewer::saveLight(const std::filesystem::path& file) {
 void Viewer::saveSession(const std::filesystem::path& file) {
     attempt(mNotice, [&] {
         mNotice.tell(
-            mFiles.saveSession(file, mView.drawn(mState), mView.fadesGround(mState), mWindow.size()));
+            mFiles.saveSession(file, mView.drawn(mState), mView.groundStyle(mState), mWindow.size()));
     });
 }
 

@@ -12,7 +12,8 @@ namespace {
 using Json = nlohmann::json;
 using Keys = std::initializer_list<const char*>;
 
-constexpr Keys kFiles = {"bake", "model", "environment"}, kTexts = {"size", "residual", "tone", "background"},
+constexpr Keys kFiles = {"bake", "model", "environment"},
+               kTexts = {"size", "residual", "tone", "background", "ground-style"},
                kVectors = {"eye", "target"},
                kNumbers = {"fov",     "rotate", "coefficients", "threshold",      "time",
                            "samples", "terms",  "exposure",     "background-blur"};
@@ -30,7 +31,6 @@ void checkTypes(const JsonObject& session) {
         for (const char* key : keys) session.text(key, "");
     for (const char* key : kVectors) session.requiredVector(key, -kLargest, kLargest);
     for (const char* key : kNumbers) session.number(key, 0, -kLargest, kLargest);
-    session.flag("ground-fade", false);
     const Json* const light = session.find("light");
     if (light && !light->is_object()) session.text("light", "");
     const Json* const material = session.find("material");

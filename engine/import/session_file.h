@@ -10,10 +10,10 @@ namespace relume {
 
 // All keys that a session can have.
 constexpr std::array<std::string_view, 22> kSessionKeys = {
-    "session", "bake",       "model",           "size",       "eye",      "target",
-    "fov",     "rotate",     "coefficients",    "threshold",  "light",    "environment",
-    "time",    "material",   "samples",         "terms",      "residual", "exposure",
-    "tone",    "background", "background-blur", "ground-fade"};
+    "session", "bake",       "model",           "size",        "eye",      "target",
+    "fov",     "rotate",     "coefficients",    "threshold",   "light",    "environment",
+    "time",    "material",   "samples",         "terms",       "residual", "exposure",
+    "tone",    "background", "background-blur", "ground-style"};
 
 // Returns the content of a session file: only keys of sessions, of the right types, none that excludes
 // another, with file names as absolute paths. Values may be out of range. Errors name file and key.

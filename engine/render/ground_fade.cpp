@@ -7,16 +7,22 @@ namespace relume {
 // Largest ratio of inner to outer radius, since an object may be as large as its ground.
 static constexpr float kMostInner = 0.6f;
 
-std::optional<GroundFade> makeGroundFade(const Asset& asset) {
+std::optional<size_t> groundOf(const Asset& asset) {
     const auto ground = std::ranges::find(asset.parts, "ground", &AssetPart::name);
     if (ground == asset.parts.end()) return std::nullopt;
-    const Bounds object = objectBounds(asset), edges = boundsOf(ground->mesh);
+    return size_t(ground - asset.parts.begin());
+}
+
+std::optional<GroundFade> makeGroundFade(const Asset& asset, GroundStyle style) {
+    const std::optional<size_t> ground = groundOf(asset);
+    if (style == GroundStyle::Whole || !ground) return std::nullopt;
+    const Bounds object = objectBounds(asset), edges = boundsOf(asset.parts[*ground].mesh);
     const vec2 center(object.center().x, object.center().z), reach(object.extent().x, object.extent().z);
     const float outer = std::min(
         {center.x - edges.low.x, edges.high.x - center.x, center.y - edges.low.z, edges.high.z - center.y});
     if (!(outer > 0)) return std::nullopt;
-    return GroundFade{size_t(ground - asset.parts.begin()), center,
-                      std::min(0.5f * glm::length(reach), kMostInner * outer), outer};
+    return GroundFade{*ground, center, std::min(0.5f * glm::length(reach), kMostInner * outer), outer,
+                      style == GroundStyle::Shadow};
 }
 
 float groundCoverage(const GroundFade& fade, vec3 position) {

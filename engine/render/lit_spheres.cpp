@@ -3,6 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/math/tangent_frame.h"
+#include "engine/render/ground_fade.h"
 #include "engine/render/view_grid.h"
 #include "engine/vk/upload.h"
 #include "shaders/sphere_cube_comp.h"
@@ -111,14 +112,19 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
       mPolarSampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                     "polar light maps") {
     std::vector<float> weights;
+    std::map<const ResidualSet*, Set*> known;
     for (size_t part = 0; part < asset.parts.size(); part++) {
         auto& residuals = mResiduals.emplace_back();
+        auto& sets = mSetOf.emplace_back();
         for (const MaterialSet& set : asset.parts[part].sets) {
             const auto& residual = residuals.emplace_back(takesResiduals ? set.residual : nullptr);
-            if (!residual) continue;
-            if (!mSets.contains(residual.get())) addSet(*residual, set.brdf, weights);
-            if (!asset.parts[part].mesh.tangents.empty())
-                mSets.at(residual.get()).isTurned = 1, mTupleRows = kTurnedRows;
+            sets.push_back(nullptr);
+            if (!residual && part != groundOf(asset)) continue;
+            Set* const same = residual ? known[residual.get()] : nullptr;
+            Set& own = same ? *same : addSet(set.brdf, residual.get(), weights);
+            if (residual) known[residual.get()] = &own;
+            if (!asset.parts[part].mesh.tangents.empty()) own.isTurned = 1, mTupleRows = kTurnedRows;
+            sets.back() = &own;
         }
     }
     if (!mSets.empty()) makePrograms();
@@ -159,21 +165,27 @@ void LitSpheres::makePrograms() {
     mSynthesize = {mDevice, sphere_synthesize_comp_spirv, {}, "sphere synthesize"};
 }
 
-void LitSpheres::addSet(const ResidualSet& set, const FactoredBrdf& factors, std::vector<float>& weights) {
+LitSpheres::Set& LitSpheres::addSet(const FactoredBrdf& factors, const ResidualSet* residual,
+                                    std::vector<float>& weights) {
     FactoredBrdf lights = factors;
     lights.layers = 1;
     lights.viewMaps = factors.lightMaps;
-    mSets.emplace(&set, Set{uint32_t(weights.size() / 4), uint32_t(factors.terms), uint32_t(factors.mapping),
-                            makeViewMapTexture(mDevice, lights, "light maps"), 0});
-    for (const vec3& weight : set.irradianceWeights)
-        weights.insert(weights.end(), {weight.x, weight.y, weight.z});
-    weights.resize(roundUp(uint32_t(weights.size()), 12) * 12, 0); // pad to whole groups of four terms
-    for (const auto& layer : set.layers) {
+    Set& set = mSets.emplace_back(Set{uint32_t(weights.size() / 4), uint32_t(factors.terms),
+                                      uint32_t(factors.mapping),
+                                      makeViewMapTexture(mDevice, lights, "light maps"), 0});
+    weights.resize(weights.size() + roundUp(uint32_t(factors.terms), 4) * 12,
+                   0); // whole groups of four terms
+    if (!residual) return set;
+    float* weight = &weights[4 * size_t(set.firstImage)];
+    for (const vec3& each : residual->irradianceWeights)
+        for (int channel = 0; channel < 3; channel++) *weight++ = each[channel];
+    for (const auto& layer : residual->layers) {
         if (!mKernelNumbers.emplace(layer.get(), uint32_t(mKernels.size())).second) continue;
         mKernels.push_back({{0, uint32_t(layer->frequencies), uint32_t(layer->harmonics)},
                             uint32_t(layer->components()),
                             vk::upload<vec4>(mDevice, packed(*layer), "sphere kernel")});
     }
+    return set;
 }
 
 void LitSpheres::freeSlots() {
@@ -195,7 +207,7 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
                           SphereCubePush{uint32_t(light.faceSize())},
                           {6 * kSphereCubeBordered * kSphereCubeBordered, 1, 1});
         commands.barrier(Stage::Compute, Stage::Compute);
-        for (const auto& [residual, set] : mSets) {
+        for (const Set& set : mSets) {
             commands.dispatch(
                 mUnshadowed,
                 {texels(mLights),
@@ -317,8 +329,9 @@ std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node) const {
     return {first, first + std::ptrdiff_t(mKernels[kernel].parts() * kSphereTexels)};
 }
 
-std::vector<vec3> LitSpheres::readTuples(const ResidualSet* residual) const {
-    const Set& set = mSets.at(residual);
+std::vector<vec3> LitSpheres::readTuples(size_t part, size_t number) const {
+    RELUME_CHECK(mSetOf[part][number]);
+    const Set& set = *mSetOf[part][number];
     const std::vector<vec4> texels = readImage(mDevice, mTuples);
     std::vector<vec3> tuples;
     for (size_t texel = 0; texel < size_t(set.rows()) * kTupleAzimuths; texel++)

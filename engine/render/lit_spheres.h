@@ -8,7 +8,9 @@
 #include "engine/scene/residual.h"
 #include "engine/transport/asset.h"
 
+#include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -18,7 +20,8 @@ namespace relume {
 class LitSpheres {
   public:
     // Makes buffers for all parts and sets of `asset` that have a residual, or for none unless
-    // `takesResiduals`. Throws OutOfMemory.
+    // `takesResiduals`; and for the unshadowed tuples of a ground (ground_fade.h), which its shadow needs.
+    // Throws OutOfMemory.
     LitSpheres(const vk::Device& device, const Asset& asset, bool takesResiduals);
 
     // Records pass "unshadowed", which sets the light of all spheres made from now on, and sums the
@@ -46,14 +49,18 @@ class LitSpheres {
     // (kTurnedRows for sets of parts with tangents), three images for each four terms of a set, laid out as
     // tuples are.
     const vk::Image& tuples() const { return mTuples; }
-    uint32_t firstTuples(const ResidualSet* set) const { return mSets.at(set).firstImage; }
     // Returns ResidualSet::irradianceWeights, laid out as tuples are, in whole quads of terms.
     const vk::Buffer& weights() const { return mWeights; }
-    uint32_t firstWeight(const ResidualSet* set) const { return mSets.at(set).firstImage; } // in texels
+    // Returns the first image of a set's unshadowed tuples, which is also the first texel of its weights;
+    // none if the set has neither a residual nor a ground.
+    std::optional<uint32_t> firstTuples(size_t part, size_t set) const {
+        const Set* const known = mSetOf[part][set];
+        return known ? std::optional(known->firstImage) : std::nullopt;
+    }
 
     // Return what was last made, for tests and `relume verify`. Wait for the device.
     std::vector<vec3> readSphere(uint32_t kernel, uint32_t node) const; // spheres × rings × azimuths
-    std::vector<vec3> readTuples(const ResidualSet* set) const;         // rows × azimuths × terms
+    std::vector<vec3> readTuples(size_t part, size_t set) const;        // rows × azimuths × terms
 
   private:
     struct Kernel {
@@ -72,7 +79,7 @@ class LitSpheres {
     };
 
     void makePrograms();
-    void addSet(const ResidualSet& set, const FactoredBrdf& factors, std::vector<float>& weights);
+    Set& addSet(const FactoredBrdf& factors, const ResidualSet* residual, std::vector<float>& weights);
     void makeRoom(size_t spheres);
     void makeSpheres(vk::Commands& commands, uint32_t kernel, std::span<const uint32_t> nodes);
     void freeSlots();
@@ -80,7 +87,9 @@ class LitSpheres {
     const vk::Device& mDevice;
     std::vector<std::vector<std::shared_ptr<const ResidualSet>>> mResiduals; // by part, then by set
     std::map<const SphereKernel*, uint32_t> mKernelNumbers;
-    std::map<const ResidualSet*, Set> mSets;
+    std::deque<Set> mSets;
+    std::vector<std::vector<const Set*>>
+        mSetOf; // by part, then by set; null if the set has no unshadowed tuples
     std::vector<Kernel> mKernels;
     vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
     vk::Sampler mSampler, mPolarSampler; // mPolarSampler repeats in x

@@ -175,6 +175,7 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
     for (size_t p = 0; p < mParts.size(); p++)
         for (size_t s = 0; s < mParts[p].sets.size(); s++) {
             const ResidualSet* residual = residualOf(p, s, relighter);
+            const bool isShadow = mGroundFade && mGroundFade->part == p && mGroundFade->isShadow;
             std::set<uint32_t> harmonics{mostHarmonics(residual)};
             if (residual)
                 for (const auto& layer : residual->layers) harmonics.insert(uint32_t(layer->harmonics));
@@ -184,7 +185,7 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
                         if ((pixels == Pixels::All) == (mSamples == 1) &&
                             (look == shared::kSingleLook || count == *harmonics.rbegin()))
                             shadeProgram(mParts[p].sets[s],
-                                         {look, true, estimateOf(residual), count, pixels});
+                                         {look, true, estimateOf(residual, isShadow), count, pixels});
         }
 }
 
@@ -408,11 +409,12 @@ void ViewPass::markEdges(vk::Commands& commands, const Frame& frame) const {
     if (any != mParts.end()) mark(*any, mBounds, 0);
 }
 
-uint32_t ViewPass::estimateOf(const ResidualSet* residual) const {
-    if (!residual) return shared::kTermsAlone;
-    if (mIsUnshadowed) return shared::kUnshadowed;
+uint32_t ViewPass::estimateOf(const ResidualSet* residual, bool isShadow) const {
+    const uint32_t shadow = isShadow ? shared::kShadow : 0;
+    if (!residual) return shared::kTermsAlone + shadow;
+    if (mIsUnshadowed) return shared::kUnshadowed + shadow;
     return (residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference) +
-           (residual->isBounced ? shared::kBounced : 0);
+           (residual->isBounced ? shared::kBounced : 0) + shadow;
 }
 
 const ResidualSet* ViewPass::residualOf(size_t part, size_t set, const Relighter& relighter) const {
@@ -455,6 +457,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
     const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
     const bool isSingle = part.look == shared::kSingleLook;
     const bool fades = mGroundFade && mGroundFade->part == number;
+    const uint32_t firstTuples = spheres.firstTuples(number, part.bound.set).value_or(0);
     const shared::ViewShadePush push{*rays,
                                      part.firstTriangleId,
                                      part.triangleCount,
@@ -466,12 +469,12 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                                      set.materials,
                                      usesAll ? set.terms : uint32_t(mTerms),
                                      isSingle ? part.boundLayers[0].firstSlot : 0,
-                                     residual ? spheres.firstTuples(residual) : 0,
-                                     residual ? spheres.firstWeight(residual) : 0,
+                                     firstTuples,
                                      fades ? vec4(mGroundFade->center, mGroundFade->inner, mGroundFade->outer)
                                            : vec4(0)};
     const uint32_t harmonics = isSingle && residual ? part.boundLayers[0].harmonics : mostHarmonics(residual);
-    commands.bind(shadeProgram(set, {part.look, usesAll, estimateOf(residual), harmonics, pixels}),
+    const uint32_t estimate = estimateOf(residual, fades && mGroundFade->isShadow);
+    commands.bind(shadeProgram(set, {part.look, usesAll, estimate, harmonics, pixels}),
                   {{mTriangleIds, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),

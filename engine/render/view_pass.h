@@ -51,8 +51,8 @@ class ViewPass {
     void setTerms(int terms) { mTerms = terms; }
     // Adds the residual from the next record() on, where the relighter has one; on by default.
     void setResidual(bool isAdded) { mAddsResidual = isAdded; }
-    // Fades the ground from the next record() on; without a fade all of it is drawn. Radiance is
-    // premultiplied by the coverage, which is alpha.
+    // Fades the ground, or draws its shadow alone, from the next record() on; without a fade all of it is
+    // drawn. Radiance is premultiplied by the coverage, which is alpha.
     void setGroundFade(const std::optional<GroundFade>& fade) { mGroundFade = fade; }
     // Sets what images show from the next record() on.
     void setInspect(Inspect inspect) { mInspect = inspect; }
@@ -139,7 +139,7 @@ class ViewPass {
     void shade(vk::Commands& commands, const Frame& frame, size_t part, const Relighter& relighter,
                Pixels pixels);
     // Returns shared::kTermsAlone and so on.
-    uint32_t estimateOf(const ResidualSet* residual) const;
+    uint32_t estimateOf(const ResidualSet* residual, bool isShadow) const;
     // Returns null if the part shows the K terms alone with this set bound.
     const ResidualSet* residualOf(size_t part, size_t set, const Relighter& relighter) const;
     // Makes the lit spheres that the bound layers of all parts need.

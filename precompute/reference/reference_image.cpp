@@ -49,6 +49,8 @@ struct Renderer {
 
     vec4 pixelAt(int x, int y) const;
     vec3 radianceAt(const RayHit& hit) const;
+    // Returns the reflected radiance that a surface would have if nothing cast shadows.
+    vec3 unshadowedRadiance(const RayHit& hit) const;
     // Returns bounced radiance by path tracing; the pixel seeds the random numbers.
     vec3 bouncedRadiance(const RayHit& hit, uint32_t pixel) const;
     // Returns the coverage of a surface: less than 1 where the ground fades.
@@ -59,6 +61,16 @@ struct Renderer {
 
 vec3 Renderer::radianceAt(const RayHit& hit) const {
     return terms ? estimateRadiance(hit) : reflectedRadiance(asset.pointAt(hit, camera.eye));
+}
+
+vec3 Renderer::unshadowedRadiance(const RayHit& hit) const {
+    const SurfacePoint point = asset.pointAt(hit, camera.eye);
+    glm::dvec3 sum(0);
+    for (const LightSample& light : lights) {
+        const vec3 incoming = point.frame.toLocal(light.direction);
+        if (incoming.z > 0) sum += light.energy * point.reflected(incoming) * incoming.z;
+    }
+    return vec3(sum);
 }
 
 vec3 Renderer::bouncedRadiance(const RayHit& hit, uint32_t pixel) const {
@@ -92,9 +104,12 @@ vec4 Renderer::pixelAt(int x, int y) const {
         if (!(share > 0)) continue;
         vec3 radiance = radianceAt(**hit);
         if (bounced) radiance += bouncedRadiance(**hit, uint32_t(y * options.width + x));
-        const vec3 emitted = asset.pointAt(**hit, camera.eye).emitted;
-        // A factored BRDF can be negative.
-        sum += share * vec4(glm::max(radiance, vec3(0)) + emitted, 1);
+        radiance = glm::max(radiance, vec3(0)); // a factored BRDF can be negative
+        radiance += asset.pointAt(**hit, camera.eye).emitted;
+        if (options.groundFade && options.groundFade->isShadow && options.groundFade->part == (*hit)->mesh)
+            sum.w += share * (1 - litShare(radiance, unshadowedRadiance(**hit)));
+        else
+            sum += share * vec4(radiance, 1);
     }
     return sum;
 }

@@ -144,7 +144,8 @@ const uint kSurfaceLook = 2; // paint, a texture or a detail as well
 // How a draw's shader estimates radiance: shaders/lib/unshadowed.glsl.
 const uint kTermsAlone = 0, kResidualDifference = 1, kResidualRatio = 2;
 const uint kBounced = 4;    // added to the latter two: tuples include light from other surfaces
-const uint kUnshadowed = 8; // alone: shows the unshadowed radiance
+const uint kUnshadowed = 8; // in their place: shows the unshadowed radiance
+const uint kShadow = 16;    // added to any: shows the shadow alone (GroundStyle::Shadow)
 
 // The source of a part's paint.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
@@ -180,11 +181,10 @@ struct ViewShadePush {
     uint terms;     // the first terms, 1 to K, that are summed
     // For the residual:
     uint firstSlot;   // kSingleLook: ViewLayer::firstSlot of the layer
-    uint firstTuples; // first image of the set's unshadowed tuples
-    uint firstWeight; // first texel of the set's irradiance weights
+    uint firstTuples; // first image of the set's unshadowed tuples, and first texel of its irradiance weights
     vec4 groundFade;  // GroundFade: center, inner and outer; outer 0: no fade
 };
-RELUME_SHARED_SIZE(ViewShadePush, 128)
+RELUME_SHARED_SIZE(ViewShadePush, 124)
 
 struct ViewEdgesPush {
     ViewRays rays;

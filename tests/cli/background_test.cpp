@@ -4,6 +4,8 @@
 #include "engine/scene/texture.h"
 #include "tests/support/run_relume.h"
 
+#include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -54,7 +56,7 @@ std::string bytes(const std::string& file) { return contents(bakes().path() / fi
 
 TEST_CASE("cli: a picture shows the environment behind the object, linear radiance does not") {
     words("render", "-o picture.png");
-    words("render", "-o said.png --background environment --ground-fade --exposure auto");
+    words("render", "-o said.png --background environment --ground-style shadow --exposure auto");
     CHECK(bytes("picture.png") == bytes("said.png"));
     const Pixel sky = pixel("picture.png", 2, 1);
     CHECK_GT(sky.r, sky.b + 30);
@@ -64,11 +66,11 @@ TEST_CASE("cli: a picture shows the environment behind the object, linear radian
     CHECK(bytes("blurred.png") != bytes("sharp.png"));
 
     words("render", "-o linear.exr");
-    words("render", "-o none.exr --background none --no-ground-fade");
+    words("render", "-o none.exr --background none --ground-style whole");
     CHECK(bytes("linear.exr") == bytes("none.exr"));
     const Image linear = readImage(bakes().path() / "linear.exr").image;
     CHECK_EQ(linear.at(2, 1), vec4(0));
-    words("render", "-o over.exr --background environment --no-ground-fade");
+    words("render", "-o over.exr --background environment --ground-style whole");
     const Image over = readImage(bakes().path() / "over.exr").image;
     CHECK_EQ(over.at(24, 18), linear.at(24, 18));
     CHECK(over.at(2, 1).x == doctest::Approx(8).epsilon(0.01));
@@ -139,9 +141,9 @@ TEST_CASE("cli: exposure is the object's own, told as a number that says the sam
 }
 
 TEST_CASE("cli: the ground ends around the object, in the reference too") {
-    words("render", "-o faded.exr --samples 1 --ground-fade --orbit 30,60,2.5");
+    words("render", "-o faded.exr --samples 1 --ground-style fade --orbit 30,60,2.5");
     words("render", "-o whole.exr --samples 1 --orbit 30,60,2.5");
-    words("reference", "-o exact.exr --rays 1 --samples 1 --ground-fade --orbit 30,60,2.5");
+    words("reference", "-o exact.exr --rays 1 --samples 1 --ground-style fade --orbit 30,60,2.5");
     const Image faded = readImage(bakes().path() / "faded.exr").image,
                 whole = readImage(bakes().path() / "whole.exr").image,
                 exact = readImage(bakes().path() / "exact.exr").image;
@@ -157,8 +159,52 @@ TEST_CASE("cli: the ground ends around the object, in the reference too") {
     CHECK_GT(part, 50);
     CHECK_GT(gone, 20);
     CHECK_EQ(faded.at(24, 18), whole.at(24, 18));
-    const Outcome bare = runRelume(bakes(), "render bare.relume -o x.exr --ground-fade");
-    CHECK_EQ(bare.exitCode, 2);
-    CHECK(says(bare.err, "--ground"));
+    for (const char* style : {"fade", "shadow"}) {
+        const Outcome bare =
+            runRelume(bakes(), fmt::format("render bare.relume -o x.exr --ground-style {}", style));
+        CHECK_EQ(bare.exitCode, 2);
+        CHECK(says(bare.err, "bake with --ground"));
+    }
     words("render", "-o bare.png", "bare.relume"); // nothing to fade is no error where nobody asks for it
+}
+
+TEST_CASE("cli: the ground's shadow darkens the background, as the reference's does") {
+    REQUIRE_EQ(runRelume(bakes(), "bake sphere --ground --ground-tessellation 64 -K 2 -N 256 --bounces 0 "
+                                  "--visibility-size 64 --face-size 32 --map-size 16 -q -o fine.relume")
+                   .exitCode,
+               0);
+    const std::string shadow = "--samples 1 --ground-style shadow --orbit 30,40,1.4";
+    words("render", "-o shadow.exr " + shadow, "fine.relume");
+    words("reference", "-o exact.exr " + shadow, "fine.relume");
+    words("render", "-o whole.exr --samples 1 --orbit 30,40,1.4", "fine.relume");
+    const Image drawn = readImage(bakes().path() / "shadow.exr").image,
+                exact = readImage(bakes().path() / "exact.exr").image,
+                whole = readImage(bakes().path() / "whole.exr").image;
+    double squares = 0;
+    int dark = 0, light = 0, object = 0, ground = 0;
+    for (size_t i = 0; i < drawn.pixels.size(); i++) {
+        const vec4 d = drawn.pixels[i], e = exact.pixels[i];
+        if (vec3(d) != vec3(0)) {
+            CHECK_EQ(d, whole.pixels[i]); // the object is drawn as ever
+            object++;
+        } else if (vec3(e) == vec3(0) && whole.pixels[i].w > 0) {
+            squares += double((d.w - e.w) * (d.w - e.w));
+            ground++;
+            dark += e.w > 0.3f;
+            light += e.w < 0.03f;
+        }
+    }
+    CHECK_GT(object, 100);
+    CHECK_GT(dark, 20);
+    CHECK_GT(light, 200);
+    CHECK_LT(std::sqrt(squares / ground), 0.02);
+    // A picture is the background times what is left of its light.
+    words("render", "-o over.exr --background environment " + shadow, "fine.relume");
+    const Image over = readImage(bakes().path() / "over.exr").image;
+    const auto darkest =
+        std::ranges::max_element(drawn.pixels, {}, [](vec4 p) { return vec3(p) == vec3(0) ? p.w : 0.0f; });
+    const auto place = size_t(darkest - drawn.pixels.begin());
+    words("render", "-o behind.exr --samples 1 --background environment --orbit 30,40,1.4", "bare.relume");
+    const vec4 behind = readImage(bakes().path() / "behind.exr").image.pixels[place];
+    CHECK(over.pixels[place].z == doctest::Approx((1 - darkest->w) * behind.z).epsilon(0.02));
 }

@@ -90,8 +90,8 @@ void applyAll(Target& target, const nlohmann::json& settings) {
     const nlohmann::json kept = rememberedSettings(target.state());
     for (const auto& [name, value] : kept.items()) target.set(name, value);
     const SceneState& state = target.state();
-    const Session session = openWritten(
-        sessionOf(state, state.fadesGround, folderOfInputs().path() / "a.relume", "", {640, 480}));
+    const Session session =
+        openWritten(sessionOf(state, state.ground, folderOfInputs().path() / "a.relume", "", {640, 480}));
     RELUME_CHECK_EQ(session.material.size(), state.material.size());
 }
 
@@ -100,7 +100,7 @@ nlohmann::ordered_json writtenAgain(const Session& session) {
     SceneState state = session.state;
     state.orbit = orbitOf(session.camera);
     state.material = session.material;
-    return sessionOf(state, state.fadesGround, session.opened, "", {640, 480});
+    return sessionOf(state, state.ground, session.opened, "", {640, 480});
 }
 
 void runSession(const std::filesystem::path& folder, const std::string& text) {
@@ -156,6 +156,7 @@ std::vector<Bytes> sessionSeeds() {
     rich.terms = 3;
     rich.addsResidual = false;
     rich.backgroundBlur = 5;
+    rich.ground = GroundStyle::Fade;
     SceneState day = plain;
     day.light.environment = 1;
     day.background = BackgroundKind::None;
@@ -168,7 +169,7 @@ std::vector<Bytes> sessionSeeds() {
     moving.light.seconds = 2.5;
     std::vector<Bytes> seeds;
     for (const SceneState& state : {plain, rich, day, room, moving}) {
-        auto session = sessionOf(state, true, folder / "a.relume", "", {640, 480});
+        auto session = sessionOf(state, state.ground, folder / "a.relume", "", {640, 480});
         session["bake"] = "a.relume";
         if (state.light.file) session["light"] = "light.json";
         if (session.contains("environment")) session["environment"] = "room.exr";

@@ -138,7 +138,7 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
         for (uint32_t i = 0; i < 2; i++) {
             const SphereKernel& kernel = *sets[i]->layers[0];
             CHECK(relativeError(
-                      spheres.readTuples(sets[i].get()),
+                      spheres.readTuples(i, 0),
                       unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors, hasTangents)) < 2e-3);
             for (const uint32_t node : {40u, 79u})
                 CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node),

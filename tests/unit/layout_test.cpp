@@ -7,12 +7,13 @@
 #include "precompute/transport/light_spectrum.h"
 #include "precompute/transport/norm_sum.h"
 #include "tests/support/asset_sample.h"
+#include "tests/support/singular_values.h"
 
-#include <Eigen/SVD>
 #include <doctest/doctest.h>
 #include <set>
 
 using namespace relume;
+using namespace relume::test;
 
 namespace {
 
@@ -184,7 +185,7 @@ TEST_CASE("layout: bases leave hardly more than the best of their rank do") {
     CHECK(matrix.energy.sum() >= 256); // what varies, and the mean
     CHECK(matrix.values.squaredNorm() == doctest::Approx(matrix.energy.sum()));
     const BasisAnalysis analysis = analyze(matrix);
-    const Eigen::VectorXf sigma = Eigen::BDCSVD<Eigen::MatrixXf>(matrix.values).singularValues();
+    const Eigen::VectorXf sigma = singularValues(matrix.values);
     for (const double lambda : {1e-3, 1e-4, 1e-5}) {
         const BasisCut cut = cutFor(analysis, lambda);
         const EncodedCluster encoded = encodeBases(matrix, analysis, cut, kinds, spectrum);

@@ -40,7 +40,8 @@ std::vector<Look> looks() {
             {"rotation", rotation},
             {"threshold", {{"threshold", 300}}},
             {"centers", {{"samples", 1}}},
-            {"plate", {{"ground-fade", false}}},
+            {"plate", {{"ground-style", "whole"}}},
+            {"faded", {{"ground-style", "fade"}}},
             {"dark-room", merged({{"gain", 0}}, lamps)},
             {"all", painted},
             {"all-day", merged(painted, day)}};
@@ -56,7 +57,7 @@ json unchanged() {
             {"terms", 0},
             {"samples", 4},
             {"material", ""},
-            {"ground-fade", true},
+            {"ground-style", "shadow"},
             {"coefficients", 512}};
 }
 
@@ -253,7 +254,7 @@ TEST_CASE("cli: sessions are data: keys of a look alone, and options that are gi
         {{{"exposur", 1}}, "did you mean \"exposure\""},
         {{{"environment", "room.exr"}, {"light", json::object()}}, "\"environment\""},
         {{{"threshold", 64}, {"coefficients", 64}}, "\"threshold\""},
-        {{{"ground-fade", "maybe"}}, "\"ground-fade\""},
+        {{{"ground-style", "maybe"}}, "\"ground-style\""},
         {{{"material", "gold"}}, "\"material\""},
         {{{"tone", "sepia"}}, "\"tone\""},
     };

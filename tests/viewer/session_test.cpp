@@ -54,7 +54,7 @@ TEST_CASE("session: materials come back with their weights, whatever their names
         CAPTURE(blend[0].name);
         SceneState state = shownState();
         state.material = blend;
-        const auto written = sessionOf(state, false, folder.path() / "a.relume", "", {40, 30});
+        const auto written = sessionOf(state, GroundStyle::Whole, folder.path() / "a.relume", "", {40, 30});
         CHECK((folder.read(written).material == blend));
     }
 }
@@ -62,7 +62,8 @@ TEST_CASE("session: materials come back with their weights, whatever their names
 TEST_CASE("session: the command of a picture tells the weight of a material whose name has an equals sign") {
     SceneState state = shownState();
     const auto commandOf = [&] {
-        return renderCommand(renderOptions(state, false, Drawn::Picture), "a.relume", 40, 30, Drawn::Picture);
+        return renderCommand(renderOptions(state, GroundStyle::Whole, Drawn::Picture), "a.relume", 40, 30,
+                             Drawn::Picture);
     };
     state.material = {{"oak=0.5"}};
     CHECK_NE(commandOf().find("--material 'oak=0.5=1'"), std::string::npos);

@@ -37,11 +37,11 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_CASE("settings: what is kept is the same the next time") {
     SceneState state = freshState();
-    const json changed = {{"exposure", -1.5},       {"tone", "aces"},       {"panels", false},
-                          {"dark", false},          {"vsync", false},       {"coefficients", 77},
-                          {"model-panel", true},    {"light-panel", false}, {"material-panel", false},
-                          {"view-panel", true},     {"trust-panel", false}, {"background", "none"},
-                          {"background-blur", 2.5}, {"ground-fade", false}, {"samples", 8}};
+    const json changed = {{"exposure", -1.5},       {"tone", "aces"},         {"panels", false},
+                          {"dark", false},          {"vsync", false},         {"coefficients", 77},
+                          {"model-panel", true},    {"light-panel", false},   {"material-panel", false},
+                          {"view-panel", true},     {"trust-panel", false},   {"background", "none"},
+                          {"background-blur", 2.5}, {"ground-style", "fade"}, {"samples", 8}};
     const json before = rememberedSettings(state);
     for (const auto& [name, value] : changed.items()) {
         CAPTURE(name);
@@ -73,8 +73,8 @@ TEST_CASE("settings: each changes what it is called after") {
     CHECK_EQ(state.background, BackgroundKind::None);
     set("background-blur", 3);
     CHECK_EQ(state.backgroundBlur, 3);
-    set("ground-fade", false);
-    CHECK_FALSE(state.fadesGround);
+    set("ground-style", "fade");
+    CHECK(state.ground == GroundStyle::Fade);
     set("rotation", 30);
     CHECK_EQ(state.light.rotation, 30);
     set("gain", 0.5);
