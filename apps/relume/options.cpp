@@ -336,10 +336,11 @@ std::optional<GroundFade> ImageArguments::groundFade(const Asset& asset) const {
     return fade;
 }
 
-float ImageArguments::exposureFor(const Image& view) const {
+float ImageArguments::exposureFor(const Image& view, bool isLogged) const {
     if (!isPng()) return 0;
     if (mExposure != "auto") return std::stof(mExposure);
     const float stops = autoExposure(view);
+    if (!isLogged) return stops;
     spdlog::info("exposure: {} stops, as the object asks for; --exposure={} says the same", stops, stops);
     return stops;
 }

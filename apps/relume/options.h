@@ -97,8 +97,8 @@ struct ImageArguments {
     std::optional<GroundFade> groundFade(const Asset& asset) const;
 
     // Returns the stops given by --exposure or, with "auto", those chosen for the object in `view`, which are
-    // logged; 0 for .exr.
-    float exposureFor(const Image& view) const;
+    // logged unless told otherwise; 0 for .exr.
+    float exposureFor(const Image& view, bool isLogged = true) const;
 
     // Writes linear .exr or tone-mapped .png, by the extension of `path`. Radiance is premultiplied by alpha,
     // which is 1 where a background was drawn.

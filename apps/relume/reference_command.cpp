@@ -2,12 +2,16 @@
 #include "apps/relume/commands.h"
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
 #include "engine/light/background.h"
 #include "engine/transport/asset_check.h"
+#include "precompute/reference/progressive_reference.h"
 #include "precompute/reference/reference_image.h"
 
+#include <bit>
 #include <cmath>
+#include <spdlog/spdlog.h>
 
 namespace relume {
 
@@ -21,7 +25,56 @@ struct Arguments {
     AppearanceArguments appearance;
     std::string brdf = "exact", lightForm = "cube", occluder = "full";
     int rays = 4, environmentWidth = 1024, samples = kDefaultSamples, paths = 256;
-    std::optional<int> bounces; // none: as many as the bake has
+    std::optional<int> bounces;  // none: as many as the bake has
+    std::optional<double> noise; // none: sum over all of the light
+};
+
+// Side, in texels, of the light cube that stands for a full environment where light is sampled.
+constexpr int kSampledFaceSize = 256;
+constexpr int kFewestPasses = 16; // fewer tell too little about their noise
+constexpr int kMostPasses = 1 << 16;
+
+// A picture by sampling: traced in passes until its noise is small.
+class Sampling {
+  public:
+    Sampling(const Arguments& arguments, const Asset& asset, const Camera& camera, const LightCube& light,
+             const ReferenceOptions& options)
+        : mNoise(*arguments.noise), mReference(asset, options.brdf, options.bounces) {
+        mReference.restart(camera, light,
+                           options.appearance.empty() ? defaultAppearance(asset) : options.appearance,
+                           options.width, options.height, options.samples, options.groundFade);
+    }
+
+    // Adds passes until the noise is small enough, or Ctrl-C. Calls `show` after 1, 2, 4, 8, … passes.
+    void run(const std::function<void(const Image&)>& show) {
+        catchInterrupts();
+        Progress progress("tracing", kFewestPasses, "passes");
+        while (mReference.passes() < kMostPasses && mReference.addPass() && caughtInterrupt() == 0) {
+            const int passes = mReference.passes();
+            if (passes >= 2) mReached = relativeNoise();
+            const bool isEnough = passes >= kFewestPasses && mReached <= mNoise;
+            // Noise falls with the square root of the number of passes.
+            const double whole = isEnough ? passes : passes * std::max(std::pow(mReached / mNoise, 2), 1.01);
+            progress.setTotal(uint64_t(std::ceil(std::clamp<double>(whole, kFewestPasses, kMostPasses))));
+            progress.update(uint64_t(passes));
+            if (isEnough) return;
+            if (std::has_single_bit(unsigned(passes))) show(mReference.mean());
+        }
+    }
+
+    Image image() const { return mReference.mean(); }
+    int passes() const { return mReference.passes(); }
+    // Returns the standard error of the image, relative to its root mean square.
+    double reached() const { return mReached; }
+
+  private:
+    double relativeNoise() const {
+        const std::optional<ReferenceError> error = mReference.errorOf(mReference.mean());
+        return error && error->level > 0 ? error->noise / error->level : 0;
+    }
+
+    double mNoise, mReached = 1;
+    ProgressiveReference mReference;
 };
 
 void run(const Arguments& arguments) {
@@ -39,6 +92,8 @@ void run(const Arguments& arguments) {
     options.brdf = arguments.brdf == "factored"   ? ReferenceBrdf::Factored
                    : arguments.brdf == "residual" ? ReferenceBrdf::Residual
                                                   : ReferenceBrdf::Exact;
+    if (arguments.noise && options.brdf == ReferenceBrdf::Residual)
+        throw UsageError("--noise: light is sampled with --brdf exact or factored, found residual");
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
     options.appearance = arguments.appearance.appearance(asset);
     options.bounces = arguments.bounces;
@@ -57,17 +112,37 @@ void run(const Arguments& arguments) {
     files.check();
     const Light light = moving.at(arguments.light.seconds);
 
+    const Background background =
+        showsLight ? makeBackground(light, arguments.image.backgroundBlur()) : Background();
+    const auto write = [&](Image image, float exposure) {
+        if (showsLight) drawBackground(image, background, camera, rotation);
+        arguments.image.write(arguments.image.output, image, exposure);
+    };
+    if (arguments.noise) {
+        const LightCube cube = isFull ? sampleEnvironment(prepareForSampling(arguments.light.environment(),
+                                                                             arguments.environmentWidth),
+                                                          kSampledFaceSize, rotation)
+                                      : sampleLight(turned(light, rotation), asset.faceSize);
+        Sampling sampling(arguments, asset, camera, cube, options);
+        sampling.run([&](const Image& image) { write(image, arguments.image.exposureFor(image, false)); });
+        const Image image = sampling.image();
+        write(image, arguments.image.exposureFor(image));
+        spdlog::info("{} passes, with a noise of {:.2g} % of the image", sampling.passes(),
+                     100 * sampling.reached());
+        if (caughtInterrupt() != 0) {
+            spdlog::warn("stopped; {} has the passes so far", arguments.image.output.string());
+            throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
+        }
+        return;
+    }
     Progress progress("tracing", uint64_t(options.height), "rows");
     const auto report = [&](int rows) { progress.update(uint64_t(rows)); };
-    Image image = isFull
-                      ? renderReference(asset, camera, arguments.light.environment(), rotation,
-                                        arguments.environmentWidth, options, report)
-                      : renderReference(asset, camera, sampleLight(turned(light, rotation), asset.faceSize),
-                                        options, report);
-    const float exposure = arguments.image.exposureFor(image);
-    if (showsLight)
-        drawBackground(image, makeBackground(light, arguments.image.backgroundBlur()), camera, rotation);
-    arguments.image.write(arguments.image.output, image, exposure);
+    const Image image =
+        isFull ? renderReference(asset, camera, arguments.light.environment(), rotation,
+                                 arguments.environmentWidth, options, report)
+               : renderReference(asset, camera, sampleLight(turned(light, rotation), asset.faceSize), options,
+                                 report);
+    write(image, arguments.image.exposureFor(image));
 }
 
 } // namespace
@@ -111,6 +186,17 @@ void addReferenceCommand(CLI::App& program) {
         ->check(CLI::Range(1, 1 << 20))
         ->type_name("COUNT")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--noise", arguments->noise,
+            "Sample light in passes until the noise is at most this share of the image: 0.05 is a preview, "
+            "0.005 clean. The image is written as it improves, and kept on Ctrl-C")
+        ->check(between(1e-4f, 1))
+        ->type_name("SHARE")
+        ->default_str("no sampling: all light is summed")
+        ->excludes(command->get_option("--rays"))
+        ->excludes(command->get_option("--paths"))
+        ->excludes(command->get_option("--occluder"));
     command->add_option("--environment-width", arguments->environmentWidth, "Most columns of the full map")
         ->check(CLI::Range(16, 16384))
         ->capture_default_str();

@@ -28,6 +28,9 @@ class Progress {
     void update(uint64_t done);
     void update(const State& state);
 
+    // Corrects the number of items where it is an estimate.
+    void setTotal(uint64_t total) { mTotal = total; }
+
     // Sets the name of the current stage. On a terminal it is shown at once, or with the bar's next update.
     void setTitle(std::string_view title);
 

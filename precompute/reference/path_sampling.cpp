@@ -103,25 +103,28 @@ void sampleBounces(const PathScene& scene, const SurfacePoint& point, std::span<
             scene.surfaces.intersect(at.position + scene.shadowOffset * at.normal, direction);
         if (!hit || !meetsFront(*scene.meshes[hit->mesh], *hit, direction)) break;
         at = scene.asset.pointAt(*hit, at.position);
-        sum += throughput * sampleReflection(at, scene.light, scene.occluder, scene.shadowOffset, random);
+        sum += throughput *
+               sampleReflection(at, scene.light, scene.occluder, scene.shadowOffset, random).shadowed;
     }
 }
 
-vec3 sampleReflection(const SurfacePoint& point, const LightDistribution& light, const RayTracer& occluder,
-                      float shadowOffset, HashedNumbers& random) {
-    if (light.isBlack()) return vec3(0);
+ReflectedRadiance sampleReflection(const SurfacePoint& point, const LightDistribution& light,
+                                   const RayTracer& occluder, float shadowOffset, HashedNumbers& random) {
+    ReflectedRadiance sum{vec3(0), vec3(0)};
+    if (light.isBlack()) return sum;
     Resampling resampling(point, light);
     resampling.drawCandidates(random);
     const vec3 origin = point.position + shadowOffset * point.normal;
-    vec3 sum(0);
     const Candidate* last = nullptr;
     bool isBlocked = false;
     resampling.choose(random.next(), [&](const Candidate& chosen) {
         if (&chosen != last) isBlocked = occluder.occluded(origin, chosen.direction);
         last = &chosen;
-        if (!isBlocked) sum += chosen.share;
+        sum.unshadowed += chosen.share;
+        if (!isBlocked) sum.shadowed += chosen.share;
     });
-    return sum * (resampling.sum() / kRays);
+    const float scale = resampling.sum() / kRays;
+    return {scale * sum.shadowed, scale * sum.unshadowed};
 }
 
 } // namespace relume

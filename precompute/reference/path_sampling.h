@@ -10,14 +10,19 @@
 
 namespace relume {
 
+// Radiance that a point reflects, and what it would reflect if nothing cast shadows.
+struct ReflectedRadiance {
+    vec3 shadowed, unshadowed;
+};
+
 // Returns an unbiased estimate of ∫ radiance · BRDF · cosine · visibility dω above the horizon of the point's
 // frame, by resampled importance sampling (Talbot, Cline and Egbert, "Importance Resampling for Global
 // Illumination", EGSR 2005). Candidates come from the light, the cosine and lobes about the mirror direction,
 // weighted by their unshadowed contribution over the sum of all densities (Veach's balance heuristic); a few,
 // chosen in proportion to their weights, are traced. Rays are offset by `shadowOffset` along the point's
-// normal.
-vec3 sampleReflection(const SurfacePoint& point, const LightDistribution& light, const RayTracer& occluder,
-                      float shadowOffset, HashedNumbers& random);
+// normal. Both radiances are of the same candidates, so that their ratio has little noise.
+ReflectedRadiance sampleReflection(const SurfacePoint& point, const LightDistribution& light,
+                                   const RayTracer& occluder, float shadowOffset, HashedNumbers& random);
 
 // The scene that paths traverse. Keeps references to all of it.
 struct PathScene {

@@ -1,6 +1,7 @@
 #include "precompute/reference/progressive_reference.h"
 
 #include "engine/base/check.h"
+#include "engine/math/color.h"
 #include "engine/transport/asset_check.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
@@ -26,13 +27,17 @@ ProgressiveReference::ProgressiveReference(const Asset& asset, ReferenceBrdf brd
       mTracer(mMeshes), mShadowOffset(kFullMeshShadowOffset * boundsOf(asset).radius()) {}
 
 void ProgressiveReference::restart(const Camera& camera, const LightCube& light, const Appearance& appearance,
-                                   int width, int height, int samples) {
+                                   int width, int height, int samples,
+                                   const std::optional<GroundFade>& ground) {
     RELUME_CHECK(width > 0 && height > 0);
     expectSamples(samples);
     const size_t pixels = size_t(width) * size_t(height);
     mPasses = 0;
     mBound.reset();
     mLight.emplace(light);
+    mGround = ground;
+    mGroundLight.assign(ground && ground->isShadow ? pixels : 0, vec2(0));
+    mGroundSample = mGroundLight;
     if (width != mWidth || height != mHeight || size_t(samples) != mSamples || !isSame(camera, mCamera)) {
         mCamera = camera, mWidth = width, mHeight = height, mSamples = size_t(samples);
         mRowsSeen.assign(size_t(height), false);
@@ -60,26 +65,45 @@ size_t ProgressiveReference::sampleOf(size_t pixel) const {
     return (size_t(random.next() * float(mSamples)) + size_t(mPasses / 2)) % mSamples;
 }
 
+float ProgressiveReference::groundCoverageAt(const RayHit& hit, vec3 position) const {
+    return mGround && mGround->part == hit.mesh ? groundCoverage(*mGround, position) : 1;
+}
+
 float ProgressiveReference::coverageOf(size_t pixel) const {
-    const auto surfaces = surfacesOf(pixel);
-    const auto covered = std::ranges::count_if(surfaces, [](const auto& hit) { return hit.has_value(); });
-    return float(covered) / float(mSamples);
+    float covered = 0;
+    for (const std::optional<RayHit>& hit : surfacesOf(pixel)) {
+        if (!hit) continue;
+        float share = mGround ? groundCoverageAt(*hit, mBound->pointAt(*hit, mCamera.eye).position) : 1;
+        if (isShadow(*hit)) {
+            const vec2 light = mGroundLight[pixel];
+            share *= light.y > 0 ? 1 - std::clamp(light.x / light.y, 0.0f, 1.0f) : 0;
+        }
+        covered += share;
+    }
+    return covered / float(mSamples);
 }
 
 void ProgressiveReference::sampleRow(int y) {
     const size_t first = size_t(y) * size_t(mWidth);
     for (size_t pixel = first; pixel < first + size_t(mWidth); pixel++) {
         mSample[pixel] = vec3(0);
+        if (!mGroundSample.empty()) mGroundSample[pixel] = vec2(0);
         const std::optional<RayHit>& hit = surfacesOf(pixel)[sampleOf(pixel)];
         if (!hit) continue;
         HashedNumbers random{uint32_t(pixel), uint32_t(mPasses)};
         const SurfacePoint point = mBound->pointAt(*hit, mCamera.eye);
-        mSample[pixel] = point.emitted + sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
-        if (mKind != ReferenceBrdf::Exact) continue;
-        std::array<vec3, kMostBounces> byBounces{};
-        sampleBounces({*mBound, mTracer, mTracer, mMeshes, *mLight, mShadowOffset}, point,
-                      std::span(byBounces).first(size_t(mBounces)), random);
-        for (const vec3 radiance : byBounces) mSample[pixel] += radiance;
+        const ReflectedRadiance reflected = sampleReflection(point, *mLight, mTracer, mShadowOffset, random);
+        vec3 radiance = point.emitted + reflected.shadowed;
+        if (mKind == ReferenceBrdf::Exact) {
+            std::array<vec3, kMostBounces> byBounces{};
+            sampleBounces({*mBound, mTracer, mTracer, mMeshes, *mLight, mShadowOffset}, point,
+                          std::span(byBounces).first(size_t(mBounces)), random);
+            for (const vec3 bounced : byBounces) radiance += bounced;
+        }
+        if (isShadow(*hit))
+            mGroundSample[pixel] = {luminance(radiance), luminance(reflected.unshadowed)};
+        else
+            mSample[pixel] = groundCoverageAt(*hit, point.position) * radiance;
     }
 }
 
@@ -95,6 +119,7 @@ bool ProgressiveReference::addPass(std::stop_token stop) {
     if (isStopped) return false;
     std::vector<glm::dvec3>& half = mHalves[size_t(mPasses % 2)];
     for (size_t pixel = 0; pixel < half.size(); pixel++) half[pixel] += mSample[pixel];
+    for (size_t pixel = 0; pixel < mGroundLight.size(); pixel++) mGroundLight[pixel] += mGroundSample[pixel];
     mPasses++;
     return true;
 }
@@ -127,7 +152,8 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     if (odd == 0) return std::nullopt;
     double errors = 0, squares = 0, differences = 0, variance = 0, count = 0;
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++) {
-        if (coverageOf(pixel) == 0) continue;
+        if (std::ranges::none_of(surfacesOf(pixel), [](const auto& hit) { return hit.has_value(); }))
+            continue;
         const glm::dvec3 a = glm::max(mHalves[0][pixel] / even, 0.0);
         const glm::dvec3 b = glm::max(mHalves[1][pixel] / odd, 0.0);
         const glm::dvec3 found = glm::dvec3(vec3(image.pixels[pixel]));

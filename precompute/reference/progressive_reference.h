@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/image/image.h"
+#include "engine/render/ground_fade.h"
 #include "engine/scene/camera.h"
 #include "precompute/reference/bound_asset.h"
 #include "precompute/reference/light_distribution.h"
@@ -40,10 +41,10 @@ class ProgressiveReference {
                                   std::optional<int> bounces = {});
 
     // Starts a new image with `samples` per pixel, 1, 2, 4 or 8 as in the view pass. Hits are kept if camera
-    // and size are unchanged, BRDFs always. Throws as makeBrdf() does; after that, passes need another
-    // restart.
+    // and size are unchanged, BRDFs always. A ground with a fade has the style that the fade says. Throws as
+    // makeBrdf() does; after that, passes need another restart.
     void restart(const Camera& camera, const LightCube& light, const Appearance& appearance, int width,
-                 int height, int samples);
+                 int height, int samples, const std::optional<GroundFade>& ground = std::nullopt);
 
     // Adds one ray per pixel, through one of its samples, on all cores; the result depends only on the number
     // of the pass. The first pass also finds the hits. Returns false if stopped, which discards the pass.
@@ -52,8 +53,9 @@ class ProgressiveReference {
     // Returns the number of passes since the restart.
     int passes() const { return mPasses; }
 
-    // Returns linear radiance, premultiplied by alpha, the share of a pixel's samples that hit a surface.
-    // Zero before the first pass. Negative means, which factors can have, are clamped at 0.
+    // Returns linear radiance, premultiplied by alpha, the share of a pixel's samples that hit a surface,
+    // less where a ground fades or shows its shadow alone. Zero before the first pass. Negative means, which
+    // factors can have, are clamped at 0.
     Image mean() const;
 
     // Returns the means of the even and the odd passes, whose noise is independent. Needs two passes.
@@ -70,6 +72,11 @@ class ProgressiveReference {
     size_t sampleOf(size_t pixel) const;
     std::span<const std::optional<RayHit>> surfacesOf(size_t pixel) const {
         return std::span(mSurfaces).subspan(pixel * mSamples, mSamples);
+    }
+    // Returns how much of a ground is seen at a hit: 1 without a fade, and for other parts.
+    float groundCoverageAt(const RayHit& hit, vec3 position) const;
+    bool isShadow(const RayHit& hit) const {
+        return mGround && mGround->isShadow && mGround->part == hit.mesh;
     }
     float coverageOf(size_t pixel) const;
     // Makes an image of the radiance of covered pixels, clamped at 0.
@@ -89,11 +96,15 @@ class ProgressiveReference {
     size_t mSamples = 1; // per pixel
     std::optional<BoundAsset> mBound;
     std::optional<LightDistribution> mLight;
+    std::optional<GroundFade> mGround;
     int mPasses = 0;
     std::vector<uint8_t> mRowsSeen;                 // per row: whether its hits are known
     std::vector<std::optional<RayHit>> mSurfaces;   // per pixel and sample: hit
     std::vector<vec3> mSample;                      // per pixel: of the current pass
     std::array<std::vector<glm::dvec3>, 2> mHalves; // per pixel: sums of the even and the odd passes
+    // Per pixel, for a ground's shadow: the ground's luminance and what it would be unshadowed, of the
+    // current pass and summed over passes.
+    std::vector<vec2> mGroundSample, mGroundLight;
 };
 
 } // namespace relume

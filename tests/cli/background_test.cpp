@@ -180,6 +180,14 @@ TEST_CASE("cli: the ground's shadow darkens the background, as the reference's d
     const Image drawn = readImage(bakes().path() / "shadow.exr").image,
                 exact = readImage(bakes().path() / "exact.exr").image,
                 whole = readImage(bakes().path() / "whole.exr").image;
+    words("reference", "-o sampled.exr --noise 0.02 " + shadow, "fine.relume");
+    const Image sampled = readImage(bakes().path() / "sampled.exr").image;
+    double noise = 0;
+    for (size_t i = 0; i < exact.pixels.size(); i++) {
+        const vec4 difference = sampled.pixels[i] - exact.pixels[i];
+        noise += double(difference.w * difference.w);
+    }
+    CHECK_LT(std::sqrt(noise / double(exact.pixels.size())), 0.01);
     double squares = 0;
     int dark = 0, light = 0, object = 0, ground = 0;
     for (size_t i = 0; i < drawn.pixels.size(); i++) {

@@ -124,6 +124,36 @@ TEST_CASE("progressive reference: pixels of several samples converge to those of
     CHECK(reference.errorOf(truth)->rmse > 3 * error.noise);
 }
 
+TEST_CASE("progressive reference: a ground fades or shows its shadow as in the exact one") {
+    Asset asset = makeScene(kDiffuse);
+    asset.parts[1].name = "ground";
+    const LightCube light = makeSunnySky();
+    for (const GroundStyle style : {GroundStyle::Fade, GroundStyle::Shadow}) {
+        CAPTURE(kGroundStyleNames[size_t(style)]);
+        const auto ground = makeGroundFade(asset, style);
+        REQUIRE(ground);
+        const Image truth = renderReference(
+            asset, kCamera, light,
+            {.width = kWidth, .height = kHeight, .raysPerTexelSide = 6, .groundFade = ground});
+        CHECK(std::ranges::count_if(truth.pixels,
+                                    [](vec4 pixel) { return pixel.w > 0.1f && pixel.w < 0.9f; }) > 50);
+        ProgressiveReference reference(asset);
+        reference.restart(kCamera, light, defaultAppearance(asset), kWidth, kHeight, kDefaultSamples, ground);
+        addPasses(reference, 256);
+        const Image mean = reference.mean();
+        double alphas = 0, radiances = 0, level = 0;
+        for (size_t i = 0; i < truth.pixels.size(); i++) {
+            const vec4 found = mean.pixels[i], expected = truth.pixels[i];
+            alphas += double((found.w - expected.w) * (found.w - expected.w));
+            const vec3 difference(found - expected);
+            radiances += double(glm::dot(difference, difference));
+            level += double(glm::dot(vec3(expected), vec3(expected)));
+        }
+        CHECK(std::sqrt(alphas / double(truth.pixels.size())) < 0.015);
+        CHECK(std::sqrt(radiances / level) < 0.05);
+    }
+}
+
 TEST_CASE("progressive reference: an image's error is told without the reference's own noise") {
     const Asset asset = makeScene(kDiffuse);
     const LightCube light = makeSunnySky();
