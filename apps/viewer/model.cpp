@@ -15,7 +15,8 @@ Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset 
 
 Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset whole, bool isUnshadowed)
     : file(path), isSketch(isUnshadowed), asset(std::move(whole)), bounds(objectBounds(asset)),
-      appearance(defaultAppearance(asset)), light(device, asset.faceSize), relighter(device, asset, {}),
+      groundFade(makeGroundFade(asset, GroundStyle::Shadow)), appearance(defaultAppearance(asset)),
+      light(device, asset.faceSize), relighter(device, asset, {}),
       view(device, asset, {.isUnshadowed = isUnshadowed}), surfaces(partMeshes(asset)),
       occluder(asset.occluder, asset.visibilitySize) {}
 

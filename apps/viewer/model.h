@@ -20,7 +20,8 @@ struct Model {
     std::filesystem::path file;
     bool isSketch;
     Asset asset;
-    Bounds bounds; // of the object
+    Bounds bounds;                        // of the object
+    std::optional<GroundFade> groundFade; // of GroundStyle::Shadow
     Appearance appearance;
     LightPass light;
     Relighter relighter;

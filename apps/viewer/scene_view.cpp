@@ -139,7 +139,10 @@ void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec
     mModel->view.setTerms(now.terms);
     mModel->view.setResidual(now.addsResidual || mModel->isSketch);
     mModel->view.setInspect(now.inspect);
-    mModel->view.setGroundFade(makeGroundFade(mModel->asset, now.ground));
+    std::optional<GroundFade> ground;
+    if (now.ground != GroundStyle::Whole) ground = mModel->groundFade;
+    if (ground) ground->isShadow = now.ground == GroundStyle::Shadow;
+    mModel->view.setGroundFade(ground);
     mModel->view.record(commands, now.camera, mModel->relighter);
     mSeen = now;
     mViewVersion++;
@@ -171,7 +174,7 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
 
 GroundStyle SceneView::groundStyle(const SceneState& state) const {
     // The reference shows all of the ground.
-    const bool isStyled = mModel && groundOf(mModel->asset) && state.background != BackgroundKind::None &&
+    const bool isStyled = mModel && mModel->groundFade && state.background != BackgroundKind::None &&
                           state.inspect == Inspect::Off && !compares(state);
     return isStyled ? state.ground : GroundStyle::Whole;
 }

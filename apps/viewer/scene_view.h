@@ -57,7 +57,7 @@ class SceneView {
     const std::optional<LightStats>& lightStats() const { return mLightStats; }
     // Returns whether a reference is wanted: comparison is on, and radiance is shown.
     static bool compares(const SceneState& state);
-    // Returns whether the ground of the model shown fades out before its edge.
+    // Returns how the ground of the model shown is drawn.
     GroundStyle groundStyle(const SceneState& state) const;
     // Returns the result for the reference of the view; without passes if there is none.
     const Comparison::Result& compared() const { return mCompared; }
