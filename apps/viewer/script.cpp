@@ -39,7 +39,7 @@ std::pair<std::string, int> splitModifiers(std::string text) {
     return {text, modifiers};
 }
 
-// Returns the key of a name: a letter, a digit, a sign, F1 to F12, Enter, Space or Tab.
+// Returns the key of a name: a letter, a digit, a sign, F1 to F12, Enter, Escape, Space or Tab.
 int keyOf(const std::string& name) {
     if (name.size() == 1 && name[0] >= 'A' && name[0] <= 'Z') return GLFW_KEY_A + (name[0] - 'A');
     if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
@@ -48,10 +48,12 @@ int keyOf(const std::string& name) {
     if (name == "-") return GLFW_KEY_MINUS;
     if (name == "=") return GLFW_KEY_EQUAL;
     if (name == "Enter") return GLFW_KEY_ENTER;
+    if (name == "Escape") return GLFW_KEY_ESCAPE;
     if (name == "Space") return GLFW_KEY_SPACE;
     if (name == "Tab") return GLFW_KEY_TAB;
     throw Error(fmt::format(
-        "expected a key, found \"{}\"; A to Z, 0 to 9, -, =, F1 to F12, Enter, Space and Tab are", name));
+        "expected a key, found \"{}\"; A to Z, 0 to 9, -, =, F1 to F12, Enter, Escape, Space and Tab are",
+        name));
 }
 
 vec2 pairOf(const json& step, const char* name) {
