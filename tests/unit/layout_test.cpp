@@ -253,20 +253,52 @@ TEST_CASE("layout: errors of a diffuse set matter more") {
     CHECK(diffuse.error < cutFor(analysis, lambda).error);
 }
 
-// The edge of a sharp shadow passes every vertex in coefficients that no other vertex has.
-TEST_CASE("layout: a diffuse set keeps sharp shadows where colored light bounces") {
-    constexpr int kFine = 16;
-    constexpr uint32_t kVertices = 256, kEach = 5;
+// Rows of `each` coefficients that no other row has, as where the edge of a sharp shadow passes every vertex.
+SparseTransport disjointRows(uint32_t vertices, uint32_t terms, uint32_t each, float value) {
     SparseTransport rows;
-    rows.vertices = kVertices, rows.terms = 1;
+    rows.vertices = vertices, rows.terms = terms;
     rows.rowStarts.push_back(0);
-    for (uint32_t i = 0; i < kVertices * kEach; i++) {
+    for (uint32_t i = 0; i < vertices * terms * each; i++) {
         rows.indices.push_back(uint16_t(i + 1));
-        rows.values.push_back(packCoefficient(quantizeCoefficient(vec3(1, 0.9f, 0.8f), 1)));
-        if (i % kEach != kEach - 1) continue;
+        rows.values.push_back(packCoefficient(quantizeCoefficient(value * vec3(1, 0.9f, 0.8f), 1)));
+        if (i % each != each - 1) continue;
         rows.rowStarts.push_back(rows.values.size());
         rows.scales.push_back(1);
     }
+    return rows;
+}
+
+TEST_CASE("layout: a cluster has more columns where much would be left out") {
+    constexpr uint32_t kVertices = 256, kTerms = 4;
+    const std::vector<BasisKind> kinds = basisKinds(factors(kTerms, true));
+    const std::vector<float> spectrum(6 * 16 * 16, 1.0f);
+    const auto columnsOf = [&](float value) {
+        const SparseTransport rows = disjointRows(kVertices, kTerms, 1, value); // 1024 columns
+        return clusterMatrix(rows, 0, kVertices, kinds, spectrum, 1).columns.size();
+    };
+    CHECK(columnsOf(1e-3f) == kAnalyzedSide);
+    CHECK(columnsOf(1) == kMostAnalyzedColumns);
+}
+
+TEST_CASE("layout: where an error cannot be met, the last bytes are not spent on next to nothing") {
+    const SparseTransport rows = smoothRows(256, 2, 8);
+    const BasisAnalysis whole =
+        analyze(clusterMatrix(rows, 0, 256, basisKinds(factors(2, true)), lightSpectrum(kFace), 1));
+    BasisAnalysis lacking = whole;
+    lacking.energy.array() += 0.1 * whole.energy.sum(); // of columns that were left out
+    const std::span<const BasisAnalysis> clusters(&lacking, 1);
+    const CutTotals least = totalsAt(clusters, 0);
+    const double wanted = 0.5 * least.error;
+    const CutTotals found = totalsAt(clusters, lambdaForError(clusters, wanted));
+    CHECK(found.error > least.error);
+    CHECK(found.error <= least.error + 0.1 * wanted);
+    CHECK(found.bytes < 0.8 * least.bytes);
+}
+
+TEST_CASE("layout: a diffuse set keeps sharp shadows where colored light bounces") {
+    constexpr int kFine = 16;
+    constexpr uint32_t kVertices = 256;
+    const SparseTransport rows = disjointRows(kVertices, 1, 5, 1);
     const std::vector<BasisKind> kinds = basisKinds(factors(1, true), true);
     REQUIRE(kinds.size() == kFewKinds);
     const BasisAnalysis analysis = analyze(clusterMatrix(rows, 0, kVertices, kinds, lightSpectrum(kFine), 1));

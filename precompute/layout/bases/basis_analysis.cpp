@@ -205,7 +205,8 @@ double lambdaForBytes(std::span<const BasisAnalysis> clusters, double bytes) {
 }
 
 double lambdaForError(std::span<const BasisAnalysis> clusters, double error) {
-    return lambdasAround([&](double lambda) { return totalsAt(clusters, lambda).error > error; }).low;
+    const double least = totalsAt(clusters, 0).error, allowed = least > error ? least + 0.1 * error : error;
+    return lambdasAround([&](double lambda) { return totalsAt(clusters, lambda).error > allowed; }).low;
 }
 
 } // namespace relume

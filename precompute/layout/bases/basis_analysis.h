@@ -51,8 +51,9 @@ CutTotals totalsAt(std::span<const BasisAnalysis> clusters, double lambda);
 // Returns the lambda at which all cuts take `bytes`, or as many below as possible.
 double lambdaForBytes(std::span<const BasisAnalysis> clusters, double bytes);
 
-// Returns the highest lambda at which the squared error is at most `error`, or a lambda of least error if
-// there is none.
+// Returns the highest lambda at which the squared error is at most `error`. If there is none, the last bytes
+// buy next to nothing: returns the highest lambda at which it exceeds the least error by at most a tenth of
+// `error`.
 double lambdaForError(std::span<const BasisAnalysis> clusters, double error);
 
 } // namespace relume

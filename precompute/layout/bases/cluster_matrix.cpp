@@ -91,12 +91,18 @@ ClusterMatrix clusterMatrix(const SparseTransport& rows, uint32_t first, uint32_
     for (size_t column = 0; column < energy.size(); column++)
         if (energy[column] > 0) matrix.columns.push_back(uint16_t(column));
     const bool isNarrow = kinds.size() <= kFewKinds || kinds.size() * count <= kAnalyzedSide;
-    const size_t most = isNarrow ? kMostBasisColumns : kAnalyzedSide;
-    if (matrix.columns.size() > most) {
-        std::nth_element(
-            matrix.columns.begin(), matrix.columns.begin() + ptrdiff_t(most), matrix.columns.end(),
-            [&](uint16_t a, uint16_t b) { return energy[a] != energy[b] ? energy[a] > energy[b] : a < b; });
-        matrix.columns.resize(most);
+    const size_t least = isNarrow ? kMostBasisColumns : kAnalyzedSide,
+                 most = isNarrow ? kMostBasisColumns : kMostAnalyzedColumns;
+    if (matrix.columns.size() > least) {
+        std::ranges::sort(matrix.columns, [&](uint16_t a, uint16_t b) {
+            return energy[a] != energy[b] ? energy[a] > energy[b] : a < b;
+        });
+        double leftOut = 0;
+        for (size_t i = least; i < matrix.columns.size(); i++) leftOut += energy[matrix.columns[i]];
+        size_t kept = least;
+        while (kept < std::min(most, matrix.columns.size()) && leftOut > kMostLeftOut * count)
+            leftOut -= energy[matrix.columns[kept++]];
+        matrix.columns.resize(kept);
         std::ranges::sort(matrix.columns);
     }
 
