@@ -319,6 +319,11 @@ float groundCoverage(uint triangle, vec3 direction) {
     return share * share;
 }
 
+// Returns the alpha of a ground's shadow. C++ twin: shadowAlpha() in engine/render/ground_fade.h.
+float shadowAlpha(vec3 radiance, vec3 unshadowed) {
+    return max(1 - litShare(radiance, unshadowed) - kLeastShadow, 0) / (1 - kLeastShadow);
+}
+
 // Returns the radiance where the ray through a point of the image meets the triangle, premultiplied by coverage.
 vec4 shadeAt(uint triangle, vec2 place) {
     const vec3 direction = push.rays.corner + place.x * push.rays.right + place.y * push.rays.down;
@@ -326,7 +331,7 @@ vec4 shadeAt(uint triangle, vec2 place) {
     if (!(coverage > 0)) return vec4(0);
     vec3 unshadowed;
     const vec3 seen = shade(triangle, direction, unshadowed);
-    return coverage * (kShowsShadow ? vec4(vec3(0), 1 - litShare(seen, unshadowed)) : vec4(seen, 1));
+    return coverage * (kShowsShadow ? vec4(vec3(0), shadowAlpha(seen, unshadowed)) : vec4(seen, 1));
 }
 
 bool isOfPart(uint triangleId) { return triangleId - push.firstTriangleId < push.triangleCount; }

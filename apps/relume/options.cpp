@@ -332,7 +332,10 @@ std::optional<GroundFade> ImageArguments::groundFade(const Asset& asset) const {
     const GroundStyle style = mGround.value_or(hasBackground ? GroundStyle::Shadow : GroundStyle::Whole);
     const std::optional<GroundFade> fade = makeGroundFade(asset, style);
     if (!fade && mGround && style != GroundStyle::Whole)
-        throw UsageError("--ground-style: expected a part called \"ground\", found none; bake with --ground");
+        throw UsageError(groundOf(asset)
+                             ? "--ground-style: the ground is not under the object; use whole"
+                             : "--ground-style: expected a part called \"ground\", found none; bake "
+                               "with --ground");
     return fade;
 }
 

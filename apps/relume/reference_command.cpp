@@ -11,6 +11,7 @@
 
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {
@@ -31,10 +32,10 @@ struct Arguments {
 
 // Side, in texels, of the light cube that stands for a full environment where light is sampled.
 constexpr int kSampledFaceSize = 256;
-constexpr int kFewestPasses = 16; // fewer tell too little about their noise
+constexpr int kFewestPasses = 16; // too few give no reliable estimate of the noise
 constexpr int kMostPasses = 1 << 16;
 
-// A picture by sampling: traced in passes until its noise is small.
+// Renders by sampling, in passes, until the noise is small.
 class Sampling {
   public:
     Sampling(const Arguments& arguments, const Asset& asset, const Camera& camera, const LightCube& light,
@@ -49,31 +50,52 @@ class Sampling {
     void run(const std::function<void(const Image&)>& show) {
         catchInterrupts();
         Progress progress("tracing", kFewestPasses, "passes");
-        while (mReference.passes() < kMostPasses && mReference.addPass() && caughtInterrupt() == 0) {
+        int nextEstimate = kFewestPasses; // rarely, so that no lucky moment ends it
+        while (caughtInterrupt() == 0 && mReference.passes() < kMostPasses) {
+            mReference.addPass();
             const int passes = mReference.passes();
-            if (passes >= 2) mReached = relativeNoise();
-            const bool isEnough = passes >= kFewestPasses && mReached <= mNoise;
-            // Noise falls with the square root of the number of passes.
-            const double whole = isEnough ? passes : passes * std::max(std::pow(mReached / mNoise, 2), 1.01);
-            progress.setTotal(uint64_t(std::ceil(std::clamp<double>(whole, kFewestPasses, kMostPasses))));
+            if (passes == nextEstimate || passes == kMostPasses) {
+                mReached = relativeNoise();
+                nextEstimate = passes + passes / 4;
+                // Noise falls with the square root of the number of passes.
+                const double expected = passes * std::pow(*mReached / mNoise, 2);
+                progress.setTotal(isDone()
+                                      ? uint64_t(passes)
+                                      : uint64_t(std::clamp<double>(expected, nextEstimate, kMostPasses)));
+            }
             progress.update(uint64_t(passes));
-            if (isEnough) return;
+            if (isDone()) return;
             if (std::has_single_bit(unsigned(passes))) show(mReference.mean());
         }
     }
 
-    Image image() const { return mReference.mean(); }
-    int passes() const { return mReference.passes(); }
-    // Returns the standard error of the image, relative to its root mean square.
-    double reached() const { return mReached; }
-
-  private:
-    double relativeNoise() const {
-        const std::optional<ReferenceError> error = mReference.errorOf(mReference.mean());
-        return error && error->level > 0 ? error->noise / error->level : 0;
+    // Logs how many passes the image has, and its noise.
+    void report() const {
+        const std::string noise =
+            mReached ? fmt::format("a noise of {:.2g} %", 100 * *mReached) : std::string("unknown noise");
+        const std::string words = fmt::format("{} passes, with {}", mReference.passes(), noise);
+        if (mReference.passes() == kMostPasses && !isDone())
+            spdlog::warn("{}: these are the most; --noise asks for {:.2g} %", words, 100 * mNoise);
+        else
+            spdlog::info("{}", words);
     }
 
-    double mNoise, mReached = 1;
+    Image image() const { return mReference.mean(); }
+
+  private:
+    bool isDone() const { return mReached && *mReached <= mNoise; }
+
+    // Returns the standard error of the image, relative to its root mean square; or that of alpha, if it is
+    // larger.
+    double relativeNoise() const {
+        const std::optional<ReferenceError> error = mReference.errorOf(mReference.mean());
+        if (!error) return 0; // nothing is seen
+        const double unlit = error->noise > 0 ? 1 : 0;
+        return std::max(error->level > 0 ? error->noise / error->level : unlit, error->alphaNoise);
+    }
+
+    double mNoise;
+    std::optional<double> mReached; // by the last estimate
     ProgressiveReference mReference;
 };
 
@@ -94,6 +116,8 @@ void run(const Arguments& arguments) {
                                                   : ReferenceBrdf::Exact;
     if (arguments.noise && options.brdf == ReferenceBrdf::Residual)
         throw UsageError("--noise: light is sampled with --brdf exact or factored, found residual");
+    if (arguments.noise && options.brdf != ReferenceBrdf::Exact && arguments.bounces.value_or(0) > 0)
+        throw UsageError("--bounces: bounced light is traced with the exact BRDF alone; use --bounces 0");
     options.raysPerTexelSide = int(std::lround(std::sqrt(arguments.rays)));
     options.appearance = arguments.appearance.appearance(asset);
     options.bounces = arguments.bounces;
@@ -127,8 +151,7 @@ void run(const Arguments& arguments) {
         sampling.run([&](const Image& image) { write(image, arguments.image.exposureFor(image, false)); });
         const Image image = sampling.image();
         write(image, arguments.image.exposureFor(image));
-        spdlog::info("{} passes, with a noise of {:.2g} % of the image", sampling.passes(),
-                     100 * sampling.reached());
+        sampling.report();
         if (caughtInterrupt() != 0) {
             spdlog::warn("stopped; {} has the passes so far", arguments.image.output.string());
             throw CLI::RuntimeError(kExitStopped + caughtInterrupt());

@@ -12,9 +12,9 @@ namespace relume {
 enum class GroundStyle {
     Whole,  // like any part
     Fade,   // ends around the object, by GroundFade
-    Shadow, // fades likewise, and is black with an alpha of 1 - the lit share of its own radiance
-            // (litShare()), so that it darkens a background as a shadow does (Debevec: Rendering Synthetic
-            // Objects into Real Scenes, 1998, with luminance in place of color)
+    Shadow, // fades likewise, and is black with alpha by shadowAlpha(), so that it darkens a background as a
+            // shadow does (Debevec: Rendering Synthetic Objects into Real Scenes, 1998, but with luminance
+            // for color); not seen from below
 };
 
 // Names of the styles, in their order, in files and on the command line.
@@ -27,7 +27,16 @@ struct GroundFade {
     vec2 center; // x, z
     float inner, outer;
     bool isShadow; // GroundStyle::Shadow
+    float height;  // of the ground
+
+    // Returns whether the ground, shown as its shadow alone, is hidden because the eye is below it.
+    bool isHiddenFrom(vec3 eye) const { return isShadow && eye.y < height; }
 };
+
+// Returns the alpha of a ground's shadow from the radiance that the ground reflects and what it would reflect
+// if nothing cast shadows: 1 - their ratio, by luminance, less what errors of transport alone can darken.
+// GLSL twin: shadowAlpha() in shaders/view_shade.frag.
+float shadowAlpha(vec3 radiance, vec3 unshadowed);
 
 // Returns the part called "ground", or none.
 std::optional<size_t> groundOf(const Asset& asset);

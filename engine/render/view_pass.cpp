@@ -338,6 +338,7 @@ ViewPass::Frame ViewPass::frameOf(const Camera& camera) const {
 
 void ViewPass::drawTriangleIds(vk::Commands& commands, const Frame& frame, const Part& part) const {
     if (part.triangleCount == 0) return;
+    if (mGroundFade && mGroundFade->isHiddenFrom(frame.eye) && &part == &mParts[mGroundFade->part]) return;
     const bool showsNoBack = part.isClosed && screenBox(part.bounds, frame.clipFromWorld).isBeyondNear;
     const SamplePrograms& programs = mPrograms.at(mSamples);
     commands.bind(showsNoBack ? programs.closedTriangleIds : programs.triangleIds, {},

@@ -53,7 +53,11 @@ class ViewPass {
     void setResidual(bool isAdded) { mAddsResidual = isAdded; }
     // Fades the ground, or draws its shadow alone, from the next record() on; without a fade all of it is
     // drawn. Radiance is premultiplied by the coverage, which is alpha.
-    void setGroundFade(const std::optional<GroundFade>& fade) { mGroundFade = fade; }
+    void setGroundFade(const std::optional<GroundFade>& fade) {
+        if (bool(fade) != bool(mGroundFade) || (fade && fade->isShadow != mGroundFade->isShadow))
+            mDrawn.reset();
+        mGroundFade = fade;
+    }
     // Sets what images show from the next record() on.
     void setInspect(Inspect inspect) { mInspect = inspect; }
 

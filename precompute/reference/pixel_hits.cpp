@@ -21,4 +21,12 @@ void findPixelHits(const RayTracer& surfaces, const Camera& camera, ivec2 pixel,
     }
 }
 
+std::unique_ptr<RayTracer> tracerWithout(const std::optional<GroundFade>& ground, vec3 eye,
+                                         std::vector<const Mesh*> meshes) {
+    if (!ground || !ground->isHiddenFrom(eye)) return nullptr;
+    static const Mesh kNothing;
+    meshes[ground->part] = &kNothing;
+    return std::make_unique<RayTracer>(meshes);
+}
+
 } // namespace relume

@@ -36,9 +36,12 @@ void ProgressiveReference::restart(const Camera& camera, const LightCube& light,
     mBound.reset();
     mLight.emplace(light);
     mGround = ground;
-    mGroundLight.assign(ground && ground->isShadow ? pixels : 0, vec2(0));
-    mGroundSample = mGroundLight;
-    if (width != mWidth || height != mHeight || size_t(samples) != mSamples || !isSame(camera, mCamera)) {
+    mGroundSample.assign(ground && ground->isShadow ? pixels : 0, vec2(0));
+    mGroundLight = {mGroundSample, mGroundSample};
+    const bool wasHidden = mWithoutGround != nullptr;
+    mWithoutGround = tracerWithout(ground, camera.eye, mMeshes);
+    if (width != mWidth || height != mHeight || size_t(samples) != mSamples || !isSame(camera, mCamera) ||
+        mWithoutGround || wasHidden) {
         mCamera = camera, mWidth = width, mHeight = height, mSamples = size_t(samples);
         mRowsSeen.assign(size_t(height), false);
         mSurfaces.assign(pixels * mSamples, std::nullopt);
@@ -52,7 +55,7 @@ void ProgressiveReference::findSurfaces(int y) {
     if (mRowsSeen[size_t(y)]) return;
     for (int x = 0; x < mWidth; x++)
         findPixelHits(
-            mTracer, mCamera, {x, y}, {mWidth, mHeight},
+            mWithoutGround ? *mWithoutGround : mTracer, mCamera, {x, y}, {mWidth, mHeight},
             std::span(mSurfaces).subspan((size_t(y) * size_t(mWidth) + size_t(x)) * mSamples, mSamples));
     mRowsSeen[size_t(y)] = true;
 }
@@ -69,15 +72,12 @@ float ProgressiveReference::groundCoverageAt(const RayHit& hit, vec3 position) c
     return mGround && mGround->part == hit.mesh ? groundCoverage(*mGround, position) : 1;
 }
 
-float ProgressiveReference::coverageOf(size_t pixel) const {
+float ProgressiveReference::coverageOf(size_t pixel, vec2 groundLight) const {
     float covered = 0;
     for (const std::optional<RayHit>& hit : surfacesOf(pixel)) {
         if (!hit) continue;
         float share = mGround ? groundCoverageAt(*hit, mBound->pointAt(*hit, mCamera.eye).position) : 1;
-        if (isShadow(*hit)) {
-            const vec2 light = mGroundLight[pixel];
-            share *= light.y > 0 ? 1 - std::clamp(light.x / light.y, 0.0f, 1.0f) : 0;
-        }
+        if (isShadow(*hit)) share *= shadowAlpha(vec3(groundLight.x), vec3(groundLight.y));
         covered += share;
     }
     return covered / float(mSamples);
@@ -119,30 +119,35 @@ bool ProgressiveReference::addPass(std::stop_token stop) {
     if (isStopped) return false;
     std::vector<glm::dvec3>& half = mHalves[size_t(mPasses % 2)];
     for (size_t pixel = 0; pixel < half.size(); pixel++) half[pixel] += mSample[pixel];
-    for (size_t pixel = 0; pixel < mGroundLight.size(); pixel++) mGroundLight[pixel] += mGroundSample[pixel];
+    std::vector<vec2>& light = mGroundLight[size_t(mPasses % 2)];
+    for (size_t pixel = 0; pixel < light.size(); pixel++) light[pixel] += mGroundSample[pixel];
     mPasses++;
     return true;
 }
 
 template <typename Value>
-Image ProgressiveReference::imageOf(const Value& valueOf) const {
+Image ProgressiveReference::imageOf(const Value& valueOf, const std::vector<vec2>& groundLight) const {
     Image image(mWidth, mHeight);
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++)
-        if (const float coverage = coverageOf(pixel); coverage > 0)
+        if (const float coverage = coverageOf(pixel, groundLight.empty() ? vec2(0) : groundLight[pixel]);
+            coverage > 0)
             image.pixels[pixel] = vec4(glm::max(vec3(valueOf(pixel)), vec3(0)), coverage);
     return image;
 }
 
 Image ProgressiveReference::mean() const {
     if (mPasses == 0) return Image(mWidth, mHeight);
-    return imageOf([&](size_t pixel) { return (mHalves[0][pixel] + mHalves[1][pixel]) / double(mPasses); });
+    std::vector<vec2> light = mGroundLight[0];
+    for (size_t pixel = 0; pixel < light.size(); pixel++) light[pixel] += mGroundLight[1][pixel];
+    return imageOf([&](size_t pixel) { return (mHalves[0][pixel] + mHalves[1][pixel]) / double(mPasses); },
+                   light);
 }
 
 std::array<Image, 2> ProgressiveReference::halves() const {
     RELUME_CHECK(mPasses >= 2);
     const double even = (mPasses + 1) / 2, odd = mPasses / 2;
-    return {imageOf([&](size_t pixel) { return mHalves[0][pixel] / even; }),
-            imageOf([&](size_t pixel) { return mHalves[1][pixel] / odd; })};
+    return {imageOf([&](size_t pixel) { return mHalves[0][pixel] / even; }, mGroundLight[0]),
+            imageOf([&](size_t pixel) { return mHalves[1][pixel] / odd; }, mGroundLight[1])};
 }
 
 std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) const {
@@ -150,7 +155,7 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     RELUME_CHECK_EQ(image.height, mHeight);
     const double even = (mPasses + 1) / 2, odd = mPasses / 2;
     if (odd == 0) return std::nullopt;
-    double errors = 0, squares = 0, differences = 0, variance = 0, count = 0;
+    double errors = 0, squares = 0, differences = 0, variance = 0, alphas = 0, count = 0;
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++) {
         if (std::ranges::none_of(surfacesOf(pixel), [](const auto& hit) { return hit.has_value(); }))
             continue;
@@ -163,6 +168,10 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
         const double swing = 0.5 * (glm::dot(a - found, a - found) - glm::dot(b - found, b - found));
         variance += swing * swing;
         count += 3;
+        if (mGroundSample.empty()) continue;
+        const double alpha =
+            coverageOf(pixel, mGroundLight[0][pixel]) - coverageOf(pixel, mGroundLight[1][pixel]);
+        alphas += 3 * alpha * alpha;
     }
     if (count == 0) return std::nullopt;
     const auto root = [&](double sum) { return std::sqrt(std::max(sum / count, 0.0)); };
@@ -170,6 +179,7 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     return ReferenceError{.rmse = root(errors),
                           .level = root(squares),
                           .noise = root(differences * even * odd) / double(mPasses),
+                          .alphaNoise = root(alphas * even * odd) / double(mPasses),
                           .square = errors / count,
                           .squareNoise = std::sqrt(variance) / count};
 }

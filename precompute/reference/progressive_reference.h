@@ -24,6 +24,8 @@ struct ReferenceError {
     // Standard error of mean() against the truth, from the difference of A and B: √ mean((A - B)²) / 2 after
     // as many even as odd passes.
     double noise = 0;
+    // Standard error of the alpha of mean(): that of a ground's shadow.
+    double alphaNoise = 0;
     // rmse² before it is clamped at 0, and its standard error due to the reference's noise: pixels are
     // independent, and (|A - image|² - |B - image|²) / 2 of a pixel has the variance of its product if noise
     // is normally distributed.
@@ -78,10 +80,11 @@ class ProgressiveReference {
     bool isShadow(const RayHit& hit) const {
         return mGround && mGround->isShadow && mGround->part == hit.mesh;
     }
-    float coverageOf(size_t pixel) const;
+    // `groundLight`: of mGroundLight, for a ground's shadow.
+    float coverageOf(size_t pixel, vec2 groundLight) const;
     // Makes an image of the radiance of covered pixels, clamped at 0.
     template <typename Value>
-    Image imageOf(const Value& valueOf) const;
+    Image imageOf(const Value& valueOf, const std::vector<vec2>& groundLight) const;
 
     const Asset& mAsset;
     ReferenceBrdf mKind;
@@ -103,8 +106,11 @@ class ProgressiveReference {
     std::vector<vec3> mSample;                      // per pixel: of the current pass
     std::array<std::vector<glm::dvec3>, 2> mHalves; // per pixel: sums of the even and the odd passes
     // Per pixel, for a ground's shadow: the ground's luminance and what it would be unshadowed, of the
-    // current pass and summed over passes.
-    std::vector<vec2> mGroundSample, mGroundLight;
+    // current pass, and sums over the even and the odd passes.
+    std::vector<vec2> mGroundSample;
+    std::array<std::vector<vec2>, 2> mGroundLight;
+    std::unique_ptr<RayTracer>
+        mWithoutGround; // of the other parts, if the ground is hidden from the eye; else null
 };
 
 } // namespace relume

@@ -41,6 +41,7 @@ struct Renderer {
     std::optional<BoundAsset> terms;       // for ReferenceBrdf::Residual: the asset with its K terms as BRDFs
     std::vector<bool> hasNonnegativeTerms; // per part, of its bound set
     RayTracer surfaces;                    // one mesh per part
+    std::unique_ptr<RayTracer> withoutGround; // the same, if the ground is hidden from the eye; else null
     RayTracer occluder;
     float shadowOffset;
     int bounces;
@@ -94,7 +95,8 @@ float Renderer::coverageAt(const RayHit& hit) const {
 vec4 Renderer::pixelAt(int x, int y) const {
     std::array<std::optional<RayHit>, kMostSamples> samples;
     const std::span hits(samples.data(), size_t(options.samples));
-    findPixelHits(surfaces, camera, {x, y}, {options.width, options.height}, hits);
+    findPixelHits(withoutGround ? *withoutGround : surfaces, camera, {x, y}, {options.width, options.height},
+                  hits);
     vec4 sum(0);
     for (auto hit = hits.begin(); hit != hits.end(); ++hit) {
         const auto isSame = [&](const auto& other) { return isSameTriangle(*hit, other); };
@@ -107,7 +109,7 @@ vec4 Renderer::pixelAt(int x, int y) const {
         radiance = glm::max(radiance, vec3(0)); // a factored BRDF can be negative
         radiance += asset.pointAt(**hit, camera.eye).emitted;
         if (options.groundFade && options.groundFade->isShadow && options.groundFade->part == (*hit)->mesh)
-            sum.w += share * (1 - litShare(radiance, unshadowedRadiance(**hit)));
+            sum.w += share * shadowAlpha(radiance, unshadowedRadiance(**hit));
         else
             sum += share * vec4(radiance, 1);
     }
@@ -215,6 +217,7 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
         std::move(terms),
         std::move(hasNonnegativeTerms),
         RayTracer(meshes),
+        tracerWithout(options.groundFade, camera.eye, meshes),
         RayTracer(occluders),
         offset,
         bouncesOf(options, asset),

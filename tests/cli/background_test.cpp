@@ -206,6 +206,18 @@ TEST_CASE("cli: the ground's shadow darkens the background, as the reference's d
     CHECK_GT(dark, 20);
     CHECK_GT(light, 200);
     CHECK_LT(std::sqrt(squares / ground), 0.02);
+    // From below the ground hides nothing.
+    const std::string below = "--samples 1 --background none --orbit 30,-30,1.4";
+    words("render", "-o bare.exr " + below, "bare.relume");
+    const Image bare = readImage(bakes().path() / "bare.exr").image;
+    for (const char* command : {"render", "reference --rays 1", "reference --noise 0.5"}) {
+        CAPTURE(command);
+        words(command, "-o below.exr --ground-style shadow " + below, "fine.relume");
+        const Image seen = readImage(bakes().path() / "below.exr").image;
+        int differing = 0;
+        for (size_t i = 0; i < seen.pixels.size(); i++) differing += seen.pixels[i].w != bare.pixels[i].w;
+        CHECK_LT(differing, 5);
+    }
     // A picture is the background times what is left of its light.
     words("render", "-o over.exr --background environment " + shadow, "fine.relume");
     const Image over = readImage(bakes().path() / "over.exr").image;

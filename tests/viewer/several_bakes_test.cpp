@@ -67,7 +67,7 @@ TEST_CASE("viewer: a mesh is shown before anything of it is baked, and the sessi
     const Image sketch = readImage(session.path("sketch.exr")).image;
     const size_t covered = size_t(std::ranges::count_if(
         sketch.pixels, [](const vec4& pixel) { return pixel.w == 1 && pixel.x + pixel.y + pixel.z > 0; }));
-    CHECK_GT(covered, sketch.pixels.size() / 4);
+    CHECK_GT(covered, sketch.pixels.size() / 8);
     bool isNamed = false;
     for (const auto& file : std::filesystem::directory_iterator(session.folder().path()))
         if (file.path().string().ends_with(".session.json"))
