@@ -173,7 +173,7 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
 }
 
 GroundStyle SceneView::groundStyle(const SceneState& state) const {
-    // The reference shows all of the ground.
+    // Comparing is of all that is baked, the ground included.
     const bool isStyled = mModel && mModel->groundFade && state.background != BackgroundKind::None &&
                           state.inspect == Inspect::Off && !compares(state);
     return isStyled ? state.ground : GroundStyle::Whole;

@@ -63,13 +63,11 @@ nlohmann::ordered_json renderOptions(const SceneState& state, GroundStyle ground
     if (state.samples != kDefaultSamples) options["samples"] = state.samples;
     if (state.terms > 0) options["terms"] = state.terms;
     if (!state.addsResidual) options["residual"] = "off";
-    const auto withGround = [&](GroundStyle unsaid) {
-        if (ground != unsaid) options["ground-style"] = kGroundStyleNames[size_t(ground)];
+    const auto withGround = [&](GroundStyle byDefault) {
+        if (ground != byDefault) options["ground-style"] = kGroundStyleNames[size_t(ground)];
         return options;
     };
-    if (drawn == Drawn::Radiance) {
-        return withGround(GroundStyle::Whole);
-    }
+    if (drawn == Drawn::Radiance) return withGround(GroundStyle::Whole);
     const bool isSeen = state.background == BackgroundKind::Environment; // default of .png
     options["exposure"] = shortest(state.exposure);
     options["tone"] = kToneNames[size_t(state.tone)];

@@ -113,13 +113,14 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
                     "polar light maps") {
     std::vector<float> weights;
     std::map<const ResidualSet*, Set*> known;
+    const std::optional<size_t> ground = groundOf(asset);
     for (size_t part = 0; part < asset.parts.size(); part++) {
         auto& residuals = mResiduals.emplace_back();
         auto& sets = mSetOf.emplace_back();
         for (const MaterialSet& set : asset.parts[part].sets) {
             const auto& residual = residuals.emplace_back(takesResiduals ? set.residual : nullptr);
             sets.push_back(nullptr);
-            if (!residual && part != groundOf(asset)) continue;
+            if (!residual && part != ground) continue;
             Set* const same = residual ? known[residual.get()] : nullptr;
             Set& own = same ? *same : addSet(set.brdf, residual.get(), weights);
             if (residual) known[residual.get()] = &own;
