@@ -266,8 +266,8 @@ void ImageArguments::add(CLI::App& command) {
         ->check(between(0, 90))
         ->type_name("DEGREES")
         ->capture_default_str();
-    const std::map<std::string, std::optional<GroundStyle>> styles = {
-        {"shadow", GroundStyle::Shadow}, {"fade", GroundStyle::Fade}, {"whole", GroundStyle::Whole}};
+    std::map<std::string, std::optional<GroundStyle>> styles;
+    for (size_t i = 0; i < kGroundStyleNames.size(); i++) styles[kGroundStyleNames[i]] = GroundStyle(i);
     addChoice(
         command, "--ground-style", mGround, styles,
         "A ground as a shadow on the background (shadow, the default where there is one), ending around the "

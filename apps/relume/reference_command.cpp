@@ -38,9 +38,9 @@ constexpr int kMostPasses = 1 << 16;
 // Renders by sampling, in passes, until the noise is small.
 class Sampling {
   public:
-    Sampling(const Arguments& arguments, const Asset& asset, const Camera& camera, const LightCube& light,
+    Sampling(double noise, const Asset& asset, const Camera& camera, const LightCube& light,
              const ReferenceOptions& options)
-        : mNoise(*arguments.noise), mReference(asset, options.brdf, options.bounces) {
+        : mNoise(noise), mReference(asset, options.brdf, options.bounces) {
         mReference.restart(camera, light,
                            options.appearance.empty() ? defaultAppearance(asset) : options.appearance,
                            options.width, options.height, options.samples, options.groundFade);
@@ -147,7 +147,7 @@ void run(const Arguments& arguments) {
                                                                              arguments.environmentWidth),
                                                           kSampledFaceSize, rotation)
                                       : sampleLight(turned(light, rotation), asset.faceSize);
-        Sampling sampling(arguments, asset, camera, cube, options);
+        Sampling sampling(*arguments.noise, asset, camera, cube, options);
         sampling.run([&](const Image& image) { write(image, arguments.image.exposureFor(image, false)); });
         const Image image = sampling.image();
         write(image, arguments.image.exposureFor(image));

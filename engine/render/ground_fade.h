@@ -20,14 +20,14 @@ enum class GroundStyle {
 // Names of the styles, in their order, in files and on the command line.
 constexpr std::array<const char*, 3> kGroundStyleNames = {"whole", "fade", "shadow"};
 
-// The ground's coverage by distance from a vertical axis through the object: 1 up to `inner`, falling to 0 at
-// `outer`.
+// How a ground fades: its coverage depends on the distance from a vertical axis through the object, 1 up to
+// `inner`, falling to 0 at `outer`.
 struct GroundFade {
     size_t part; // the ground
     vec2 center; // x, z
     float inner, outer;
-    bool isShadow; // GroundStyle::Shadow
-    float height;  // of the ground
+    bool isShadow; // whether only its shadow is drawn
+    float height;  // y of its lowest point
 
     // Returns whether the ground, shown as its shadow alone, is hidden because the eye is below it.
     bool isHiddenFrom(vec3 eye) const { return isShadow && eye.y < height; }
@@ -42,7 +42,8 @@ float shadowAlpha(vec3 radiance, vec3 unshadowed);
 std::optional<size_t> groundOf(const Asset& asset);
 
 // Makes the fade from the object's radius to the ground's nearest edge. Returns none for GroundStyle::Whole,
-// without a ground, or if the object's center is not over it.
+// without a ground, or if the object's center is not over it. A ground that is not flat would hide what is
+// behind it, and fades instead of showing its shadow alone.
 std::optional<GroundFade> makeGroundFade(const Asset& asset, GroundStyle style);
 
 // Returns the ground's coverage at a point, in [0, 1]. GLSL twin: groundCoverage() in

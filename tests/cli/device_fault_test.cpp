@@ -22,7 +22,7 @@ const Command kBake{kSmallBake + "--bounces 0 --layout rows", "out.relume"};
 const Command kBounces{kSmallBake + "--bounces 1 --ground --ground-tessellation 3", "out.relume"};
 const Command kPicture{"render in.relume --size 16x12 --validation core,sync -o out.png", "out.png"};
 
-// What became of the calls that failed, one in each run.
+// Counts what became of the calls that failed, one in each run.
 struct Tally {
     int calls = 0, failed = 0, recovered = 0, refused = 0;
 };
@@ -43,7 +43,7 @@ class Sweep {
         mWhole = contents(output());
     }
 
-    // Of all functions, or of one.
+    // Fails every `stride`-th call of `function`, or of any function if it is empty.
     Tally run(const std::string& result, int stride, const std::string& function = "") {
         mFunction = function;
         if (std::getenv("RELUME_EVERY_FAULT")) stride = 1;

@@ -97,7 +97,7 @@ TEST_CASE("planted validation: core reports an object that is left") {
     });
 }
 
-// Of two dispatches that both write a buffer the layer says nothing (1.3.239).
+// The layer (1.3.239) does not report two dispatches that both write a buffer.
 TEST_CASE("planted validation: synchronization reports a dispatch that reads what one before it writes") {
 #ifdef RELUME_GLSLANG
     checkReports("sync", "SYNC-HAZARD-READ-AFTER-WRITE", [](const vk::Device& device, bool isFaulty) {

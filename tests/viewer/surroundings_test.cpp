@@ -18,8 +18,8 @@ constexpr const char* kFaults = "LD_PRELOAD='" RELUME_FAULTS "' ";
 // As fast as the viewer can draw.
 const json kPlain = {{"set", {{"samples", 1}, {"residual", false}, {"background", "none"}}}};
 
-// What became of the calls that failed, one in each run. `told` counts runs in which the viewer said why an
-// image is missing and went on.
+// Counts what became of the calls that failed, one in each run. `told` counts runs in which the viewer said
+// why an image is missing and went on.
 struct Tally {
     int calls = 0, failed = 0, recovered = 0, told = 0, refused = 0;
 };
@@ -93,7 +93,7 @@ class Sweep {
             CHECK(says(outcome.err, "error: this display cannot show what Vulkan draws"));
         } else if (isRefused || isTold) {
             if (isRefused) CHECK_EQ(outcome.exitCode, 1);
-            // What fails first after a loss may be a wait that nobody asks about.
+            // After a loss the first call to fail may be a wait whose result nobody checks.
             const bool isNamed = says(outcome.err, std::string("error: ") + function);
             CHECK((isNamed || says(outcome.err, "error: Dear ImGui") || result == "lost"));
             CHECK(says(outcome.err, result == "lost"            ? "the Vulkan device was lost"
@@ -201,7 +201,7 @@ TEST_CASE(
         CHECK_EQ(namesOf(output).size(), 1u);
         if (isNamed) CHECK_NE(session.bytes(output), "precious");
     }
-    // Where a window ends by itself, nobody would see what is told.
+    // A window that ends by itself cannot show the error, so the program exits with it.
     session.folder().write("look.png", "precious");
     const Outcome outcome = session.view("ring.relume --exit-frame 1 --screenshot look.png",
                                          kFaults + std::string("RELUME_FAULT=full RELUME_FAULT_PATH=look.png "
