@@ -4,9 +4,9 @@
 // Squared magnitudes are positive floats, so their bits, here called keys, have the same order, and a radix search
 // finds the N-th largest. It starts with the largest key of each block: if N blocks have a key of at least b, the
 // N-th largest is at least b. Only blocks that reach b are then read, and of their keys those that reach it are
-// searched. As a rule these are few enough to be listed; otherwise the search goes through all slots of these blocks
-// repeatedly. The selection is stored as a bit per coefficient, so that it comes out in order. One work-group per
-// row.
+// searched. They are listed if they fit; if not, those that reach a higher bound are, which is found from them in the
+// same way. If even these do not fit, the search goes through all slots of these blocks repeatedly. The selection is
+// stored as a bit per coefficient, so that it comes out in order. One work-group per row.
 // CPU twin: selectLargest() in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -29,7 +29,7 @@ const uint kCount = 6 * kFaceSize * kFaceSize;
 const uint kWords = kCount / 32;
 const uint kBlocks = HAAR_BLOCKS(kFaceSize);
 const uint kBins = 256;
-const uint kCapacity = 512; // of the list of keys
+const uint kCapacity = 768; // of the list of keys
 
 shared uint bins[kBins];
 shared uvec2 laneSums[kLanes];
@@ -155,6 +155,27 @@ void main() {
         reaching += bitCount(slots);
     }
     place = sumBefore(uvec2(reaching, 0)).x;
+    if (total.x > kCapacity) {
+        clearBins();
+        for (uint i = lane; i < readBlocks; i += kLanes)
+            for (uint slots = blockList[i] >> 16; slots != 0; slots &= slots - 1)
+                atomicAdd(bins[boundBin(key(row, 16 * (blockList[i] & 0xffff) + findLSB(slots)))], 1);
+        findBin(push.kept);
+        bound = foundBin > 0 ? (foundBin + kFirstBound) << kBoundShift : bound;
+        reaching = 0;
+        for (uint i = lane; i < readBlocks; i += kLanes) {
+            const uint block = blockList[i] & 0xffff;
+            uint left = 0;
+            for (uint slots = blockList[i] >> 16; slots != 0; slots &= slots - 1) {
+                const uint slot = findLSB(slots), k = key(row, 16 * block + slot);
+                left |= uint(k >= bound) << slot;
+                dropped += k >= bound ? 0 : uintBitsToFloat(k);
+            }
+            blockList[i] = left << 16 | block;
+            reaching += bitCount(left);
+        }
+        place = sumBefore(uvec2(reaching, 0)).x;
+    }
     const bool isListed = total.x <= kCapacity;
     for (uint i = lane; i < (isListed ? readBlocks : 0); i += kLanes) {
         const uint block = blockList[i] & 0xffff;

@@ -121,6 +121,12 @@ TEST_CASE("pipeline cache: a file of no use is replaced") {
     const auto path = folder.path() / "pipelines";
     dataAfterUse(path);
     const Bytes right = readFile(path);
+    // Drivers may give other bytes each time.
+    const auto checkKept = [&] {
+        const vk::Device device({.select = "", .validation = "", .surfaceExtensions = {}, .pipelineCache = {}});
+        CHECK_FALSE(vk::unpackPipelineCache(propertiesOf(device), readFile(path)).empty());
+    };
+    checkKept();
     Bytes damaged = right, half(right.begin(), right.begin() + ptrdiff_t(right.size() / 2));
     damaged.back() ^= std::byte(1);
     const VkPhysicalDeviceProperties other = sampleDriver();
@@ -128,12 +134,12 @@ TEST_CASE("pipeline cache: a file of no use is replaced") {
          {damaged, half, Bytes(), Bytes(5000), vk::packPipelineCache(other, sampleData(other))}) {
         writeFileAtomically(path, wrong);
         dataAfterUse(path);
-        CHECK_EQ(readFile(path), right);
+        checkKept();
     }
     writeFileAtomically(path, std::string());
     std::filesystem::resize_file(path, uintmax_t(1) << 40); // holes: reading it would take all memory
     dataAfterUse(path);
-    CHECK_EQ(readFile(path), right);
+    checkKept();
 }
 
 TEST_CASE("pipeline cache: where it cannot be kept all goes on") {

@@ -297,7 +297,7 @@ void checkSelect(const vk::Device& device, uint32_t faceSize, uint32_t lanes) {
     const SelectInput input = makeSelectInput(rows, faceSize);
     const auto coefficients = vk::upload<vec3>(device, input.slots, "coefficients");
     const auto summaries = vk::upload<vec2>(device, input.summaries, "summaries");
-    for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 3000u, count}) {
+    for (const uint32_t kept : {1u, 7u, 96u, 256u, 257u, 384u, 3000u, count}) {
         CAPTURE(kept);
         const vk::Buffer selected(device, rows.size() * kept * 4, vk::BufferUse::Readback, "selected");
         const vk::Buffer counts(device, rows.size() * 4, vk::BufferUse::Readback, "counts");

@@ -292,10 +292,9 @@ struct TestScene {
     Relighter relighter;
 };
 
-// Textures are filtered with weights of 8 bits on many devices, lavapipe among them: `tolerance` of the
-// largest value.
+// Errors may be up to `tolerance` of the largest value, or what the sampler's rounding makes of view maps.
 void checkAgainstHost(const vk::Device& device, const Asset& asset, const Appearance& appearance,
-                      float tolerance = 1e-4f) {
+                      float tolerance = 0) {
     const TestScene scene(device, asset, appearance);
     const LightVector light = scene.light.readVector();
     constexpr int kWidth = 120, kHeight = 80;
@@ -331,7 +330,7 @@ void checkAgainstHost(const vk::Device& device, const Asset& asset, const Appear
                 clamped += here->covered && here->radiance[c] == 0;
             }
         }
-    CHECK_LT(worst, tolerance * largest);
+    CHECK_LT(worst, std::max(tolerance, filterError(device)) * largest);
     CHECK_LT(kWidth * kHeight / (roundsFinely(device) ? 4 : 12), covered);
     CHECK_LT(roundsFinely(device) ? 100 : 30, clamped);
 }
@@ -340,7 +339,9 @@ void checkPlain(const vk::Device& device, const Asset& asset) {
     checkAgainstHost(device, asset, defaultAppearance(asset));
 }
 
-constexpr float kFiltered = 0.01f; // tolerance where textures are looked up
+// Tolerance where textures are looked up: their texels of 8 bits are filtered with weights of 8 bits on many
+// devices, lavapipe among them.
+constexpr float kFiltered = 0.01f;
 
 } // namespace
 
@@ -515,32 +516,35 @@ TEST_CASE("view pass: a pixel of several samples shows each surface by its share
     ViewPass view(device, asset, {.width = kSize.x, .height = kSize.y, .samples = 1});
     const Camera camera = orbitCamera(boundsOf(asset), 0.5f, 0.6f, 0.7f, 0.8f, float(kSize.x) / kSize.y);
     const Image centers = view.render(camera, scene.relighter);
+    float largest = 0;
+    for (const vec4& pixel : centers.pixels) largest = std::max(largest, glm::length(vec3(pixel)));
+    const float tolerance = filterError(device) * largest;
     for (const int asked : {2, 4, 8}) {
         view.setSamples(asked);
         const int samples = view.samples();
         REQUIRE_LE(samples, asked);
         if (samples == 1) continue; // the device has no more
         const Image image = view.render(camera, scene.relighter);
-        float largest = 0, worst = 0;
+        float worst = 0;
         int edges = 0, differ = 0, partly = 0;
         for (int y = 0; y < kSize.y; y++)
             for (int x = 0; x < kSize.x; x++) {
                 const auto [expected, isSteady] = host.at(camera, {x, y}, kSize, samples);
                 const vec4 pixel = image.at(x, y);
                 const float apart = glm::length(vec3(pixel) - vec3(expected));
-                largest = std::max(largest, glm::length(vec3(expected)));
                 if (isSteady) {
                     CHECK_EQ(pixel.w, 1.0f);
                     worst = std::max(worst, apart);
                 } else if (expected.w > 0) { // rounding may decide what a sample sees
                     edges++;
                     partly += expected.w < 1;
-                    differ += pixel.w != expected.w || apart > 0.01f * glm::length(vec3(expected));
+                    const float allowed = std::max(0.01f * glm::length(vec3(expected)), tolerance);
+                    differ += pixel.w != expected.w || apart > allowed;
                 }
             }
-        CHECK_LT(worst, 1e-4f * largest);
+        CHECK_LT(worst, tolerance);
         CHECK_LT(300, edges);
-        CHECK_LT(100, partly);
+        CHECK_LT(50, partly);
         CHECK_LT(differ, edges / 20);
         MESSAGE(samples, " samples: ", differ, " of ", edges, " edge pixels differ, ", partly,
                 " half covered");
