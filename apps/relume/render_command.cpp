@@ -13,8 +13,13 @@
 #include "engine/vk/timing_capture.h"
 #include "precompute/bake/bake_options.h"
 
+#include <algorithm>
+#include <deque>
 #include <fmt/format.h>
+#include <functional>
+#include <future>
 #include <spdlog/spdlog.h>
+#include <thread>
 
 namespace relume {
 
@@ -86,6 +91,39 @@ struct LightLoss {
     }
 };
 
+// Writes images on threads of their own, since compressing one takes as long as drawing many.
+class ImageWriter {
+  public:
+    // All images being written take at most about kMostBytes.
+    explicit ImageWriter(size_t pixels)
+        : mMost(std::clamp<size_t>(kMostBytes / (kCopies * sizeof(vec4) * pixels), 1,
+                                   std::max(1u, std::thread::hardware_concurrency()))) {}
+
+    // Calls `write` on another thread, once few enough images are being written. Throws what an earlier one
+    // threw.
+    void add(std::function<void()> write) {
+        if (mWriting.size() >= mMost) finishFirst();
+        mWriting.push_back(std::async(std::launch::async, std::move(write)));
+    }
+
+    // Waits until all are written. Throws what one of them threw.
+    void finish() {
+        while (!mWriting.empty()) finishFirst();
+    }
+
+  private:
+    static constexpr size_t kMostBytes = size_t(1) << 30, kCopies = 3; // of an image, while it is tone-mapped
+
+    void finishFirst() {
+        std::future<void> first = std::move(mWriting.front());
+        mWriting.pop_front();
+        first.get();
+    }
+
+    size_t mMost;
+    std::deque<std::future<void>> mWriting;
+};
+
 void writeTimings(const std::filesystem::path& path, const vk::TimingCapture& capture) {
     const TimingTrace trace = capture.trace();
     if (trace.clock == ClockMatch::None)
@@ -154,6 +192,7 @@ void run(const Arguments& arguments) {
     const bool turnsCamera = turnsBoth || arguments.turn == "camera";
     LightLoss loss;
     float exposure = 0; // that of the first frame for all, so that none flickers
+    ImageWriter writer(size_t(arguments.camera.width) * size_t(arguments.camera.height));
     Progress progress("rendering", uint64_t(arguments.frames), "frames");
     vk::Commands commands(*device, "render");
     commands.setCapture(capture);
@@ -179,10 +218,13 @@ void run(const Arguments& arguments) {
         vk::CpuSpan reading(capture, "read back");
         if (lightChanges) loss.add(light.readStats());
         if (frame == 0) exposure = arguments.image.exposureFor(view.read());
-        const Image image = background ? background->read() : view.read();
+        Image image = background ? background->read() : view.read();
         reading.end();
         const vk::CpuSpan writing(capture, "write image");
-        arguments.image.write(framePath(arguments, frame), image, exposure);
+        writer.add([&arguments, path = framePath(arguments, frame), image = std::move(image), exposure] {
+            arguments.image.write(path, image, exposure);
+        });
+        if (frame + 1 == arguments.frames) writer.finish();
         progress.update(uint64_t(frame) + 1);
     }
     loss.log(asset.faceSize);

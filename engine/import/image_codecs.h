@@ -25,6 +25,11 @@ void checkExrHeader(std::span<const std::byte> bytes, const std::string& name);
 
 std::vector<std::byte> encodeExr(const Image& image);
 
+// Encodes texels of four bytes, red, green, blue and alpha, row by row; `name` names the file in errors.
+// Throws Error.
+std::vector<std::byte> encodePng(int width, int height, std::span<const uint8_t> texels,
+                                 const std::string& name);
+
 // Throws Error unless an image of width × height may come from a file of `bytes` bytes: it must not be empty,
 // nor over 2^28 pixels or 65536 a side, nor far beyond what compression can reach, so that a small file
 // cannot take much memory.

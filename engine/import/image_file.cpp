@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <stb_image_write.h>
 
 namespace relume {
 
@@ -90,23 +89,11 @@ void writeExr(const std::filesystem::path& path, const Image& image) {
 
 void writePng(const std::filesystem::path& path, const Image& image) {
     checkWritable(image);
-    // stb_image_write counts bytes in an int.
-    if (image.pixels.size() > size_t(1) << 27)
-        throw Error(fmt::format("{}: {} x {} pixels are too many for PNG; write .exr", path.string(),
-                                image.width, image.height));
     std::vector<uint8_t> texels;
     texels.reserve(4 * image.pixels.size());
     for (const vec4& pixel : image.pixels)
         for (int c = 0; c < 4; c++) texels.push_back(quantize(pixel[c]));
-    std::vector<std::byte> bytes;
-    const auto append = [](void* context, void* data, int size) {
-        const auto* first = static_cast<const std::byte*>(data);
-        auto& target = *static_cast<std::vector<std::byte>*>(context);
-        target.insert(target.end(), first, first + size);
-    };
-    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, texels.data(), 4 * image.width))
-        throw Error(fmt::format("{}: the PNG encoder failed; is there memory left?", path.string()));
-    writeFileAtomically(path, bytes);
+    writeFileAtomically(path, encodePng(image.width, image.height, texels, path.string()));
 }
 
 } // namespace relume

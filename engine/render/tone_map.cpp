@@ -16,9 +16,10 @@ vec3 aces(vec3 x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 
 
 // Returns linear display light. AgX works on logarithms, in primaries that are drawn in towards white.
 vec3 agx(vec3 x) {
-    const mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, // by columns
-                     0.0784335999999992f, 0.878468636469772f, 0.0784336f, 0.0792237451477643f,
-                     0.0791661274605434f, 0.879142973793104f);
+    static const mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, // by columns
+                            0.0784335999999992f, 0.878468636469772f, 0.0784336f, 0.0792237451477643f,
+                            0.0791661274605434f, 0.879142973793104f),
+        outset = glm::inverse(inset);
     constexpr float kLowestStop = -12.47393f, kHighestStop = 4.026069f;
     const vec3 stops = glm::log2(glm::max(inset * x, vec3(1e-10f)));
     const vec3 t = glm::clamp((stops - kLowestStop) / (kHighestStop - kLowestStop), vec3(0), vec3(1));
@@ -26,7 +27,7 @@ vec3 agx(vec3 x) {
     const vec3 contrast = 15.5f * t4 * t2 - 40.14f * t4 * t + 31.96f * t4 - 6.868f * t2 * t + 0.4298f * t2 +
                           0.1191f * t - 0.00232f;
     // The sigmoid is meant for a display of gamma 2.2.
-    return glm::pow(glm::max(glm::inverse(inset) * contrast, vec3(0)), vec3(2.2f));
+    return glm::pow(glm::max(outset * contrast, vec3(0)), vec3(2.2f));
 }
 
 float exposed(float value, float scale) {

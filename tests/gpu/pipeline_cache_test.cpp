@@ -123,7 +123,8 @@ TEST_CASE("pipeline cache: a file of no use is replaced") {
     const Bytes right = readFile(path);
     // Drivers may give other bytes each time.
     const auto checkKept = [&] {
-        const vk::Device device({.select = "", .validation = "", .surfaceExtensions = {}, .pipelineCache = {}});
+        const vk::Device device(
+            {.select = "", .validation = "", .surfaceExtensions = {}, .pipelineCache = {}});
         CHECK_FALSE(vk::unpackPipelineCache(propertiesOf(device), readFile(path)).empty());
     };
     checkKept();
