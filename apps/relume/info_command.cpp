@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,44 @@ static void printReadable(const nlohmann::ordered_json& value, int depth) {
             fmt::print("{}{} {}\n", indent, name,
                        entry.is_string() ? printable(entry.get<std::string>()) : entry.dump());
     }
+}
+
+// Returns the names of a part's materials: those that share a set are blended, sets are swapped.
+static std::string materialNames(const AssetPart& part) {
+    std::vector<std::string> names;
+    for (const MaterialSet& set : part.sets)
+        for (const AssetMaterial& material : set.materials) names.push_back(printable(material.name));
+    return fmt::format("{}", fmt::join(names, " or "));
+}
+
+// Prints what the bake is, in five lines.
+static void printSummary(const std::string& file, const Asset& asset, const nlohmann::ordered_json& info) {
+    constexpr size_t kMostNamed = 4; // parts
+    std::vector<std::string> parts;
+    for (const AssetPart& part : asset.parts)
+        parts.push_back(fmt::format("{} in {}", printable(part.name), materialNames(part)));
+    const size_t count = parts.size();
+    if (count > kMostNamed) {
+        parts.resize(kMostNamed);
+        parts.push_back(fmt::format("and {} more", count - kMostNamed));
+    }
+    const std::optional<float> share = asset.provenance.bakedShare;
+    fmt::print("{}: {:.1f} MB{}, by {} on {}\n", printable(file), info["file_bytes"].get<double>() * 1e-6,
+               share ? fmt::format(", a preview with {:.0f} % of its vertices baked", 100 * *share) : "",
+               printable(asset.provenance.program), printable(asset.provenance.device));
+    fmt::print("{} vertices, {} triangles: {}\n", info["total"]["vertices"].get<uint64_t>(),
+               info["total"]["triangles"].get<uint64_t>(), fmt::join(parts, ", "));
+    fmt::print("light: {}, {} texels\n",
+               asset.bounces == 0   ? std::string("direct alone")
+               : asset.bounces == 1 ? std::string("direct and one bounce")
+                                    : fmt::format("direct and up to {} bounces", asset.bounces),
+               fmt::format("6 x {}²", asset.faceSize));
+    fmt::print("transport: {:.0f} bytes a vertex in memory, with an error of {:.1f} %\n",
+               info["total"]["bytes_per_vertex"].get<double>(),
+               100 * (asset.layout ? asset.layout->error : double(asset.truncationError)));
+    fmt::print("visibility: {}\n\n", info["kept_visibility"]["bytes"].get<uint64_t>() > 0
+                                         ? "kept, `relume rebake` takes other materials"
+                                         : "not kept, other materials need a bake anew");
 }
 
 // Returns the name of the preset that the options match; null if none does, they are another program's, or
@@ -67,8 +106,10 @@ void addInfoCommand(CLI::App& program) {
         info["preset"] = describePreset(asset);
         if (arguments->json)
             fmt::print("{}\n", info.dump(2));
-        else
+        else {
+            printSummary(arguments->file, asset, info);
             printReadable(info, 0);
+        }
     });
 }
 

@@ -97,7 +97,7 @@ void Comparison::publish(Result result, const std::stop_token& stop) {
 
 void Comparison::work(const View& view, ProgressiveReference& reference, std::stop_token stop) {
     reference.restart(view.camera, view.light, view.appearance, view.relit.width, view.relit.height,
-                      view.samples);
+                      view.samples, view.ground);
     Clock::time_point shown;
     while (reference.passes() < kPasses && reference.addPass(stop)) {
         // Publish rarely: every result shown costs a frame.

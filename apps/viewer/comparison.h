@@ -20,7 +20,8 @@ class Comparison {
         LightCube light;
         Appearance appearance;
         Image relit;
-        int samples = 1; // per pixel
+        int samples = 1;                  // per pixel
+        std::optional<GroundFade> ground; // as in `relit`; none: as it is
     };
     // The state of the reference.
     struct Result {

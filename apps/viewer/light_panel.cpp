@@ -159,8 +159,8 @@ void drawBackground(SceneState& state) {
     constexpr const char* kGrounds[] = {"Whole", "Faded", "Shadow"};
     int ground = int(state.ground);
     if (ImGui::Combo("Ground", &ground, kGrounds, 3)) state.ground = GroundStyle(ground);
-    explain(
-        "As it is, fading around the object, or as a shadow on the background; comparing shows all of it");
+    explain("As it is, fading around the object, or as a shadow on the background; a map of differences "
+            "shows all of it");
 }
 
 } // namespace

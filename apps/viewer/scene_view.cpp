@@ -139,10 +139,7 @@ void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec
     mModel->view.setTerms(now.terms);
     mModel->view.setResidual(now.addsResidual || mModel->isSketch);
     mModel->view.setInspect(now.inspect);
-    std::optional<GroundFade> ground;
-    if (now.ground != GroundStyle::Whole) ground = mModel->groundFade;
-    if (ground) ground->isShadow = now.ground == GroundStyle::Shadow;
-    mModel->view.setGroundFade(ground);
+    mModel->view.setGroundFade(groundFade(now.ground));
     mModel->view.record(commands, now.camera, mModel->relighter);
     mSeen = now;
     mViewVersion++;
@@ -173,10 +170,18 @@ void SceneView::recordCompared(vk::Commands& commands, const SceneState& state) 
 }
 
 GroundStyle SceneView::groundStyle(const SceneState& state) const {
-    // Comparing is of all that is baked, the ground included.
+    // A map of the difference is of all that is baked, the ground included.
+    const bool isMap = compares(state) && state.compare == Compare::Difference;
     const bool isStyled = mModel && mModel->groundFade && state.background != BackgroundKind::None &&
-                          state.inspect == Inspect::Off && !compares(state);
+                          state.inspect == Inspect::Off && !isMap;
     return isStyled ? state.ground : GroundStyle::Whole;
+}
+
+std::optional<GroundFade> SceneView::groundFade(GroundStyle style) const {
+    if (style == GroundStyle::Whole) return std::nullopt;
+    std::optional<GroundFade> fade = mModel->groundFade;
+    if (fade) fade->isShadow = style == GroundStyle::Shadow;
+    return fade;
 }
 
 void SceneView::recordBackground(vk::Commands& commands, const SceneState& state) {
@@ -195,7 +200,7 @@ bool SceneView::submitted(SceneState& state) {
     if (!mLightStats) mLightStats = mModel->light.readStats();
     if (mIsStill && compares(state) && mComparedVersion != mViewVersion) {
         mComparison.begin({mModel, mSeen->camera, mModel->light.readCube(), mModel->appearance,
-                           mModel->view.read(), mModel->view.samples()});
+                           mModel->view.read(), mModel->view.samples(), groundFade(mSeen->ground)});
         mComparedVersion = mViewVersion;
     }
     return findExposure(state);

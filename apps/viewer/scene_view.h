@@ -63,6 +63,8 @@ class SceneView {
     const Comparison::Result& compared() const { return mCompared; }
 
   private:
+    // Returns the fade that draws the model's ground in a style; none if it has no ground, or shows it whole.
+    std::optional<GroundFade> groundFade(GroundStyle style) const;
     struct Seen {
         Camera camera;
         ivec2 size{0};

@@ -280,7 +280,10 @@ TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, witho
     REQUIRE_EQ(info.exitCode, 0);
     CHECK(says(info.out, "gold"));
     CHECK(nlohmann::json::parse(info.out).is_object());
-    CHECK(says(runRelume(folder, "info a.relume").out, "provenance"));
+    const std::string readable = runRelume(folder, "info a.relume").out;
+    CHECK(readable.starts_with("a.relume: "));
+    CHECK(says(readable.substr(0, readable.find("\n\n")), " in gold"));
+    CHECK(says(readable, "provenance"));
 
     folder.write("l.json", R"({"sky": {"sun": {"azimuth": 40, "elevation": 30}},
                               "lamps": [{"azimuth": 200, "elevation": 40, "radius": 5, "radiance": [20, 10, 5]}]})");
