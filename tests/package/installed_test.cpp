@@ -69,7 +69,8 @@ TEST_CASE("examples build against what is installed, and draw what relume render
     // A program that links the runtime alone has none of the readers.
     const std::string libraries = run(folder, "ldd", foreignFrame),
                       symbols = run(folder, "nm", "-C " + foreignFrame);
-    for (const char* reader : {"OpenEXR", "tinygltf", "tinyobj", "meshoptimizer", "embree", "libpng", "libstb"})
+    for (const char* reader :
+         {"OpenEXR", "tinygltf", "tinyobj", "meshoptimizer", "embree", "libpng", "libstb"})
         CHECK_MESSAGE(!says(libraries, reader), reader);
     for (const char* reader : {"nlohmann", "tinygltf", "tinyobj", "Imf_", "rtcNew", "spdlog", "Eigen::"})
         CHECK_MESSAGE(!says(symbols, reader), reader);
