@@ -4,8 +4,8 @@
 // Squared magnitudes are positive floats, so their bits, here called keys, have the same order, and a radix search
 // finds the N-th largest. It starts with the largest key of each block: if N blocks have a key of at least b, the
 // N-th largest is at least b. Only blocks that reach b are then read, and of their keys those that reach it are
-// searched. They are listed if they fit; if not, those that reach a higher bound are, which is found from them in the
-// same way. If even these do not fit, the search goes through all slots of these blocks repeatedly. The selection is
+// searched. They are listed if they fit; if not, those that reach a higher bound are, which is found by counting all of
+// these keys in the same bins. If even these do not fit, the search goes through all slots of these blocks repeatedly. The selection is
 // stored as a bit per coefficient, so that it comes out in order. One work-group per row.
 // CPU twin: selectLargest() in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
@@ -29,7 +29,7 @@ const uint kCount = 6 * kFaceSize * kFaceSize;
 const uint kWords = kCount / 32;
 const uint kBlocks = HAAR_BLOCKS(kFaceSize);
 const uint kBins = 256;
-const uint kCapacity = 768; // of the list of keys
+const uint kCapacity = 736; // of the list of keys. All that is shared fits in 20 KiB (whyUnsuitable())
 
 shared uint bins[kBins];
 shared uvec2 laneSums[kLanes];

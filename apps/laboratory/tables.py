@@ -68,8 +68,8 @@ def table_1(setup: Setup) -> Section:
         chapter.items += [
             Table("table_1", "Bake time and size",
                   ["model with ground", "K", "vertices", "paper's vertices", "ms per vertex", "paper's ms per vertex",
-                   "paper's minutes", "paper's time over ours", "bytes per vertex", "paper's bytes per vertex", "paper's MB",
-                   "bytes per vertex in bases"], rows,
+                   "paper's minutes", "paper's time over ours", "bytes per vertex", "paper's bytes per vertex",
+                   "paper's MB", "bytes per vertex in bases"], rows,
                   f"{_MACHINE} Bytes are of transport, in memory. In bases: the same transport in the layout that "
                   "relume bake gives if not asked for another."),
             Table("table_1_stages", "Milliseconds of a vertex, by stages", ["model with ground", "K", *names], stages,
@@ -77,8 +77,8 @@ def table_1(setup: Setup) -> Section:
         ms, speed, bytes_of_rows, bases = zip(*ours)
         chapter.findings.append(
             f"Table 1: bakes in the paper's way take {range_text(ms)} ms a vertex; the paper reports "
-            f"{range_text(speed)} times as much for its machine of 2004. They take {range_text(bytes_of_rows)} times "
-            f"the paper's bytes a vertex; in bases, {range_text(share for share in bases if share)} times.")
+            f"{range_text(speed)} times as much for its machine of 2004. Transport takes "
+            f"{range_text(bytes_of_rows)} times the paper's bytes a vertex; in bases, {range_text(share for share in bases if share)} times.")
 
     return Section(title, [step_of(scene, terms) for scene in scenes for terms in PAPER_TERMS], write)
 

@@ -28,42 +28,48 @@ static void printReadable(const nlohmann::ordered_json& value, int depth) {
     }
 }
 
-// Returns the names of a part's materials: those that share a set are blended, sets are swapped.
+// Joins names, of which it leaves out all beyond a few.
+static std::string joined(std::vector<std::string> names, const char* separator) {
+    constexpr size_t kMost = 4;
+    const size_t count = names.size();
+    if (count > kMost) {
+        names.resize(kMost);
+        names.push_back(fmt::format("{} more", count - kMost));
+    }
+    return fmt::to_string(fmt::join(names, separator));
+}
+
+// Returns the names of the materials in which a part can be shown.
 static std::string materialNames(const AssetPart& part) {
     std::vector<std::string> names;
     for (const MaterialSet& set : part.sets)
         for (const AssetMaterial& material : set.materials) names.push_back(printable(material.name));
-    return fmt::format("{}", fmt::join(names, " or "));
+    return joined(std::move(names), " or ");
 }
 
 // Prints what the bake is, in five lines.
 static void printSummary(const std::string& file, const Asset& asset, const nlohmann::ordered_json& info) {
-    constexpr size_t kMostNamed = 4; // parts
     std::vector<std::string> parts;
     for (const AssetPart& part : asset.parts)
         parts.push_back(fmt::format("{} in {}", printable(part.name), materialNames(part)));
-    const size_t count = parts.size();
-    if (count > kMostNamed) {
-        parts.resize(kMostNamed);
-        parts.push_back(fmt::format("and {} more", count - kMostNamed));
-    }
     const std::optional<float> share = asset.provenance.bakedShare;
     fmt::print("{}: {:.1f} MB{}, by {} on {}\n", printable(file), info["file_bytes"].get<double>() * 1e-6,
                share ? fmt::format(", a preview with {:.0f} % of its vertices baked", 100 * *share) : "",
                printable(asset.provenance.program), printable(asset.provenance.device));
     fmt::print("{} vertices, {} triangles: {}\n", info["total"]["vertices"].get<uint64_t>(),
-               info["total"]["triangles"].get<uint64_t>(), fmt::join(parts, ", "));
-    fmt::print("light: {}, {} texels\n",
-               asset.bounces == 0   ? std::string("direct alone")
+               info["total"]["triangles"].get<uint64_t>(), joined(std::move(parts), ", "));
+    fmt::print("light: {}, 6 x {}² texels\n",
+               asset.bounces == 0   ? std::string("direct only")
                : asset.bounces == 1 ? std::string("direct and one bounce")
                                     : fmt::format("direct and up to {} bounces", asset.bounces),
-               fmt::format("6 x {}²", asset.faceSize));
-    fmt::print("transport: {:.0f} bytes a vertex in memory, with an error of {:.1f} %\n",
-               info["total"]["bytes_per_vertex"].get<double>(),
-               100 * (asset.layout ? asset.layout->error : double(asset.truncationError)));
+               asset.faceSize);
+    fmt::print("transport: {:.0f} bytes a vertex in memory; keeping {} coefficients loses {:.1f} %{}\n",
+               info["total"]["bytes_per_vertex"].get<double>(), asset.coefficients,
+               100 * double(asset.truncationError),
+               asset.layout ? fmt::format(", their layout {:.1f} %", 100 * asset.layout->error) : "");
     fmt::print("visibility: {}\n\n", info["kept_visibility"]["bytes"].get<uint64_t>() > 0
-                                         ? "kept, `relume rebake` takes other materials"
-                                         : "not kept, other materials need a bake anew");
+                                         ? "kept: `relume rebake` can take other materials"
+                                         : "not kept: other materials need a new bake");
 }
 
 // Returns the name of the preset that the options match; null if none does, they are another program's, or

@@ -5,6 +5,7 @@
 #include "apps/relume/selection_arguments.h"
 #include "apps/relume/session_file.h"
 #include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
 #include "engine/import/timing_file.h"
 #include "engine/render/background_pass.h"
@@ -94,7 +95,7 @@ struct LightLoss {
 // Writes images on threads of their own, since compressing one takes as long as drawing many.
 class ImageWriter {
   public:
-    // All images being written take at most about kMostBytes.
+    // Images being written take at most about kMostBytes, or are one.
     explicit ImageWriter(size_t pixels)
         : mMost(std::clamp<size_t>(kMostBytes / (kCopies * sizeof(vec4) * pixels), 1,
                                    std::max(1u, std::thread::hardware_concurrency()))) {}
@@ -103,7 +104,7 @@ class ImageWriter {
     // threw.
     void add(std::function<void()> write) {
         if (mWriting.size() >= mMost) finishFirst();
-        mWriting.push_back(std::async(std::launch::async, std::move(write)));
+        mWriting.push_back(std::async(std::launch::async | std::launch::deferred, std::move(write)));
     }
 
     // Waits until all are written. Throws what one of them threw.
@@ -197,6 +198,7 @@ void run(const Arguments& arguments) {
     vk::Commands commands(*device, "render");
     commands.setCapture(capture);
     loading.end();
+    catchInterrupts(); // frames are written whole
     for (int frame = 0; frame < arguments.frames; frame++) {
         const vk::FrameSpan frameSpan(capture);
         const float angle = 2 * kPi * float(frame) / float(arguments.frames);
@@ -224,12 +226,14 @@ void run(const Arguments& arguments) {
         writer.add([&arguments, path = framePath(arguments, frame), image = std::move(image), exposure] {
             arguments.image.write(path, image, exposure);
         });
-        if (frame + 1 == arguments.frames) writer.finish();
+        if (frame + 1 == arguments.frames || caughtInterrupt() != 0) writer.finish();
         progress.update(uint64_t(frame) + 1);
+        if (caughtInterrupt() != 0) break;
     }
     loss.log(asset.faceSize);
     if (capture) writeTimings(arguments.timings, *capture);
     DeviceArguments::expectNoMessages(*device);
+    if (caughtInterrupt() != 0) throw CLI::RuntimeError(kExitStopped + caughtInterrupt());
 }
 
 void addRelightMode(CLI::App& command, RelightMode& mode) {

@@ -21,7 +21,7 @@ class Comparison {
         Appearance appearance;
         Image relit;
         int samples = 1;                  // per pixel
-        std::optional<GroundFade> ground; // as in `relit`; none: as it is
+        std::optional<GroundFade> ground; // how `relit` shows the ground; none: all of it
     };
     // The state of the reference.
     struct Result {

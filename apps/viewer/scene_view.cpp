@@ -139,7 +139,7 @@ void SceneView::recordView(vk::Commands& commands, const SceneState& state, ivec
     mModel->view.setTerms(now.terms);
     mModel->view.setResidual(now.addsResidual || mModel->isSketch);
     mModel->view.setInspect(now.inspect);
-    mModel->view.setGroundFade(groundFade(now.ground));
+    mModel->view.setGroundFade(fadeOf(now.ground));
     mModel->view.record(commands, now.camera, mModel->relighter);
     mSeen = now;
     mViewVersion++;
@@ -177,7 +177,7 @@ GroundStyle SceneView::groundStyle(const SceneState& state) const {
     return isStyled ? state.ground : GroundStyle::Whole;
 }
 
-std::optional<GroundFade> SceneView::groundFade(GroundStyle style) const {
+std::optional<GroundFade> SceneView::fadeOf(GroundStyle style) const {
     if (style == GroundStyle::Whole) return std::nullopt;
     std::optional<GroundFade> fade = mModel->groundFade;
     if (fade) fade->isShadow = style == GroundStyle::Shadow;
@@ -200,7 +200,7 @@ bool SceneView::submitted(SceneState& state) {
     if (!mLightStats) mLightStats = mModel->light.readStats();
     if (mIsStill && compares(state) && mComparedVersion != mViewVersion) {
         mComparison.begin({mModel, mSeen->camera, mModel->light.readCube(), mModel->appearance,
-                           mModel->view.read(), mModel->view.samples(), groundFade(mSeen->ground)});
+                           mModel->view.read(), mModel->view.samples(), fadeOf(mSeen->ground)});
         mComparedVersion = mViewVersion;
     }
     return findExposure(state);

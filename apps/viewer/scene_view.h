@@ -63,8 +63,6 @@ class SceneView {
     const Comparison::Result& compared() const { return mCompared; }
 
   private:
-    // Returns the fade that draws the model's ground in a style; none if it has no ground, or shows it whole.
-    std::optional<GroundFade> groundFade(GroundStyle style) const;
     struct Seen {
         Camera camera;
         ivec2 size{0};
@@ -86,6 +84,9 @@ class SceneView {
     void recordView(vk::Commands& commands, const SceneState& state, ivec2 size, bool isFinal);
     void recordCompared(vk::Commands& commands, const SceneState& state);
     void recordBackground(vk::Commands& commands, const SceneState& state);
+    // Returns the fade that draws the model's ground in a style; none if it has no ground, or shows all of
+    // it.
+    std::optional<GroundFade> fadeOf(GroundStyle style) const;
     bool findExposure(SceneState& state);
 
     const vk::Device& mDevice;

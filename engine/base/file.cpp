@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <mutex>
+#include <random>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -93,16 +94,17 @@ static std::filesystem::path folderOf(const std::filesystem::path& path) {
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : mPath(replacedFile(std::move(path))) {
-    std::string pattern = mPath.string() + ".XXXXXX";
-    mDescriptor = mkstemp(pattern.data());
-    if (mDescriptor < 0)
-        throw Error(fmt::format("{}: cannot be written: {}; is its folder there and writable?",
-                                mPath.string(), std::strerror(errno)));
-    mTemporary = pattern;
-    // mkstemp() makes private files; give this one the permissions of any new file.
-    const mode_t mask = umask(0);
-    umask(mask);
-    (void)fchmod(mDescriptor, 0666 & ~mask);
+    // mkstemp() would make a private file. To give it the permissions of any new file takes the process's
+    // umask, which cannot be read without changing it for other threads.
+    constexpr int kMostTries = 100;
+    std::random_device random;
+    for (int tries = 0; mDescriptor < 0; tries++) {
+        mTemporary = fmt::format("{}.{:08x}", mPath.string(), random());
+        mDescriptor = open(mTemporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (mDescriptor < 0 && (errno != EEXIST || tries == kMostTries))
+            throw Error(fmt::format("{}: cannot be written: {}; is its folder there and writable?",
+                                    mPath.string(), std::strerror(errno)));
+    }
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path, const std::string& suffix)

@@ -2,6 +2,7 @@
 #include "engine/import/image_codecs.h"
 
 #include <csetjmp>
+#include <cstdio>
 #include <fmt/format.h>
 #include <new>
 #include <png.h>
@@ -13,6 +14,10 @@ namespace {
 // Rendered images compress best, and fastest, as differences from the pixel to the left; levels above 4 take
 // several times as long for a tenth less.
 constexpr int kFilter = PNG_FILTER_SUB, kLevel = 4;
+
+struct Failure {
+    char why[128] = "";
+};
 
 // Writes all of a PNG file. Returns false if libpng fails: it leaves by longjmp(), past any destructor.
 bool encode(png_structp writer, png_infop info, int width, int height, const uint8_t* texels) {
@@ -39,23 +44,30 @@ void append(png_structp writer, png_bytep data, size_t size) {
     if (!isAppended) png_error(writer, "out of memory");
 }
 
-[[noreturn]] void leave(png_structp writer, png_const_charp) { png_longjmp(writer, 1); }
+[[noreturn]] void leave(png_structp writer, png_const_charp why) {
+    Failure& failure = *static_cast<Failure*>(png_get_error_ptr(writer));
+    std::snprintf(failure.why, sizeof failure.why, "%s", why);
+    png_longjmp(writer, 1);
+}
 
 } // namespace
 
 std::vector<std::byte> encodePng(int width, int height, std::span<const uint8_t> texels,
                                  const std::string& name) {
+    Failure failure{"there is no memory left"};
     png_structp writer =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, [](png_structp, png_const_charp) {});
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, leave, [](png_structp, png_const_charp) {});
     png_infop info = writer ? png_create_info_struct(writer) : nullptr;
     std::vector<std::byte> bytes;
     bool isEncoded = false;
     if (info) {
-        png_set_write_fn(writer, &bytes, append, nullptr);
+        constexpr png_uint_32 kMostSide = 0x7fffffff; // of the format; libpng's own limit is a million
+        png_set_user_limits(writer, kMostSide, kMostSide);
+        png_set_write_fn(writer, &bytes, append, [](png_structp) {});
         isEncoded = encode(writer, info, width, height, texels.data());
     }
     png_destroy_write_struct(&writer, &info);
-    if (!isEncoded) throw Error(fmt::format("{}: the PNG encoder failed; is there memory left?", name));
+    if (!isEncoded) throw Error(fmt::format("{}: the PNG encoder failed: {}", name, failure.why));
     return bytes;
 }
 

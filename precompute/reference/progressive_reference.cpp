@@ -155,10 +155,18 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
     RELUME_CHECK_EQ(image.height, mHeight);
     const double even = (mPasses + 1) / 2, odd = mPasses / 2;
     if (odd == 0) return std::nullopt;
-    double errors = 0, squares = 0, differences = 0, variance = 0, alphas = 0, count = 0;
+    double errors = 0, squares = 0, differences = 0, variance = 0, alphas = 0;
+    uint64_t covered = 0, counted = 0; // pixels: in all, and without those of a ground's shadow alone
     for (size_t pixel = 0; pixel < image.pixels.size(); pixel++) {
-        if (std::ranges::none_of(surfacesOf(pixel), [](const auto& hit) { return hit.has_value(); }))
-            continue;
+        const auto surfaces = surfacesOf(pixel);
+        if (std::ranges::none_of(surfaces, [](const auto& hit) { return hit.has_value(); })) continue;
+        covered++;
+        if (!mGroundSample.empty()) {
+            const double alpha =
+                coverageOf(pixel, mGroundLight[0][pixel]) - coverageOf(pixel, mGroundLight[1][pixel]);
+            alphas += alpha * alpha;
+        }
+        if (std::ranges::none_of(surfaces, [&](const auto& hit) { return hit && !isShadow(*hit); })) continue;
         const glm::dvec3 a = glm::max(mHalves[0][pixel] / even, 0.0);
         const glm::dvec3 b = glm::max(mHalves[1][pixel] / odd, 0.0);
         const glm::dvec3 found = glm::dvec3(vec3(image.pixels[pixel]));
@@ -167,19 +175,16 @@ std::optional<ReferenceError> ProgressiveReference::errorOf(const Image& image) 
         differences += glm::dot(a - b, a - b);
         const double swing = 0.5 * (glm::dot(a - found, a - found) - glm::dot(b - found, b - found));
         variance += swing * swing;
-        count += 3;
-        if (mGroundSample.empty()) continue;
-        const double alpha =
-            coverageOf(pixel, mGroundLight[0][pixel]) - coverageOf(pixel, mGroundLight[1][pixel]);
-        alphas += 3 * alpha * alpha;
+        counted++;
     }
-    if (count == 0) return std::nullopt;
+    if (covered == 0) return std::nullopt;
+    const double count = 3 * double(std::max<uint64_t>(counted, 1)); // of channels
     const auto root = [&](double sum) { return std::sqrt(std::max(sum / count, 0.0)); };
     // The variance of one pass is that of A - B over (1 / even + 1 / odd).
     return ReferenceError{.rmse = root(errors),
                           .level = root(squares),
                           .noise = root(differences * even * odd) / double(mPasses),
-                          .alphaNoise = root(alphas * even * odd) / double(mPasses),
+                          .alphaNoise = std::sqrt(alphas / double(covered) * even * odd) / double(mPasses),
                           .square = errors / count,
                           .squareNoise = std::sqrt(variance) / count};
 }

@@ -63,8 +63,8 @@ class ProgressiveReference {
     // Returns the means of the even and the odd passes, whose noise is independent. Needs two passes.
     std::array<Image, 2> halves() const;
 
-    // Returns the error of an image of this size, ignoring its alpha; none before the second pass or if
-    // nothing is visible.
+    // Returns the error of an image of this size, ignoring its alpha and pixels of nothing but a ground's
+    // shadow; none before the second pass or if nothing is visible.
     std::optional<ReferenceError> errorOf(const Image& image) const;
 
   private:

@@ -308,6 +308,11 @@ TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, witho
                0);
     for (const char* frame : {"turn_0001.png", "turn_0002.png", "turn_0003.png"})
         CHECK(contents(folder.path() / frame).starts_with("\x89PNG"));
+    // A frame that another thread cannot write ends the program as one that it cannot write itself.
+    std::filesystem::create_directory(folder.path() / "hit_0002.png");
+    const Outcome hit = runRelume(folder, "render a.relume -o hit.png --size 32x24 --frames 40 --turn light");
+    CHECK_EQ(hit.exitCode, 1);
+    CHECK(says(hit.err, "hit_0002.png: cannot be written: it is a folder"));
 
     const Outcome verify = runRelume(folder, "verify a.relume --samples 10 --json" + validated);
     REQUIRE_EQ(verify.exitCode, 0);

@@ -544,7 +544,7 @@ TEST_CASE("view pass: a pixel of several samples shows each surface by its share
             }
         CHECK_LT(worst, tolerance);
         CHECK_LT(300, edges);
-        CHECK_LT(50, partly);
+        CHECK_LT(isSoftware(device) ? 100 : 50, partly);
         CHECK_LT(differ, edges / 20);
         MESSAGE(samples, " samples: ", differ, " of ", edges, " edge pixels differ, ", partly,
                 " half covered");

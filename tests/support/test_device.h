@@ -15,9 +15,9 @@ inline bool roundsFinely(const vk::Device& device) { return device.limits().subP
 // than their rays meet. On SwiftShader 7 of a knot's 1,268 pixels do; the others have the bits of lavapipe's.
 inline double silhouetteError(const vk::Device& device) { return roundsFinely(device) ? 0 : 0.06; }
 
-// Returns whether shaders that differ give equal floats, and samplers filter with float weights. Software
-// devices do; GPUs contract expressions as it suits each shader, and round weights to about 8 bits.
-inline bool isSoftware(const vk::Device& device) { return device.info().type == "software"; }
+// Returns whether shaders that differ give equal floats, and samplers filter float texels with float weights.
+// Software devices do; GPUs contract expressions as it suits each shader, and round weights to about 8 bits.
+inline bool isSoftware(const vk::Device& device) { return device.info().isSoftware; }
 
 // Returns the share of the largest radiance by which the rounding of samplers may change a pixel of random
 // maps: 0.3 to 1.1 % on an H200.

@@ -284,6 +284,16 @@ TEST_CASE("image file: what is no image is refused") {
     CHECK_THROWS_AS(writePng(folder.path() / "absent" / "image.png", randomImage(2, 2)), Error);
 }
 
+TEST_CASE("image file: a PNG is as wide as an image may be") {
+    Image image(1'000'001, 1); // libpng's own limit is a million
+    image.at(1'000'000, 0) = vec4(1);
+    const auto path = folder.path() / "wide.png";
+    writePng(path, image);
+    int width, height, channels;
+    REQUIRE(stbi_info(path.c_str(), &width, &height, &channels));
+    CHECK(width == 1'000'001);
+}
+
 TEST_CASE("image file: PNG rounds display values to 8 bits") {
     Image image(3, 2);
     image.at(0, 0) = {0, 0.5f, 1, 1};

@@ -18,6 +18,33 @@ json set(const char* name, const json& value) { return {{"set", {{name, value}}}
 
 } // namespace
 
+TEST_CASE("viewer: a ground is a shadow on the background in the reference, too") {
+    Session& session = sharedSession();
+    const Outcome outcome = session.replay({{{"resize", {320, 240}}},
+                                            {{"frames", 3}},
+                                            {{"set", {{"panels", false}, {"tone", "none"}, {"exposure", 0}}}},
+                                            settled(),
+                                            shot("shadow.png"),
+                                            set("compare", "reference"),
+                                            passes(16),
+                                            shot("shadow-reference.png"),
+                                            set("compare", "difference"),
+                                            passes(2),
+                                            shot("shadow-difference.png"),
+                                            {{"set", {{"compare", "off"}, {"ground-style", "whole"}}}},
+                                            {{"frames", 2}},
+                                            shot("whole.png"),
+                                            {{"quit", true}}},
+                                           "ring.relume room.exr");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    const auto image = [&](const char* file) { return windowImage(session.path(file)); };
+    const Image shadow = image("shadow.png"), reference = image("shadow-reference.png"),
+                whole = image("whole.png");
+    CHECK_LT(meanDifference(reference, shadow), 0.2 * meanDifference(whole, shadow));
+    CHECK_GT(differingPixels(image("shadow-difference.png"), shadow), 1000);
+}
+
 TEST_CASE("viewer: the reference is beside the view, alone and as a difference, and follows the view") {
     Session& session = sharedSession();
     // Panels and background are not in the way, and tone curves bend nothing.
