@@ -134,7 +134,8 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
         const Image drawn = relit(device, asset, sky), exact = reference(asset, sky, ReferenceBrdf::Exact);
         const double error = compareImages(drawn, exact).relativeRmse;
         MESSAGE("turned by ", degrees, " degrees: ", error);
-        CHECK_LE(error, 0.029); // without interpolation of turns or phases it is 0.03 and more
+        // Without interpolation of turns or phases it is 0.03 and more.
+        CHECK_LE(error, 0.029 + silhouetteError(device));
         images.push_back(drawn);
     }
     // The turn is seen.
