@@ -5,8 +5,8 @@
 // finds the N-th largest. It starts with the largest key of each block: if N blocks have a key of at least b, the
 // N-th largest is at least b. Only blocks that reach b are then read, and of their keys those that reach it are
 // searched. They are listed if they fit; if not, those that reach a higher bound are, which is found by counting all of
-// these keys in the same bins. If even these do not fit, the search goes through all slots of these blocks repeatedly. The selection is
-// stored as a bit per coefficient, so that it comes out in order. One work-group per row.
+// these keys in the same bins. If even these do not fit, the search goes through all slots of these blocks repeatedly.
+// The selection is stored as a bit per coefficient, so that it comes out in order. One work-group per row.
 // CPU twin: selectLargest() in precompute/twins/transport_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -29,7 +29,8 @@ const uint kCount = 6 * kFaceSize * kFaceSize;
 const uint kWords = kCount / 32;
 const uint kBlocks = HAAR_BLOCKS(kFaceSize);
 const uint kBins = 256;
-const uint kCapacity = 736; // of the list of keys. All that is shared fits in 20 KiB (whyUnsuitable())
+// Capacity of the list of keys. With it, shared memory takes less than the 20 KiB that whyUnsuitable() demands.
+const uint kCapacity = 736;
 
 shared uint bins[kBins];
 shared uvec2 laneSums[kLanes];
@@ -155,7 +156,7 @@ void main() {
         reaching += bitCount(slots);
     }
     place = sumBefore(uvec2(reaching, 0)).x;
-    if (total.x > kCapacity) {
+    if (total.x > kCapacity) { // too many for the list: finds a higher bound, and drops those below it
         clearBins();
         for (uint i = lane; i < readBlocks; i += kLanes)
             for (uint slots = blockList[i] >> 16; slots != 0; slots &= slots - 1)

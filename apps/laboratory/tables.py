@@ -78,7 +78,8 @@ def table_1(setup: Setup) -> Section:
         chapter.findings.append(
             f"Table 1: bakes in the paper's way take {range_text(ms)} ms a vertex; the paper reports "
             f"{range_text(speed)} times as much for its machine of 2004. Transport takes "
-            f"{range_text(bytes_of_rows)} times the paper's bytes a vertex; in bases, {range_text(share for share in bases if share)} times.")
+            f"{range_text(bytes_of_rows)} times the paper's bytes a vertex; in bases, "
+            f"{range_text(share for share in bases if share)} times.")
 
     return Section(title, [step_of(scene, terms) for scene in scenes for terms in PAPER_TERMS], write)
 

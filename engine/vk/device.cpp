@@ -104,7 +104,7 @@ bool matches(const DeviceInfo& info, const std::string& select) {
 
 VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* device) {
-    // What the layer itself does without on a device is no fault of the program.
+    // The layer warns of checks that it cannot make on a device, which is no fault of the program.
     constexpr std::string_view kDoesWithout = "UNASSIGNED-GPU-Assisted Validation Warning";
     if (data->pMessageIdName && data->pMessageIdName == kDoesWithout) {
         log(LogLevel::Info,
