@@ -15,6 +15,7 @@ namespace {
 // several times as long for a tenth less.
 constexpr int kFilter = PNG_FILTER_SUB, kLevel = 4;
 
+// Keeps what libpng says of a failure, until an error can be thrown.
 struct Failure {
     char why[128] = "";
 };
