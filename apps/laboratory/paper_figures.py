@@ -84,7 +84,7 @@ def figure_3(setup: Setup) -> Section:
         chapter.say(
             "The paper varies how many coefficients a transport vector keeps, and finds 96 to give visually good "
             f"shadows. The same here, for a diffuse bunny under {light.name} on a ground of {(quads + 1) ** 2} "
-            "vertices, the same for all N: coarser than the paper's 22,201, since lossless transport of these would be "
+            "vertices, the same for all N: coarser than the paper's 22K, since lossless transport of these would be "
             "too large for a device. What lossless transport leaves is the ground's vertices being far apart, and a "
             f"light of 6 x 64² texels held against a reference of 6 x {light.face_size}², and shadows of a simplified "
             "occluder.")
@@ -257,7 +257,7 @@ def scenes(setup: Setup) -> Section:
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
             "Each in the paper's way (its factorization, K = 4, rows of 96 coefficients, the light above its threshold "
-            "of 1024), as relume bakes and renders it if asked for nothing (K = 8, bases, 512 coefficients of the "
+            "of 1024), with relume's defaults for direct light without refinement (K = 8, bases, 512 coefficients of the "
             "light), and the reference: exact BRDF, full mesh, light of 6 x 256² texels.")
         chapter.say(setup.scale.note)
         rows, errors = [], []

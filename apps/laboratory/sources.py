@@ -67,7 +67,7 @@ def sources(setup: Setup) -> Section:
             "transport as it was before it was stored, then all its coefficients, its own instead of its triangle's "
             "corners', all terms of the tabulated BRDF, the BRDF itself, taken as finely as rays are cast, the light's "
             "own resolution, the full mesh, and 6 x 512² rays. What a stage changes is the error of what it replaces. "
-            "Baked with relume's defaults.")
+            "Baked with relume's defaults for direct light, without refinement.")
         chapter.say(scale.note)
         _add_error_tables(chapter, [([str(model), material, light.name], numbers) for name, model, material in studies
                                     for light, numbers in zip(lights, results[name])])
