@@ -3,8 +3,8 @@
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
 
+#include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace relume {
 
@@ -32,11 +32,11 @@ LightCube lowOrderLight(const LightCube& light, int order) {
     const int size = light.size;
     const size_t texels = light.radiance.size(), bands = size_t(order) * size_t(order);
     std::vector<std::vector<float>> values(texels);
-    tbb::parallel_for(0, kCubeFaces * size, [&](int row) {
+    // In one thread: std::sph_legendre() calls lgamma(), which writes a global variable.
+    for (int row = 0; row < kCubeFaces * size; row++)
         for (int x = 0; x < size; x++)
             values[size_t(row * size + x)] =
                 harmonics(cubeTexelDirection(row / size, x, row % size, size), order);
-    });
     std::vector<glm::dvec3> coefficients(bands, glm::dvec3(0));
     for (size_t texel = 0; texel < texels; texel++) {
         const int x = int(texel) % size, y = int(texel) / size % size;

@@ -1,0 +1,173 @@
+// What repeats for hours takes no more memory, opens no more files, and ends with the bits that it began
+// with. The counts are of a test; RELUME_SOAK=1 (scripts/soak) makes them those of a long use.
+#include "engine/import/builtin_mesh.h"
+#include "engine/import/scene.h"
+#include "engine/render/view_pass.h"
+#include "precompute/bake/bake.h"
+#include "tests/support/temporary_folder.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <malloc.h>
+#include <optional>
+#include <string>
+
+using namespace relume;
+using namespace relume::test;
+
+namespace {
+
+// Validation keeps some megabytes for every pipeline that ever was (layer 1.3.239).
+const vk::DeviceOptions kUnchecked{.validation = ""};
+
+int repeats(int usual, int soak) { return std::getenv("RELUME_SOAK") ? soak : usual; }
+
+// What a process holds. The software device's memory is the process's own.
+struct Held {
+    size_t heapBytes;
+    size_t deviceAllocations;
+    size_t files; // open
+};
+
+Held heldNow(const vk::Device& device) {
+    malloc_trim(0);
+    const struct mallinfo2 heap = mallinfo2();
+    const auto files = std::filesystem::directory_iterator("/proc/self/fd");
+    return {heap.uordblks + heap.hblkhd, device.memory().allocations(),
+            size_t(std::distance(begin(files), end(files)))};
+}
+
+// Calls step(i) `count` times, and finds that the last nine tenths of these hold on to nothing.
+template <typename Step>
+void checkFlat(const char* what, const vk::Device& device, int count, const Step& step) {
+    std::optional<Held> first;
+    for (int i = 0; i < count; i++) {
+        if (i == count / 10) first = heldNow(device); // caches are filled
+        step(i);
+    }
+    const Held last = heldNow(device);
+    const double growth = double(last.heapBytes) / double(first->heapBytes) - 1;
+    MESSAGE(std::string(what), ": ", count, " times; heap ", first->heapBytes, " bytes, then ", 100 * growth,
+            " % more; ", first->deviceAllocations, " allocations of the device, ", first->files,
+            " open files");
+#ifndef RELUME_SANITIZE // sanitizers have a heap of their own
+    CHECK_LE(growth, 0.01);
+#endif
+    CHECK_EQ(last.deviceAllocations, first->deviceAllocations);
+    CHECK_EQ(last.files, first->files);
+}
+
+// A ball in one of two materials of a set, over a plane.
+Scene twoParts() {
+    Scene scene;
+    Mesh plane = makePlane(8, 3);
+    for (vec3& position : plane.positions) position.y -= 1;
+    scene.parts.push_back({"ball", makeSphere(3), R"({"set": ["gold", "red-plastic"]})", "", ""});
+    scene.parts.push_back({"plane", std::move(plane), "white-diffuse", "", ""});
+    return scene;
+}
+
+Asset bakeTwoParts(const vk::Device& device) {
+    BakeOptions options;
+    options.factorization.terms = 3;
+    options.visibilitySize = 64;
+    options.coefficients = 96;
+    return bake(device, twoParts(), options);
+}
+
+constexpr int kWidth = 96, kHeight = 72;
+const Camera kCamera{{0, 1.5f, 4}, {0, 0, 0}, 0.8f};
+
+// Draws an asset as a program does that changes light, look and size.
+class Drawing {
+  public:
+    Drawing(const vk::Device& device, const Asset& asset)
+        : mAsset(asset), mLight(device, asset.faceSize), mRelighter(device, asset),
+          mView(device, asset, {.width = kWidth, .height = kHeight}), mCommands(device, "drift test"),
+          mAppearance(defaultAppearance(asset)) {}
+
+    // A lamp that turns about the scene and is back after a hundred steps.
+    void setLight(int step) {
+        const float angle = 0.0628318f * float(step % 100);
+        mLight.setLight({.lamps = {{glm::normalize(vec3(std::cos(angle), 1, std::sin(angle))), 0.2f, vec3(9)},
+                                   {vec3(0, 1, 0), 0.5f, vec3(1)}}});
+    }
+    void bind(const std::string& material) {
+        bindMaterials(mAppearance, mAsset, std::vector<WeightedMaterial>{{material}});
+        mView.setAppearance(mAppearance);
+    }
+    ViewPass& view() { return mView; }
+
+    void relight() {
+        mCommands.begin();
+        mLight.record(mCommands);
+        mRelighter.record(mCommands, mLight, mAppearance);
+        mCommands.submitAndWait();
+    }
+    std::vector<vec3> tuples() const { return mRelighter.readTuples(0); }
+    Image draw() {
+        relight();
+        return mView.render(kCamera, mRelighter);
+    }
+
+  private:
+    const Asset& mAsset;
+    LightPass mLight;
+    Relighter mRelighter;
+    ViewPass mView;
+    vk::Commands mCommands;
+    Appearance mAppearance;
+};
+
+} // namespace
+
+TEST_CASE("drift: light that changes takes no memory, and comes back to its bits") {
+    const vk::Device device(kUnchecked);
+    const Asset asset = bakeTwoParts(device);
+    Drawing drawing(device, asset);
+    drawing.setLight(0);
+    drawing.relight();
+    const std::vector<vec3> first = drawing.tuples();
+    const int count = repeats(300, 10'000);
+    checkFlat("relights", device, count, [&](int i) {
+        drawing.setLight(count - 1 - i); // ends with the first
+        drawing.relight();
+    });
+    CHECK(drawing.tuples() == first);
+}
+
+TEST_CASE("drift: bakes are loaded, drawn and dropped without a trace") {
+    const vk::Device device(kUnchecked);
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.path() / "drift.relume";
+    writeAsset(path, bakeTwoParts(device));
+    std::optional<Image> first;
+    checkFlat("loads", device, repeats(10, 1'000), [&](int) {
+        const Asset asset = readAsset(path);
+        Drawing drawing(device, asset);
+        drawing.setLight(7);
+        const Image image = drawing.draw();
+        if (!first) first = image;
+        CHECK(image.pixels == first->pixels);
+    });
+}
+
+TEST_CASE("drift: swaps of materials and sizes of images leave nothing behind") {
+    const vk::Device device(kUnchecked);
+    const Asset asset = bakeTwoParts(device);
+    Drawing drawing(device, asset);
+    drawing.setLight(7);
+    const Image first = drawing.draw();
+    checkFlat("swaps and resizes", device, repeats(20, 1'000), [&](int i) {
+        drawing.bind(i % 2 == 0 ? "red-plastic" : "gold");
+        drawing.view().setSamples(i % 3 == 0 ? 1 : 4);
+        drawing.view().resize(kWidth + i % 7 * 16, kHeight + i % 5 * 8);
+        drawing.draw();
+    });
+    drawing.bind("gold");
+    drawing.view().setSamples(ViewOptions{}.samples);
+    drawing.view().resize(kWidth, kHeight);
+    CHECK(drawing.draw().pixels == first.pixels);
+}
