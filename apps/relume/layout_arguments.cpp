@@ -13,9 +13,10 @@ void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
     for (const LayoutFacts& facts : kLayoutFacts) names.push_back(facts.name);
     const LayoutOptions defaults;
     command
-        .add_option("--layout", mLayout,
-                    "How transport is kept. bases: 256 vertices share basis vectors, smallest and fastest; "
-                    "rows: each vertex its own coefficients")
+        .add_option(
+            "--layout", mLayout,
+            "How transport is kept. bases: 256 vertices share basis vectors, smallest, fastest on CPUs; "
+            "rows: each vertex its own coefficients")
         ->check(CLI::IsMember(names))
         ->type_name("LAYOUT")
         ->default_str(hasDefaults ? layoutName(defaults.layout) : "the bake's own");

@@ -34,7 +34,7 @@ std::vector<KeyHelp> keyHelp() {
         {"I", "inspect: wireframe, normals, density of triangles, off"},
         {"L", "the light vector, as given and as kept"},
         {"W", "why the vertex under the cursor has its color"},
-        {"Tab, H, Escape", "panels, this help, close it"},
+        {"Tab, H, Escape", "panels, this help, close it or why"},
         {"F5", "build the shaders anew"},
         {"F9", "start and stop a timing capture"},
         {"F11", "full screen"},
@@ -137,7 +137,7 @@ Command Controls::takeKey(const InputEvent& event, SceneState& state) {
         state.showsHelp = !state.showsHelp;
         return Command::None;
     case GLFW_KEY_ESCAPE:
-        state.showsHelp = false;
+        state.showsHelp = state.showsExplanation = false;
         return Command::None;
     case GLFW_KEY_E:
         return Command::NextEnvironment;

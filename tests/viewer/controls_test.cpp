@@ -194,8 +194,10 @@ TEST_CASE("controls: keys") {
     hand.key(GLFW_KEY_SPACE);
     CHECK(hand.state.light.plays);
     hand.key(GLFW_KEY_H);
+    hand.state.showsExplanation = true;
     hand.key(GLFW_KEY_ESCAPE);
     CHECK_FALSE(hand.state.showsHelp);
+    CHECK_FALSE(hand.state.showsExplanation);
     for (const Compare next : {Compare::Split, Compare::Reference, Compare::Difference, Compare::Off}) {
         hand.key(GLFW_KEY_C);
         CHECK_EQ(hand.state.compare, next);
