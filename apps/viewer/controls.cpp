@@ -34,7 +34,7 @@ std::vector<KeyHelp> keyHelp() {
         {"I", "inspect: wireframe, normals, density of triangles, off"},
         {"L", "the light vector, as given and as kept"},
         {"W", "why the vertex under the cursor has its color"},
-        {"Tab, H, Escape", "panels, this help, close it or why"},
+        {"Tab, H, Escape", "panels, this help, close help and explanation"},
         {"F5", "build the shaders anew"},
         {"F9", "start and stop a timing capture"},
         {"F11", "full screen"},

@@ -1,5 +1,5 @@
-// What repeats for hours takes no more memory, opens no more files, and ends with the bits that it began
-// with. The counts are of a test; RELUME_SOAK=1 (scripts/soak) makes them those of a long use.
+// Tests that relights, loads and swaps, repeated, take no more memory, open no more files, and end with the
+// bits that they began with. RELUME_SOAK=1 (scripts/soak) repeats them as often as a long use does.
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
 #include "engine/render/view_pass.h"
@@ -24,7 +24,7 @@ const vk::DeviceOptions kUnchecked{.validation = ""};
 
 int repeats(int usual, int soak) { return std::getenv("RELUME_SOAK") ? soak : usual; }
 
-// What a process holds. The software device's memory is the process's own.
+// The memory and files that this process holds. A software device's memory is part of the heap.
 struct Held {
     size_t heapBytes;
     size_t deviceAllocations;
