@@ -1,4 +1,3 @@
-#include "engine/base/error.h"
 #include "precompute/brdf/models.h"
 
 #include <algorithm>
@@ -60,20 +59,19 @@ Lobe readLobe(MaterialParameters& parameters) {
     lobe.y = parameters.requiredColor("cy", {-10, 10});
     lobe.z = parameters.requiredColor("cz", {-10, 10});
     lobe.exponent = parameters.requiredColor("n", {0, 1e4f});
-    parameters.rejectUnknownKeys();
+    parameters.noteUnknownKeys();
     return lobe;
 }
 
-// Throws if a lobe peaks too high. Its base is at most the largest of |cx|, |cy| and cz, since ωi.z ωo.z is
+// Notes it if a lobe peaks too high. Its base is at most the largest of |cx|, |cy| and cz, since ωi.z ωo.z is
 // never negative.
-void checkPeak(const Lobe& lobe) {
+void checkPeak(const Lobe& lobe, MaterialParameters& parameters) {
     for (int c = 0; c < 3; c++) {
         const float base = std::max({std::abs(lobe.x[c]), std::abs(lobe.y[c]), lobe.z[c], 0.0f});
         if (!(std::pow(base, lobe.exponent[c]) <= kMaxPeak))
-            throw UsageError(fmt::format(
-                "material lafortune: a lobe of base {} and exponent {} peaks above {} sr⁻¹; lower "
-                "\"n\" or the coefficients",
-                base, lobe.exponent[c], kMaxPeak));
+            parameters.noteFault(fmt::format("a lobe of base {} and exponent {} peaks above {} sr⁻¹; lower "
+                                             "\"n\" or the coefficients",
+                                             base, lobe.exponent[c], kMaxPeak));
     }
 }
 
@@ -84,7 +82,7 @@ std::unique_ptr<Brdf> makeLafortune(MaterialParameters& parameters) {
     std::vector<Lobe> lobes;
     for (MaterialParameters& item : parameters.list("lobes", kMaxLobes)) {
         lobes.push_back(readLobe(item));
-        checkPeak(lobes.back());
+        checkPeak(lobes.back(), item);
     }
     return std::make_unique<Lafortune>(diffuse, std::move(lobes));
 }

@@ -1,8 +1,10 @@
-// Reads the parameters of a BRDF model from a JSON object and checks types and ranges.
+// Reads the parameters of a BRDF model from a JSON object, checks types and ranges, and tells all faults at
+// once.
 #pragma once
 
 #include "engine/math/vector.h"
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -20,7 +22,8 @@ struct MaterialParameter {
     std::string fallback; // as JSON; empty if the parameter is required
 };
 
-// All readers throw UsageError naming the parameter, its valid range and what was found.
+// Readers note what is wrong with the parameter, its valid range and what was found, and return a valid value
+// in its place; a model's maker reads everything before rejectFaults() throws.
 class MaterialParameters {
   public:
     // `owner` names the object in messages ("plastic"). Throws if `object` is not a JSON object.
@@ -34,23 +37,34 @@ class MaterialParameters {
     vec3 color(const std::string& key, vec3 fallback, ParameterRange range);
     // Returns the same for a key that must be present.
     vec3 requiredColor(const std::string& key, ParameterRange range);
-    // Returns a text that must be present; text() returns `fallback` if it is absent.
+    // Returns a text that must be present and not empty; text() returns `fallback` if it is absent.
     std::string requiredText(const std::string& key);
     std::string text(const std::string& key, const std::string& fallback);
-    // Returns an array of at most `limit` objects, which must be present.
+    // Returns an array of at most `limit` objects, which must be present; their faults are noted here.
     std::vector<MaterialParameters> list(const std::string& key, size_t limit);
 
-    // Throws if the object has a key that was not read, naming the nearest one that was.
-    void rejectUnknownKeys() const;
+    // Notes what is wrong with several parameters together.
+    void noteFault(const std::string& fault);
+    // Notes each key of the object that was not read, with the nearest one that was.
+    void noteUnknownKeys();
+    // Throws UsageError with all that was noted, unknown keys first: they may be why others are missing.
+    void rejectFaults() const;
 
     // Returns every parameter read so far. This documents a model: its parameters are known only to the code
     // that reads them.
     const std::vector<MaterialParameter>& asked() const { return mAsked; }
 
   private:
-    const nlohmann::json* find(const std::string& key, std::string values, std::string fallback);
+    struct Faults {
+        std::vector<std::string> unknownKeys, others;
+    };
 
-    std::string mOwner;
+    const nlohmann::json* find(const std::string& key, std::string values, std::string fallback);
+    std::string place() const; // in front of a fault of an item of a list
+    vec3 readColor(const std::string& key, const nlohmann::json& value, vec3 fallback, ParameterRange range);
+
+    std::string mOwner, mItem; // mItem: "lobes[2]" of a list's item, else empty
+    std::shared_ptr<Faults> mFaults = std::make_shared<Faults>(); // shared with the items of lists
     nlohmann::json mObject;
     std::vector<MaterialParameter> mAsked;
 };

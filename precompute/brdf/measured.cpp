@@ -35,16 +35,16 @@ class Measured final : public Brdf {
     std::string mPath, mHash;
 };
 
-// Returns the path; throws unless a description can hold it as text.
+// Returns the path; notes it if a description cannot hold it as text.
 std::filesystem::path readPath(MaterialParameters& parameters) {
     const std::string text = parameters.requiredText("measured");
-    if (text.empty() || text.size() > kMaxPathLength || text.find('\0') != std::string::npos)
-        throw UsageError(
-            fmt::format("material: \"measured\" must be a path of 1 to {} characters", kMaxPathLength));
+    if (text.size() > kMaxPathLength || text.find('\0') != std::string::npos)
+        parameters.noteFault(
+            fmt::format("\"measured\" must be a path of at most {} characters", kMaxPathLength));
     try {
         (void)nlohmann::json(text).dump();
     } catch (const nlohmann::json::exception&) {
-        throw UsageError("material: \"measured\" must be a path in UTF-8");
+        parameters.noteFault("\"measured\" must be a path in UTF-8");
     }
     return text;
 }
@@ -58,12 +58,13 @@ IsotropicTable parse(const std::vector<std::byte>& bytes, const std::filesystem:
 } // namespace
 
 std::unique_ptr<Brdf> makeMeasured(MaterialParameters& parameters, const std::filesystem::path& folder) {
-    // Make it absolute, so that a bake finds its material from any folder.
-    const std::filesystem::path path =
-        std::filesystem::absolute(folder / readPath(parameters)).lexically_normal();
+    const std::filesystem::path given = readPath(parameters);
     const float scale = parameters.number("scale", 1, {0, 1000});
     const std::string expected = parameters.text("hash", "");
-    parameters.rejectUnknownKeys();
+    parameters.noteUnknownKeys();
+    parameters.rejectFaults();
+    // Make it absolute, so that a bake finds its material from any folder.
+    const std::filesystem::path path = std::filesystem::absolute(folder / given).lexically_normal();
     std::error_code failure;
     if (!std::filesystem::exists(path, failure))
         throw Error(fmt::format(

@@ -48,7 +48,8 @@ std::unique_ptr<Brdf> makeModel(const std::string& name, const json& parameters)
         if (name != model.name) continue;
         MaterialParameters reader(name, parameters);
         auto brdf = model.make(reader);
-        reader.rejectUnknownKeys();
+        reader.noteUnknownKeys();
+        reader.rejectFaults();
         return brdf;
     }
     const std::vector<std::string_view> names = modelNames();

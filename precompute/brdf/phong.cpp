@@ -1,4 +1,3 @@
-#include "engine/base/error.h"
 #include "precompute/brdf/models.h"
 
 #include <cmath>
@@ -39,11 +38,10 @@ class Phong final : public Brdf {
 std::unique_ptr<Brdf> makePhong(MaterialParameters& parameters) {
     const vec3 diffuse = parameters.color("kd", vec3(0.4f), {0, 1});
     const vec3 specular = parameters.color("ks", vec3(0.3f), {0, 1});
-    for (int c = 0; c < 3; c++)
-        if (diffuse[c] + specular[c] > 1.00001f) // tolerates rounding of decimals that add to one
-            throw UsageError(
-                fmt::format("material phong: \"kd\" + \"ks\" must be at most 1 per channel, but is {} + {}",
-                            diffuse[c], specular[c]));
+    // The slack is for decimals that add to one but for rounding.
+    if (glm::any(glm::greaterThan(diffuse + specular, vec3(1.00001f))))
+        parameters.noteFault(fmt::format("\"kd\" + \"ks\" must be at most 1 per channel, but is {} + {}",
+                                         colorToJson(diffuse).dump(), colorToJson(specular).dump()));
     const float exponent = parameters.number("exponent", 30, {0, 1e5f});
     return std::make_unique<Phong>(diffuse, specular, exponent);
 }

@@ -1,4 +1,3 @@
-#include "engine/base/error.h"
 #include "engine/math/disk_map.h"
 #include "precompute/brdf/microfacet.h"
 #include "precompute/brdf/models.h"
@@ -44,7 +43,7 @@ std::unique_ptr<Brdf> makePlastic(MaterialParameters& parameters) {
     vec3 reflectance = parameters.color("f0", vec3(0.04f), {0, 1});
     const float index = parameters.number("index", 1.5f, {1, 5});
     if (parameters.has("index")) {
-        if (parameters.has("f0")) throw UsageError("material plastic: give \"f0\" or \"index\", not both");
+        if (parameters.has("f0")) parameters.noteFault("give \"f0\" or \"index\", not both");
         const float ratio = (index - 1) / (index + 1);
         reflectance = vec3(ratio * ratio);
     }

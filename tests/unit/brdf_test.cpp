@@ -261,6 +261,25 @@ TEST_CASE("brdf: unknown names lead to the nearest valid one") {
     CHECK(contains(usageError(R"({"model": "plastic", "rougness": 0.1})"), "did you mean \"roughness\""));
 }
 
+TEST_CASE("brdf: all faults of a material are told at once, misspelt parameters first") {
+    CHECK(usageError(R"({"model": "plastic", "f0": 7, "rougness": 0.1, "index": 9})") ==
+          "material plastic has 4 faults:\n"
+          "  unknown parameter \"rougness\"; did you mean \"roughness\"?\n"
+          "  \"f0\" must be a number from 0 to 1, or [red, green, blue] of such, but is 7\n"
+          "  \"index\" must be a number from 1 to 5, but is 9\n"
+          "  give \"f0\" or \"index\", not both");
+    CHECK(usageError(R"({"model": "lafortune", "lobes": [3, {"cx": 0, "cy": 0, "cz": 1, "m": 2}]})") ==
+          "material lafortune has 3 faults:\n"
+          "  lobes[1]: unknown parameter \"m\"; did you mean \"n\"?\n"
+          "  lobes[0] must be a JSON object of parameters, but is 3\n"
+          "  lobes[1]: \"n\" is missing; give a number from 0 to 10000, or [red, green, blue]");
+    std::string many = R"({"model": "diffuse")";
+    for (int i = 0; i < 30; i++) many += fmt::format(R"(, "albedo{}": 1)", i);
+    const std::string error = usageError(many + "}");
+    CHECK(contains(error, "has 30 faults"));
+    CHECK(error.ends_with("\n  and 10 more"));
+}
+
 TEST_CASE("brdf: wrong parameters are named with their range") {
     const std::string error = usageError(R"({"model": "plastic", "roughness": 2})");
     CHECK(contains(error, "\"roughness\""));
