@@ -24,6 +24,7 @@ layout(constant_id = 7) const uint kHarmonics = 0; // most harmonics of a bound 
 layout(constant_id = 8) const bool kTangents = false; // frames follow from vertex tangents; else from normals
 const uint kEstimate = kDrawn & ~kShadow;
 const bool kShowsShadow = (kDrawn & kShadow) != 0;
+const uint kLights = 2; // the whole light, and its fill
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGray ? kQuads : (3 * kTerms + 3) / 4;
@@ -38,12 +39,14 @@ TEXELS(1, uvec4, usamplerBuffer, Triangles, triangles); // three corners, fourth
 TEXELS(2, vec4, samplerBuffer, Vertices, vertices);     // ViewVertex: kVertexTexels
 #ifdef PORTABLE
 layout(binding = 3, std430) readonly buffer Tuples { float tuples[]; };
-float tupleOf(int i) { return tuples[i]; }
-vec4 fourOf(int i) { return vec4(tuples[4 * i], tuples[4 * i + 1], tuples[4 * i + 2], tuples[4 * i + 3]); }
+layout(binding = 15, std430) readonly buffer FillTuples { float fillTuples[]; };
+#define ONE_OF(from, i) from[i]
+#define FOUR_OF(from, i) vec4(from[4 * (i)], from[4 * (i) + 1], from[4 * (i) + 2], from[4 * (i) + 3])
 #else
 layout(binding = 3) uniform samplerBuffer tuples; // texels of four floats if kWholeQuads, else of one
-float tupleOf(int i) { return texelFetch(tuples, i).x; }
-vec4 fourOf(int i) { return texelFetch(tuples, i); }
+layout(binding = 15) uniform samplerBuffer fillTuples; // the same of the fill
+#define ONE_OF(from, i) texelFetch(from, i).x
+#define FOUR_OF(from, i) texelFetch(from, i)
 #endif
 layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
 layout(binding = 5, scalar) readonly buffer Layers {
@@ -88,21 +91,21 @@ void keepTerms(inout Quad q, uint terms) {
     q.c *= kept.zwww;
 }
 
-void addTuple(inout Quad sum, float weight, uint vertex, uint quad) {
-    if (kWholeQuads) {
-        const int first = int((vertex * kQuads + quad) * 3);
-        sum.a += weight * fourOf(first);
-        sum.b += weight * fourOf(first + 1);
-        sum.c += weight * fourOf(first + 2);
-    } else {
-        const uint first = 3 * (vertex * kTerms + 4 * quad), channels = min(12, 3 * (kTerms - 4 * quad));
-        for (uint i = 0; i < 4; i++) {
-            if (i < channels) sum.a[i] += weight * tupleOf(int(first + i));
-            if (4 + i < channels) sum.b[i] += weight * tupleOf(int(first + 4 + i));
-            if (8 + i < channels) sum.c[i] += weight * tupleOf(int(first + 8 + i));
-        }
+// Adds four terms of a vertex's tuple, from `tuples` or `fillTuples`.
+#define ADD_TUPLE(sum, weight, from, vertex, quad)                                                                     \
+    if (kWholeQuads) {                                                                                                 \
+        const int first = int(((vertex) * kQuads + (quad)) * 3);                                                       \
+        sum.a += (weight) * FOUR_OF(from, first);                                                                      \
+        sum.b += (weight) * FOUR_OF(from, first + 1);                                                                  \
+        sum.c += (weight) * FOUR_OF(from, first + 2);                                                                  \
+    } else {                                                                                                           \
+        const uint first = 3 * ((vertex) * kTerms + 4 * (quad)), channels = min(12, 3 * (kTerms - 4 * (quad)));        \
+        for (uint i = 0; i < 4; i++) {                                                                                 \
+            if (i < channels) sum.a[i] += (weight) * ONE_OF(from, int(first + i));                                     \
+            if (4 + i < channels) sum.b[i] += (weight) * ONE_OF(from, int(first + 4 + i));                             \
+            if (8 + i < channels) sum.c[i] += (weight) * ONE_OF(from, int(first + 8 + i));                             \
+        }                                                                                                              \
     }
-}
 
 // Returns the weight of a layer where the surface has this paint and base color.
 vec3 layerWeight(ViewLayer layer, vec4 paint, vec3 base) {
@@ -141,9 +144,10 @@ Quad tupleAt(float azimuth, float row, uint rows, uint band, uint image) {
                 textureLod(unshadowedTuples, vec3(place, image + 2), 0));
 }
 
-// Returns four terms of the unshadowed tuple, interpolated between normals and turns.
-Quad unshadowedTuple(TuplePlace at, uint quad) {
-    const uint image = push.firstTuples + 3 * quad;
+// Returns four terms of the unshadowed tuple of the whole light (`lit` 0) or its fill (1), interpolated between
+// normals and turns.
+Quad unshadowedTuple(TuplePlace at, uint quad, uint lit) {
+    const uint image = lit * uint(textureSize(unshadowedTuples, 0).z) / kLights + push.firstTuples + 3 * quad;
     const float ring = at.polar.y * kTupleRings;
     // Between the center of the last ring and a pole, the opposite normals of that ring take part. Without tangents
     // frames differ around -Y.
@@ -165,16 +169,54 @@ Quad unshadowedTuple(TuplePlace at, uint quad) {
     return mixed(ofTurn[0], ofTurn[1], fract(turn));
 }
 
+// The whole light's part of something, and the fill's.
+struct Parts {
+    vec3 whole, fill;
+};
+
 // Returns the unshadowed radiance towards the eye, whose direction in the frame is `local`; or, if `isLimit`, the
 // most to which normal maps may raise it.
-vec3 unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
+Parts unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
     const SpherePlaces at = spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
-    if (kLook == kSingleLook) return push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at);
-    vec3 sum = vec3(0);
-    for (uint i = 0; i < push.layers; i++)
-        sum += (isLimit ? layers[i].mostOfFlat : 1) * layerWeight(layers[i], paint, base) *
-               unshadowedRadiance(layers[i].firstSlot, min(layers[i].harmonics, kHarmonics), at);
+    if (kLook == kSingleLook)
+        return Parts(push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at),
+                     push.weight * unshadowedRadiance(push.firstSlot + push.fillSlots, kHarmonics, at));
+    Parts sum = Parts(vec3(0), vec3(0));
+    for (uint i = 0; i < push.layers; i++) {
+        const vec3 weight = (isLimit ? layers[i].mostOfFlat : 1) * layerWeight(layers[i], paint, base);
+        const uint slot = layers[i].firstSlot, harmonics = min(layers[i].harmonics, kHarmonics);
+        sum.whole += weight * unshadowedRadiance(slot, harmonics, at);
+        sum.fill += weight * unshadowedRadiance(slot + push.fillSlots, harmonics, at);
+    }
     return sum;
+}
+
+// The sums of a light that an estimate needs: with the K terms (view maps times tuples), and of tuples alone.
+struct Sums {
+    Quad shadowed, terms, lit, unlit;
+};
+
+const Quad kNone = Quad(vec4(0), vec4(0), vec4(0));
+
+Quad times(Quad a, Quad b) { return Quad(a.a * b.a, a.b * b.b, a.c * b.c); }
+Quad plus(Quad a, Quad b) { return Quad(a.a + b.a, a.b + b.b, a.c + b.c); }
+Quad minus(Quad a, Quad b) { return Quad(a.a - b.a, a.b - b.b, a.c - b.c); }
+
+void addTerms(inout Sums sums, Quad maps, Quad weights, Quad tuple, Quad free) {
+    sums.shadowed = plus(sums.shadowed, times(maps, tuple));
+    sums.terms = plus(sums.terms, times(maps, free));
+    sums.lit = plus(sums.lit, times(weights, tuple));
+    sums.unlit = plus(sums.unlit, times(weights, free));
+}
+
+// Returns the estimate from the sums of a light and its unshadowed radiance.
+vec3 estimateOf(Sums sums, vec3 exact, float leastView) {
+    const float weight = kLook == kSingleLook ? push.weight : 1;
+    const bool isBounced = (kEstimate & kBounced) != 0;
+    const vec3 shadowed = weight * sumOf(sums.shadowed), terms = weight * sumOf(sums.terms);
+    const vec3 lit = sumOf(sums.lit), unlit = sumOf(sums.unlit);
+    if ((kEstimate & kResidualRatio) != 0) return ratioEstimate(shadowed, lit, exact, terms, unlit, isBounced, leastView);
+    return differenceEstimate(shadowed, litShare(lit, unlit), exact, terms, isBounced);
 }
 
 // Returns the radiance, which is never negative; and, for the residual or a shadow, what it would be if nothing cast
@@ -241,7 +283,7 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
             seen = liftAboveHorizon(mapped * normalize(-direction));
         }
     }
-    vec3 exact = vec3(0);
+    Parts exact = Parts(vec3(0), vec3(0));
     tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
     // At -Y tangentFrame() is singular, and equals the frames at this azimuth.
     if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
@@ -249,60 +291,53 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
         // Mapped normals may face light below the surface's horizon, for which there is no visibility. They raise the
         // radiance at most by the concentration of its kernel, which is too little if a low sun is the only light.
         exact = unshadowedAt(direction, mapped, seen, paint, base, false);
-        if (kLook == kSurfaceLook && detail.normalScale != 0)
-            exact = min(exact, unshadowedAt(direction, frame, local, paint, base, true));
-        unshadowed = exact;
-        if (kEstimate == kUnshadowed) return exact + emitted;
+        if (kLook == kSurfaceLook && detail.normalScale != 0) {
+            const Parts most = unshadowedAt(direction, frame, local, paint, base, true);
+            exact = Parts(min(exact.whole, most.whole), min(exact.fill, most.fill));
+        }
+        unshadowed = exact.whole;
+        if (kEstimate == kUnshadowed) return exact.whole + emitted;
     }
 
-    Quad sum = Quad(vec4(0), vec4(0), vec4(0)), terms = sum, lit = sum, unlit = sum;
+    Sums whole = Sums(kNone, kNone, kNone, kNone), fill = whole;
     const uint quads = kAllTerms ? kQuads : (push.terms + 3) / 4;
     for (uint quad = 0; quad < quads; quad++) {
-        Quad maps = Quad(vec4(0), vec4(0), vec4(0));
+        Quad maps = kNone;
         if (kLook == kSingleLook)
             maps = mapsOf(place, push.firstMap, quad);
         else
             for (uint i = 0; i < push.layers; i++) {
                 const vec3 weight = layerWeight(layers[i], paint, base);
                 const Quad layer = mapsOf(place, layers[i].firstMap, quad);
-                maps.a += weight.rgbr * layer.a;
-                maps.b += weight.gbrg * layer.b;
-                maps.c += weight.brgb * layer.c;
+                maps = plus(maps, Quad(weight.rgbr * layer.a, weight.gbrg * layer.b, weight.brgb * layer.c));
             }
         if (!kAllTerms) keepTerms(maps, push.terms - 4 * quad);
-        Quad tuple = Quad(vec4(0), vec4(0), vec4(0));
-        for (int c = 0; c < 3; c++) addTuple(tuple, weights[c], corners[c], quad);
-        sum.a += maps.a * tuple.a;
-        sum.b += maps.b * tuple.b;
-        sum.c += maps.c * tuple.c;
-        if (kDrawn != kTermsAlone) {
-            const Quad free = unshadowedTuple(tuplePlace, quad);
-            terms.a += maps.a * free.a;
-            terms.b += maps.b * free.b;
-            terms.c += maps.c * free.c;
-            vec4 a = vec4(1), b = vec4(1), c = vec4(1);
-            if ((kEstimate & kResidualDifference) != 0) {
-                const int first = int(push.firstTuples + 3 * quad);
-                a = texelOf(irradianceWeights, first);
-                b = texelOf(irradianceWeights, first + 1);
-                c = texelOf(irradianceWeights, first + 2);
-            }
-            lit = Quad(lit.a + a * tuple.a, lit.b + b * tuple.b, lit.c + c * tuple.c);
-            unlit = Quad(unlit.a + a * free.a, unlit.b + b * free.b, unlit.c + c * free.c);
+        Quad tuple = kNone, fillTuple = kNone;
+        for (int c = 0; c < 3; c++) {
+            ADD_TUPLE(tuple, weights[c], tuples, corners[c], quad)
+            if (kEstimate != kTermsAlone) { ADD_TUPLE(fillTuple, weights[c], fillTuples, corners[c], quad) }
         }
+        Quad irradiance = Quad(vec4(1), vec4(1), vec4(1));
+        if ((kEstimate & kResidualDifference) != 0) {
+            const int first = int(push.firstTuples + 3 * quad);
+            irradiance = Quad(texelOf(irradianceWeights, first), texelOf(irradianceWeights, first + 1),
+                              texelOf(irradianceWeights, first + 2));
+        }
+        const Quad free = kDrawn != kTermsAlone ? unshadowedTuple(tuplePlace, quad, 0) : kNone;
+        addTerms(whole, maps, irradiance, tuple, free);
+        if (kEstimate != kTermsAlone)
+            addTerms(fill, maps, irradiance, fillTuple, unshadowedTuple(tuplePlace, quad, 1));
     }
-    const float weight = kLook == kSingleLook ? push.weight : 1;
     if (kEstimate == kTermsAlone) {
-        unshadowed = weight * sumOf(terms);
-        return max(weight * sumOf(sum), 0) + emitted; // a truncated sum of products can be negative
+        const float weight = kLook == kSingleLook ? push.weight : 1;
+        unshadowed = weight * sumOf(whole.terms);
+        // A truncated sum of products can be negative.
+        return max(weight * sumOf(whole.shadowed), 0) + emitted;
     }
-    const bool isBounced = (kEstimate & kBounced) != 0;
-    if ((kEstimate & kResidualRatio) != 0)
-        return ratioEstimate(weight * sumOf(sum), sumOf(lit), exact, weight * sumOf(terms), sumOf(unlit), isBounced) +
-               emitted;
-    return differenceEstimate(weight * sumOf(sum), litShare(sumOf(lit), sumOf(unlit)), exact, weight * sumOf(terms),
-                              isBounced) +
-           emitted;
+    const Sums key = Sums(minus(whole.shadowed, fill.shadowed), minus(whole.terms, fill.terms),
+                          minus(whole.lit, fill.lit), minus(whole.unlit, fill.unlit));
+    return estimateOf(fill, exact.fill, kFillLeastView) +
+           estimateOf(key, max(exact.whole - exact.fill, 0), kKeyLeastView) + emitted;
 }
 
 // Returns the ground's coverage where the pixel's ray meets a triangle's plane. C++ twin: groundCoverage() in

@@ -8,7 +8,7 @@
 
 namespace relume {
 
-SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name) {
+SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, size_t lights, const std::string& name) {
     const uint64_t bytes = std::max<uint64_t>(rows, 1) * sizeof(vec3);
     if (bytes > device.largestStorageBuffer())
         throw Error(fmt::format(
@@ -16,13 +16,15 @@ SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, const std::s
             "into several parts",
             name, rows, bytes, device.name(), device.largestStorageBuffer()));
     mRows = uint32_t(rows);
-    mTuples = vk::uploadBytes(device, std::vector<std::byte>(bytes), name + " tuples");
+    for (size_t light = 0; light < lights; light++)
+        mLights.push_back({vk::uploadBytes(device, std::vector<std::byte>(bytes), name + " tuples")});
 }
 
-void SetRelighter::record(vk::Commands& commands, const DeviceLight& light, RelightMode mode) {
-    const bool follows = mRecording > 0 && mRecording == light.recordingBefore;
-    mRecording = light.recording;
-    recordLayout(commands, light, follows ? mode : RelightMode::Full);
+void SetRelighter::record(vk::Commands& commands, const DeviceLight& light, RelightMode mode, Lit lit) {
+    uint64_t& recording = mLights[size_t(lit)].recording;
+    const bool follows = recording > 0 && recording == light.recordingBefore;
+    recording = light.recording;
+    recordLayout(commands, light, follows ? mode : RelightMode::Full, lit);
 }
 
 } // namespace relume

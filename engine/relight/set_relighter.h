@@ -3,6 +3,9 @@
 
 #include "engine/vk/commands.h"
 
+#include <string>
+#include <vector>
+
 namespace relume {
 
 // How tuples are updated when the light changes. All modes give the same bits. The rows layout always
@@ -13,35 +16,47 @@ enum class RelightMode {
     Auto         // from whichever list of entries is shorter
 };
 
-// The light on the device, as recorded by LightPass (engine/render/light_pass.h).
+// The light on the device, as recorded by LightTable (engine/render/light_table.h).
 struct DeviceLight {
     const vk::Buffer& table;             // two halves: the light's entries, then its changes
     const vk::Buffer& stats;             // shared::LightStats
     uint64_t recording, recordingBefore; // numbers of this recording of light and of the one before
 };
 
+// The lights that tuples are kept of: the whole light, and its fill (engine/light/fill_light.h).
+enum class Lit : size_t { Whole, Fill };
+constexpr size_t kMostLights = 2;
+
 // Computes the tuples of one set of materials from transport and light.
 class SetRelighter {
   public:
-    // Throws OutOfMemory, or Error if the device cannot bind as many tuples. Errors name part `name`.
-    SetRelighter(const vk::Device& device, uint64_t rows, const std::string& name);
+    // Tuples are kept of the first `lights` of Lit. Throws OutOfMemory, or Error if the device cannot bind as
+    // many tuples. Errors name part `name`.
+    SetRelighter(const vk::Device& device, uint64_t rows, size_t lights, const std::string& name);
     virtual ~SetRelighter() = default;
 
-    // Records the computation of the tuples from the light recorded before.
-    void record(vk::Commands& commands, const DeviceLight& light, RelightMode mode);
+    // Records the computation of the tuples from the light recorded before, which is `lit`.
+    void record(vk::Commands& commands, const DeviceLight& light, RelightMode mode, Lit lit = Lit::Whole);
+
+    size_t lights() const { return mLights.size(); }
 
     // Returns the number of buffers that the transport is divided into, so that each fits one binding.
     virtual size_t shards() const = 0;
 
     uint32_t rows() const { return mRows; }
-    const vk::Buffer& tuples() const { return mTuples; } // one vec3 per row; zero before the first record()
+    // Returns one vec3 per row; zero before the first record().
+    const vk::Buffer& tuples(Lit lit = Lit::Whole) const { return mLights[size_t(lit)].tuples; }
 
   private:
-    virtual void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode) const = 0;
+    virtual void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
+                              Lit lit) const = 0;
 
+    struct KeptLight {
+        vk::Buffer tuples;
+        uint64_t recording = 0; // number of the light recording that the sums belong to
+    };
     uint32_t mRows = 0;
-    vk::Buffer mTuples;
-    uint64_t mRecording = 0; // number of the light recording that the sums belong to
+    std::vector<KeptLight> mLights;
 };
 
 } // namespace relume

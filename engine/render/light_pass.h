@@ -2,19 +2,12 @@
 // transport. All of it stays on the device: sample → radiance → Haar → coefficients → quantize → table.
 #pragma once
 
-#include "engine/light/light_vector.h"
 #include "engine/render/light_sources.h"
+#include "engine/render/light_table.h"
 
 #include <optional>
 
 namespace relume {
-
-struct LightStats {
-    float scale;                     // LightVector::scale
-    float error;                     // LightVector::error
-    uint32_t kept;                   // entries
-    std::optional<uint32_t> changed; // entries that differ from the light recorded before; none if unknown
-};
 
 // Samples, transforms, selects and quantizes light. Keeps a reference to the device, which must outlive it.
 class LightPass {
@@ -37,35 +30,29 @@ class LightPass {
     void record(vk::Commands& commands, float rotation = 0, const LightSelection& selection = {});
 
     int faceSize() const { return mFaceSize; }
-    // Returns 6 F² × shared::PackedLight, zero where dropped, then as many differences from the light before.
-    const vk::Buffer& table() const { return mTable; }
-    const vk::Buffer& stats() const { return mStats; }       // shared::LightStats
+    const LightTable& table() const { return mTable; }       // the light's entries
     const vk::Buffer& radiance() const { return mRadiance; } // 6 F² × vec3
-
-    // Return the numbers of the last record() and the one before, from 1 over all light passes; 0 for none.
-    uint64_t recording() const { return mRecording; }
-    uint64_t recordingBefore() const { return mRecordingBefore; }
+    // Returns the selection of the last record().
+    const LightSelection& selection() const { return mSelection; }
 
     // Returns statistics of the last submission of record(). Waits for the device.
-    LightStats readStats() const;
+    LightStats readStats() const { return mTable.readStats(); }
 
     // Return results of the last submission of record(), for tests and `relume verify`. Wait for the device.
     LightCube readCube() const;
-    LightVector readVector() const;
+    LightVector readVector() const { return mTable.readVector(); }
 
   private:
     uint32_t coefficients() const { return 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize); }
 
     const vk::Device& mDevice;
     int mFaceSize;
-    vk::ComputeProgram mHaarProgram, mQuantizeProgram;
     LightSources mSources;
+    LightTable mTable;
+    LightSelection mSelection;
     std::optional<Light> mLight;
     bool mHasCube = false;
-    vk::Buffer mRadiance;     // 6 F² × vec3
-    vk::Buffer mCoefficients; // 6 F² × vec3
-    vk::Buffer mTable, mStats, mWeights;
-    uint64_t mRecording = 0, mRecordingBefore = 0;
+    vk::Buffer mRadiance; // 6 F² × vec3
 };
 
 } // namespace relume

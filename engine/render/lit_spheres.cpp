@@ -136,16 +136,19 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
         frequencies = std::max(frequencies, kernel.push.frequencies);
     }
     const uint32_t batch = mKernels.empty() ? 0 : kBatch;
-    const auto tupleImages = uint32_t(std::max<size_t>(weights.size() / 4, 1));
+    mTupleImages = uint32_t(std::max<size_t>(weights.size() / 4, 1));
     weights.resize(std::max<size_t>(weights.size(), 4), 0);
     mWeights = vk::upload<float>(device, weights, "irradiance weights");
     mGrid = vk::upload<vec4>(device, gridFrames(allNodes()), "view grid");
-    mTexels = makeTexels(device, 6 * kSphereCubeBordered * kSphereCubeBordered, "sphere cube");
-    mLights = makeTexels(device, 2 * kTupleLights, "lights of cells");
+    for (size_t light = 0; light < kMostLights; light++)
+        mReduced.push_back(
+            {makeTexels(device, 6 * kSphereCubeBordered * kSphereCubeBordered, "sphere cube"),
+             makeTexels(device, 2 * kTupleLights, "lights of cells"),
+             vk::Image(device, imageOptions(kSphereCubeBordered, kSphereCubeBordered, 6), "sphere cube")});
+    const uint32_t tupleImages = kMostLights * mTupleImages;
     mTupleTexels =
         makeTexels(device, uint64_t(tupleImages) * mTupleRows * kTupleAzimuths, "unshadowed tuples");
     mTuples = emptyImage(device, kTupleAzimuths, mTupleRows, tupleImages, "unshadowed tuples");
-    mCubeImage = vk::Image(device, imageOptions(kSphereCubeBordered, kSphereCubeBordered, 6), "sphere cube");
     mBatchNodes = makeTexels(device, 2 * batch, "sphere nodes");
     mPolar = makeTexels(device, uint64_t(batch) * kSphereTexels, "polar light");
     mSpectrum = makeTexels(device, 2 * uint64_t(batch) * (frequencies + 1) * kSphereRings, "light spectrum");
@@ -153,7 +156,7 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
         makeTexels(device, uint64_t(batch) * components * (kSphereRings / 4) * 6, "reflected spectrum");
     mParts = makeTexels(device, uint64_t(batch) * mMostParts * kSphereTexels, "sphere parts");
     mImage = emptyImage(device, kSphereAzimuths, mMostParts * kSphereRings, 1, "lit spheres");
-    mSlotTable.assign(std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
+    mSlotTable.assign(kMostLights * std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
     mSlots = vk::upload<uint32_t>(device, mSlotTable, "sphere slots");
 }
 
@@ -195,39 +198,45 @@ void LitSpheres::freeSlots() {
     for (uint32_t slot = mSlotCount; slot > 0; slot--) mFreeSlots.push_back(slot - 1);
 }
 
-void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light) {
+void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light, const FillLight* fill) {
     if (mSets.empty()) return;
+    RELUME_CHECK(fill || mKernels.empty());
     freeSlots();
+    const size_t lights = fill ? kMostLights : 1;
     // Draws and passes of an earlier frame may still be reading.
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Transfer);
     commands.barrier(Stage::Transfer, Stage::Compute);
     commands.pass("unshadowed", [&] {
-        commands.dispatch(mCube, {light.radiance(), mTexels, mLights},
-                          SphereCubePush{uint32_t(light.faceSize())},
-                          {6 * kSphereCubeBordered * kSphereCubeBordered, 1, 1});
-        commands.barrier(Stage::Compute, Stage::Compute);
-        for (const Set& set : mSets) {
+        for (size_t i = 0; i < lights; i++)
             commands.dispatch(
-                mUnshadowed,
-                {texels(mLights),
-                 {set.lightMaps.image, isPolar(DiskMapping(set.mapping)) ? mPolarSampler : mSampler},
-                 mTupleTexels},
-                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGray, set.firstImage, mTupleRows,
-                                     set.isTurned},
-                {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});
-        }
+                mCube, {i == 0 ? light.radiance() : fill->radiance(), mReduced[i].texels, mReduced[i].cells},
+                SphereCubePush{uint32_t(light.faceSize())},
+                {6 * kSphereCubeBordered * kSphereCubeBordered, 1, 1});
+        commands.barrier(Stage::Compute, Stage::Compute);
+        for (size_t i = 0; i < lights; i++)
+            for (const Set& set : mSets) {
+                const uint32_t firstImage = uint32_t(i) * mTupleImages + set.firstImage;
+                commands.dispatch(
+                    mUnshadowed,
+                    {texels(mReduced[i].cells),
+                     {set.lightMaps.image, isPolar(DiskMapping(set.mapping)) ? mPolarSampler : mSampler},
+                     mTupleTexels},
+                    UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGray, firstImage, mTupleRows,
+                                         set.isTurned},
+                    {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});
+            }
         commands.barrier(Stage::Compute, Stage::Transfer);
-        const auto fill = [&](const vk::Buffer& from, const vk::Image& to, Stage readBy) {
+        const auto copyTo = [&](const vk::Buffer& from, const vk::Image& to, Stage readBy) {
             commands.transition(to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                 Stage::Draw, Stage::Transfer);
             commands.copy(from, to);
             commands.transition(to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Transfer, readBy);
         };
-        fill(mTexels, mCubeImage, Stage::Compute);
-        fill(mTupleTexels, mTuples, Stage::Draw);
+        for (size_t i = 0; i < lights; i++) copyTo(mReduced[i].texels, mReduced[i].cube, Stage::Compute);
+        copyTo(mTupleTexels, mTuples, Stage::Draw);
     });
 }
 
@@ -249,22 +258,29 @@ void LitSpheres::makeRoom(size_t spheres) {
 
 void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernels,
                         const std::set<uint32_t>& nodes) {
-    const bool isNew = kernels.size() * nodes.size() > mSlotCount;
-    makeRoom(kernels.size() * nodes.size());
-    std::vector<std::vector<uint32_t>> missing;
+    const size_t spheres = kMostLights * kernels.size() * nodes.size();
+    const bool isNew = spheres > mSlotCount;
+    makeRoom(spheres);
+    struct Missing {
+        uint32_t kernel;
+        Lit lit;
+        std::vector<uint32_t> nodes;
+    };
+    std::vector<Missing> missing;
     std::set<uint32_t> used;
     size_t wanted = 0;
-    for (const uint32_t kernel : kernels) {
-        missing.emplace_back();
-        for (const uint32_t node : nodes) {
-            const uint32_t slot = mSlotTable[kernel * kGridNodes + node];
-            if (slot == kNone)
-                missing.back().push_back(node);
-            else
-                used.insert(slot);
+    for (const uint32_t kernel : kernels)
+        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+            missing.push_back({kernel, lit, {}});
+            for (const uint32_t node : nodes) {
+                const uint32_t slot = mSlotTable[slotOf(kernel, lit, node)];
+                if (slot == kNone)
+                    missing.back().nodes.push_back(node);
+                else
+                    used.insert(slot);
+            }
+            wanted += missing.back().nodes.size();
         }
-        wanted += missing.back().size();
-    }
     if (wanted == 0) return;
     // Evict spheres of other views if there is no room.
     if (mFreeSlots.size() < wanted)
@@ -279,11 +295,11 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
         commands.transition(mImage,
                             isNew ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, Stage::Draw, Stage::Transfer);
-        for (size_t i = 0; i < kernels.size(); i++)
-            for (size_t first = 0; first < missing[i].size(); first += kBatch)
-                makeSpheres(commands, kernels[i],
-                            std::span(missing[i])
-                                .subspan(first, std::min<size_t>(kBatch, missing[i].size() - first)));
+        for (const Missing& some : missing)
+            for (size_t first = 0; first < some.nodes.size(); first += kBatch)
+                makeSpheres(commands, some.kernel, some.lit,
+                            std::span(some.nodes)
+                                .subspan(first, std::min<size_t>(kBatch, some.nodes.size() - first)));
         commands.transition(mImage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Transfer, Stage::Draw);
         commands.update(mSlots, std::as_bytes(std::span(mSlotTable)));
@@ -291,7 +307,8 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
     });
 }
 
-void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<const uint32_t> nodes) {
+void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, Lit lit,
+                             std::span<const uint32_t> nodes) {
     const Kernel& kernel = mKernels[number];
     SpherePush push = kernel.push;
     push.nodes = uint32_t(nodes.size());
@@ -301,7 +318,7 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<
     commands.barrier(Stage::Transfer, Stage::Compute);
     commands.update(mBatchNodes, std::as_bytes(std::span(frames)));
     commands.barrier(Stage::Transfer, Stage::Compute);
-    commands.dispatch(mLight, {{mCubeImage, mSampler}, texels(mBatchNodes), mPolar}, push,
+    commands.dispatch(mLight, {{mReduced[size_t(lit)].cube, mSampler}, texels(mBatchNodes), mPolar}, push,
                       {kSphereAzimuths, kSphereRings, push.nodes});
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.dispatch(mSpectrumProgram, {texels(mPolar), mSpectrum}, push,
@@ -314,7 +331,7 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<
                       {kSphereAzimuths / 4, kSphereRings / 4, push.nodes * (push.harmonics + 1)});
     commands.barrier(Stage::Compute, Stage::Transfer);
     for (size_t i = 0; i < nodes.size(); i++) {
-        uint32_t& slot = mSlotTable[number * kGridNodes + nodes[i]];
+        uint32_t& slot = mSlotTable[slotOf(number, lit, nodes[i])];
         slot = mFreeSlots.back();
         mFreeSlots.pop_back();
         // A kernel with fewer parts than others leaves rows below them that nothing reads.
@@ -322,23 +339,24 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, std::span<
     }
 }
 
-std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node) const {
-    const uint32_t slot = mSlotTable[kernel * kGridNodes + node];
+std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node, Lit lit) const {
+    const uint32_t slot = mSlotTable[slotOf(kernel, lit, node)];
     RELUME_CHECK(slot != kNone);
     const std::vector<vec4> texels = readImage(mDevice, mImage);
     const auto first = texels.begin() + std::ptrdiff_t(size_t(slot) * mMostParts * kSphereTexels);
     return {first, first + std::ptrdiff_t(mKernels[kernel].parts() * kSphereTexels)};
 }
 
-std::vector<vec3> LitSpheres::readTuples(size_t part, size_t number) const {
+std::vector<vec3> LitSpheres::readTuples(size_t part, size_t number, Lit lit) const {
     RELUME_CHECK(mSetOf[part][number]);
     const Set& set = *mSetOf[part][number];
+    const size_t firstImage = size_t(lit) * mTupleImages + set.firstImage;
     const std::vector<vec4> texels = readImage(mDevice, mTuples);
     std::vector<vec3> tuples;
     for (size_t texel = 0; texel < size_t(set.rows()) * kTupleAzimuths; texel++)
         for (size_t value = 0; value < 3 * size_t(set.terms); value += 3) {
             const auto at = [&](size_t i) {
-                return texels[(set.firstImage + i / 4) * mTupleRows * kTupleAzimuths + texel][int(i % 4)];
+                return texels[(firstImage + i / 4) * mTupleRows * kTupleAzimuths + texel][int(i % 4)];
             };
             tuples.emplace_back(at(value), at(value + 1), at(value + 2));
         }

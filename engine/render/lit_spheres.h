@@ -3,6 +3,7 @@
 // and anew after the light changed. engine/scene/residual.h has the mathematics.
 #pragma once
 
+#include "engine/render/fill_light.h"
 #include "engine/render/light_pass.h"
 #include "engine/render/map_texture.h"
 #include "engine/scene/residual.h"
@@ -25,8 +26,8 @@ class LitSpheres {
     LitSpheres(const vk::Device& device, const Asset& asset, bool takesResiduals);
 
     // Records pass "unshadowed", which sets the light of all spheres made from now on, and sums the
-    // unshadowed tuples.
-    void recordLight(vk::Commands& commands, const LightPass& light);
+    // unshadowed tuples. `fill` is the light's; it may be null where no set has a residual.
+    void recordLight(vk::Commands& commands, const LightPass& light, const FillLight* fill);
 
     // Records pass "spheres", which makes the missing spheres of these kernels and grid nodes, for draws that
     // follow. Throws Error if the device's images have too few layers.
@@ -41,13 +42,14 @@ class LitSpheres {
     // kSphereAzimuths × kSphereRings texels for harmonic 0 of the view's azimuth a, and below them two such
     // images for each further harmonic c, which are added times cos 2ca and -sin 2ca.
     const vk::Image& image() const { return mImage; }
-    // Returns the layer, a uint, of kernel · kGridNodes + node.
+    // Returns the layer, a uint, of kernel · kGridNodes + node; those of the fill follow at fillSlots().
     const vk::Buffer& slots() const { return mSlots; }
+    uint32_t fillSlots() const { return uint32_t(mSlotTable.size() / kMostLights); }
     // Returns two vec4 per node: its direction, and the side towards azimuth 0.
     const vk::Buffer& grid() const { return mGrid; }
     // Returns the unshadowed tuples, RGBA32F: polar maps about +Y of kTupleAzimuths × kTupleRings normals
     // (kTurnedRows for sets of parts with tangents), three images for each four terms of a set, laid out as
-    // tuples are.
+    // tuples are. The second half of the images is of the fill.
     const vk::Image& tuples() const { return mTuples; }
     // Returns ResidualSet::irradianceWeights, laid out as tuples are, in whole quads of terms.
     const vk::Buffer& weights() const { return mWeights; }
@@ -59,8 +61,9 @@ class LitSpheres {
     }
 
     // Return what was last made, for tests and `relume verify`. Wait for the device.
-    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node) const; // spheres × rings × azimuths
-    std::vector<vec3> readTuples(size_t part, size_t set) const;        // rows × azimuths × terms
+    // Spheres × rings × azimuths, and rows × azimuths × terms.
+    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node, Lit lit = Lit::Whole) const;
+    std::vector<vec3> readTuples(size_t part, size_t set, Lit lit = Lit::Whole) const;
 
   private:
     struct Kernel {
@@ -81,7 +84,10 @@ class LitSpheres {
     void makePrograms();
     Set& addSet(const FactoredBrdf& factors, const ResidualSet* residual, std::vector<float>& weights);
     void makeRoom(size_t spheres);
-    void makeSpheres(vk::Commands& commands, uint32_t kernel, std::span<const uint32_t> nodes);
+    void makeSpheres(vk::Commands& commands, uint32_t kernel, Lit lit, std::span<const uint32_t> nodes);
+    size_t slotOf(uint32_t kernel, Lit lit, uint32_t node) const {
+        return (size_t(lit) * mKernels.size() + kernel) * shared::kGridNodes + node;
+    }
     void freeSlots();
 
     const vk::Device& mDevice;
@@ -93,13 +99,19 @@ class LitSpheres {
     std::vector<Kernel> mKernels;
     vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
     vk::Sampler mSampler, mPolarSampler; // mPolarSampler repeats in x
-    vk::Buffer mTexels, mLights, mTupleTexels, mGrid, mSlots, mWeights;
+    // What a light is reduced to.
+    struct ReducedLight {
+        vk::Buffer texels, cells; // of the cube, and the lights of its cells
+        vk::Image cube;
+    };
+    std::vector<ReducedLight> mReduced; // by Lit
+    vk::Buffer mTupleTexels, mGrid, mSlots, mWeights;
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
-    vk::Image mCubeImage, mImage, mTuples;
+    vk::Image mImage, mTuples;
     std::vector<vk::Image> mRetired;  // earlier, smaller images, which pending commands may still use
     std::vector<uint32_t> mSlotTable; // slots(); kNone
     std::vector<uint32_t> mFreeSlots;
-    uint32_t mSlotCount = 0;
+    uint32_t mSlotCount = 0, mTupleImages = 1; // mTupleImages: of one light
     uint32_t mMostParts = 1;                   // over all kernels
     uint32_t mTupleRows = shared::kTupleRings; // of an image of unshadowed tuples: the most of any set
 };

@@ -12,12 +12,16 @@ using vk::Stage;
 Relighter::Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options)
     : mDevice(device), mFaceSize(asset.faceSize) {
     const uint64_t largestShard = std::min(options.largestShard, device.largestStorageBuffer());
-    for (const AssetPart& part : asset.parts) {
-        auto& sets = mParts.emplace_back();
-        for (const MaterialSet& set : part.sets)
-            sets.push_back(makeSet(set.transport, part.name, largestShard));
-    }
     mSpheres = std::make_unique<LitSpheres>(device, asset, options.residual);
+    for (size_t p = 0; p < asset.parts.size(); p++) {
+        const AssetPart& part = asset.parts[p];
+        auto& sets = mParts.emplace_back();
+        for (size_t s = 0; s < part.sets.size(); s++) {
+            const bool hasFill = mSpheres->set(p, s) != nullptr;
+            sets.push_back(makeSet(part.sets[s].transport, part.name, largestShard, hasFill ? 2 : 1));
+            if (hasFill && !mFill) mFill = std::make_unique<FillLight>(device, asset.faceSize);
+        }
+    }
 }
 
 // Declares the relighter of each layout; the functions are not defined.
@@ -25,14 +29,14 @@ RowsRelighter relighterOf(const SparseTransport&);
 BasesRelighter relighterOf(const BasisTransport&);
 
 std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, const std::string& name,
-                                                 uint64_t largestShard) {
+                                                 uint64_t largestShard, size_t lights) {
     const uint32_t coefficients = 6 * uint32_t(mFaceSize) * uint32_t(mFaceSize);
     return std::visit(
         [&](const auto& kept) -> std::unique_ptr<SetRelighter> {
             using Set = decltype(relighterOf(kept));
             auto& programs = std::get<std::unique_ptr<typename Set::Programs>>(mPrograms);
             if (!programs) programs = std::make_unique<typename Set::Programs>(mDevice);
-            return std::make_unique<Set>(mDevice, *programs, kept, coefficients, largestShard, name);
+            return std::make_unique<Set>(mDevice, *programs, kept, coefficients, lights, largestShard, name);
         },
         transport);
 }
@@ -42,17 +46,29 @@ void Relighter::record(vk::Commands& commands, const LightPass& light, const App
     RELUME_CHECK_EQ(light.faceSize(), mFaceSize);
     // An earlier frame of the same submission may still be reading the tuples.
     commands.barrier(Stage::Draw, Stage::Compute);
-    const DeviceLight onDevice{light.table(), light.stats(), light.recording(), light.recordingBefore()};
+    if (mFill) mFill->record(commands, light);
     commands.pass("relight", [&] {
-        for (size_t part = 0; part < mParts.size(); part++)
-            mParts[part].at(appearance.empty() ? 0 : appearance[part].set)->record(commands, onDevice, mMode);
+        for (size_t part = 0; part < mParts.size(); part++) {
+            SetRelighter& set = *mParts[part].at(appearance.empty() ? 0 : appearance[part].set);
+            set.record(commands, light.table().onDevice(), mMode);
+            if (set.lights() > 1) set.record(commands, mFill->table().onDevice(), mMode, Lit::Fill);
+        }
         commands.barrier(Stage::Compute, Stage::Draw);
     });
-    mSpheres->recordLight(commands, light);
+    mSpheres->recordLight(commands, light, mFill.get());
+}
+
+const vk::Buffer& Relighter::fillTuples(size_t part, size_t set) const {
+    const SetRelighter& own = *mParts[part][set];
+    return own.tuples(own.lights() > 1 ? Lit::Fill : Lit::Whole);
 }
 
 std::vector<vec3> Relighter::readTuples(size_t part, size_t set) const {
     return vk::download<vec3>(mDevice, tuples(part, set), mParts[part][set]->rows());
+}
+
+std::vector<vec3> Relighter::readFillTuples(size_t part, size_t set) const {
+    return vk::download<vec3>(mDevice, fillTuples(part, set), mParts[part][set]->rows());
 }
 
 } // namespace relume

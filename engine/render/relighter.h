@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/render/appearance.h"
+#include "engine/render/fill_light.h"
 #include "engine/render/light_pass.h"
 #include "engine/render/lit_spheres.h"
 #include "engine/transport/asset.h"
@@ -29,8 +30,9 @@ class Relighter {
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
     // Records pass "relight": computes the tuples of every part's bound set (without `appearance`: of its
-    // first set) from the light recorded before. Draws may use them at once. The tuples of other sets stay as
-    // they are. Submit recordings once, in order: tuples may be made from those of the light before.
+    // first set) from the light recorded before, and of sets with a residual those of its fill. Draws may use
+    // them at once. The tuples of other sets stay as they are. Submit recordings once, in order: tuples may
+    // be made from those of the light before.
     void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {});
 
     // Sets the mode of the record() calls that follow.
@@ -40,16 +42,19 @@ class Relighter {
     size_t shards(size_t part, size_t set = 0) const { return mParts[part][set]->shards(); }
     // Returns the tuples γ: a vec3 per row, row = vertex · terms + term.
     const vk::Buffer& tuples(size_t part, size_t set = 0) const { return mParts[part][set]->tuples(); }
+    // Returns those of the light's fill, for sets with a residual; else those of the whole light.
+    const vk::Buffer& fillTuples(size_t part, size_t set) const;
 
     // Returns the lit spheres: the unshadowed reflection of the light. A view pass makes those that it needs.
     LitSpheres& spheres() const { return *mSpheres; }
 
     // Returns the tuples of the last submission. Waits for the device.
     std::vector<vec3> readTuples(size_t part, size_t set = 0) const;
+    std::vector<vec3> readFillTuples(size_t part, size_t set = 0) const;
 
   private:
     std::unique_ptr<SetRelighter> makeSet(const Transport& transport, const std::string& name,
-                                          uint64_t largestShard);
+                                          uint64_t largestShard, size_t lights);
 
     const vk::Device& mDevice;
     int mFaceSize;
@@ -58,6 +63,7 @@ class Relighter {
     std::tuple<std::unique_ptr<RowsRelighter::Programs>, std::unique_ptr<BasesRelighter::Programs>> mPrograms;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
     std::unique_ptr<LitSpheres> mSpheres;
+    std::unique_ptr<FillLight> mFill; // null if no set has a residual
 };
 
 } // namespace relume

@@ -452,7 +452,10 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
     const Set& set = boundSet(part);
     const LitSpheres& spheres = relighter.spheres();
     const ResidualSet* residual = residualOf(number, part.bound.set, relighter);
-    const vk::Buffer& tuples = relighter.tuples(number, part.bound.set);
+    const auto tuplesOf = [&](const vk::Buffer& tuples) {
+        return vk::Binding::texelsOf(tuples, set.floatsPerTexel() == 4 ? VK_FORMAT_R32G32B32A32_SFLOAT
+                                                                       : VK_FORMAT_R32_SFLOAT);
+    };
     const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
     if (!rays || part.triangleCount == 0) return;
     const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
@@ -471,6 +474,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                                      usesAll ? set.terms : uint32_t(mTerms),
                                      isSingle ? part.boundLayers[0].firstSlot : 0,
                                      firstTuples,
+                                     spheres.fillSlots(),
                                      fades ? vec4(mGroundFade->center, mGroundFade->inner, mGroundFade->outer)
                                            : vec4(0)};
     const uint32_t harmonics = isSingle && residual ? part.boundLayers[0].harmonics : mostHarmonics(residual);
@@ -479,8 +483,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                   {{mTriangleIds, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),
-                   vk::Binding::texelsOf(tuples, set.floatsPerTexel() == 4 ? VK_FORMAT_R32G32B32A32_SFLOAT
-                                                                           : VK_FORMAT_R32_SFLOAT),
+                   tuplesOf(relighter.tuples(number, part.bound.set)),
                    {set.viewMaps.image, isPolar(set.mapping) ? mPolarSampler : mDiskSampler},
                    part.layers,
                    {part.baseColor, mSurfaceSampler},
@@ -491,7 +494,8 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                    {spheres.tuples(), mPolarSampler},
                    vk::Binding::texelsOf(spheres.weights(), VK_FORMAT_R32G32B32A32_SFLOAT),
                    {part.normalMap, mSurfaceSampler},
-                   {part.emissionMap, mSurfaceSampler}},
+                   {part.emissionMap, mSurfaceSampler},
+                   tuplesOf(relighter.fillTuples(number, part.bound.set))},
                   push);
     commands.setStencil(pixels == Pixels::Edges ? kEdgeBit : stencilOf(part));
     commands.draw(6);

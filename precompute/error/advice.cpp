@@ -145,20 +145,18 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     options.bounces = 0; // errors are those of direct light
     const BakePlan plan = planBake(device, scene, options, observer);
     const Appearance appearance = defaultAppearance(plan.asset);
-    GridLight gridLight{{}, sampleLight(light.light, plan.asset.faceSize)};
-    gridLight.drawn = makeLightVector(gridLight.cube, light.selection);
+    const DrawnLight drawn = drawnLight(sampleLight(light.light, plan.asset.faceSize), light.selection);
     const std::vector<SeenPoints> points = seenPoints(plan.asset, request.points);
     const std::vector<vec3> exact =
         exactRadiance(plan.asset, appearance, points, light.fine, shareOf(report, 0, 0.2));
-    const ErrorGrid grid =
-        errorGrid(plan.asset, appearance, points, exact, gridLight, shareOf(report, 0.2, 0.8));
+    const ErrorGrid grid = errorGrid(plan.asset, appearance, points, exact, drawn, shareOf(report, 0.2, 0.8));
 
     MeshAdvice advice;
     advice.vertices = plan.vertices();
     for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
-    advice.bases =
-        adviseBases(device, request, scene, grid, gridLight.drawn, points, observer, shareOf(report, 0.8, 1));
+    advice.bases = adviseBases(device, request, scene, grid, drawn[size_t(Lit::Whole)].entries, points,
+                               observer, shareOf(report, 0.8, 1));
     if (advice.bases) *advice.bases->seconds += secondsBefore;
     if (advice.rows && advice.bases) // they take equally long per term
         advice.rows->seconds = *advice.bases->seconds * advice.rows->options.factorization.terms /

@@ -32,13 +32,15 @@ std::vector<SeenPoint> listPoints(std::span<const SeenPoints> points) {
     return list;
 }
 
-// One row at every tried N: its tuple under the light, and the entries left after quantization.
+// One row at every tried N: its tuples under the lights, and the entries left after quantization.
 struct Ladder {
-    std::array<vec3, kRungs> tuples{};
+    std::array<std::array<vec3, kRungs>, kMostLights> tuples{}; // by Lit
     std::array<float, kRungs> entries{};
 };
 
-Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light) {
+using LightCoefficients = std::array<std::vector<vec3>, kMostLights>; // Haar, by Lit
+
+Ladder climb(const std::vector<vec3>& coefficients, const LightCoefficients& lights) {
     std::vector<uint32_t> order;
     float scale = 0;
     for (uint32_t i = 0; i < coefficients.size(); i++) {
@@ -53,16 +55,17 @@ Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light)
         return keyA > keyB || (keyA == keyB && a < b);
     });
     Ladder ladder;
-    glm::dvec3 sum(0);
+    std::array<glm::dvec3, kMostLights> sums{};
     float entries = 0;
     size_t next = 0;
     for (size_t rung = 0; rung < kRungs; rung++) {
         for (; next < order.size() && next < size_t(kTriedCoefficients[rung]); next++) {
             const vec3 coefficient = coefficients[order[next]];
-            sum += glm::dvec3(coefficient * light[order[next]]);
+            for (size_t light = 0; light < kMostLights; light++)
+                sums[light] += glm::dvec3(coefficient * lights[light][order[next]]);
             entries += quantizeCoefficient(coefficient, scale) != ivec3(0);
         }
-        ladder.tuples[rung] = vec3(sum);
+        for (size_t light = 0; light < kMostLights; light++) ladder.tuples[light][rung] = vec3(sums[light]);
         ladder.entries[rung] = entries;
     }
     return ladder;
@@ -71,8 +74,10 @@ Ladder climb(const std::vector<vec3>& coefficients, std::span<const vec3> light)
 // The ladders of sampled vertices.
 class VertexLadders {
   public:
-    VertexLadders(const Asset& asset, const Appearance& appearance, const LightVector& light)
-        : mAsset(asset), mAppearance(appearance), mTransport(asset), mLight(dequantizedLight(light)) {}
+    VertexLadders(const Asset& asset, const Appearance& appearance, const DrawnLight& light)
+        : mAsset(asset), mAppearance(appearance),
+          mTransport(asset), mLights{dequantizedLight(light[0].entries), dequantizedLight(light[1].entries)} {
+    }
 
     void add(uint32_t part, uint32_t vertex) { mLadders[{part, vertex}]; }
 
@@ -111,7 +116,7 @@ class VertexLadders {
         const FactoredBrdf& brdf = mAsset.parts[part].sets[mAppearance[part].set].brdf;
         std::vector<Ladder> ladders;
         mTransport.forEachTerm(part, vertex, brdf, [&](size_t, const std::vector<vec3>& coefficients) {
-            ladders.push_back(climb(coefficients, mLight));
+            ladders.push_back(climb(coefficients, mLights));
         });
         return ladders;
     }
@@ -119,7 +124,7 @@ class VertexLadders {
     const Asset& mAsset;
     const Appearance& mAppearance;
     BakedTransport mTransport;
-    std::vector<vec3> mLight; // Haar coefficients
+    LightCoefficients mLights;
     std::map<Key, std::vector<Ladder>> mLadders;
 };
 
@@ -135,14 +140,14 @@ std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size
 }
 
 // Returns the interpolated tuple.
-std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, const RayHit& hit, size_t rung,
-                          size_t terms) {
+std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, const RayHit& hit, Lit lit,
+                          size_t rung, size_t terms) {
     const uvec3 corners = asset.parts[hit.mesh].mesh.triangles[hit.triangle];
     std::vector<vec3> tuple(terms, vec3(0));
     for (int corner = 0; corner < 3; corner++) {
         const std::vector<Ladder>& ladders = vertices.at(hit.mesh, corners[corner]);
         for (size_t term = 0; term < terms; term++)
-            tuple[term] += hit.weights[corner] * ladders[term].tuples[rung];
+            tuple[term] += hit.weights[corner] * ladders[term].tuples[size_t(lit)][rung];
     }
     return tuple;
 }
@@ -193,13 +198,12 @@ std::vector<vec3> exactRadiance(const Asset& asset, const Appearance& appearance
 }
 
 ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
-                    std::span<const vec3> exact, const GridLight& light,
+                    std::span<const vec3> exact, const DrawnLight& light,
                     const std::function<void(double)>& progress) {
     const std::vector<SeenPoint> list = listPoints(points);
     RELUME_CHECK_EQ(list.size(), exact.size());
     RELUME_CHECK(!list.empty());
-    RELUME_CHECK_EQ(light.drawn.faceSize, asset.faceSize);
-    RELUME_CHECK_EQ(light.cube.size, asset.faceSize);
+    RELUME_CHECK_EQ(light[0].cube.size, asset.faceSize);
 
     ErrorGrid grid;
     grid.shares.assign(asset.parts.size(), 0);
@@ -208,7 +212,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         grid.terms = std::max(grid.terms, terms);
         grid.entries.emplace_back(size_t(terms));
     }
-    VertexLadders vertices(asset, appearance, light.drawn);
+    VertexLadders vertices(asset, appearance, light);
     for (const SeenPoint& seen : list) {
         const uvec3 corners = asset.parts[seen.hit->mesh].mesh.triangles[seen.hit->triangle];
         for (int corner = 0; corner < 3; corner++) vertices.add(seen.hit->mesh, corners[corner]);
@@ -226,7 +230,8 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
     MaterialBrdfs brdfs;
     const BoundAsset bound(asset, appearance, ReferenceBrdf::Exact, brdfs);
     const BakedTransport transport(asset);
-    const std::span<const vec3> cube(light.cube.radiance);
+    const std::array<std::span<const vec3>, kMostLights> cubes = {light[0].cube.radiance,
+                                                                  light[1].cube.radiance};
     std::vector<std::vector<ResidualSet>> prefixes;
     for (size_t part = 0; part < asset.parts.size(); part++)
         prefixes.push_back(residualsOfPrefixes(asset, appearance, part));
@@ -238,22 +243,24 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         const SurfacePoint baked = bound.bakedPointAt(hit, list[i].eye);
         const std::vector<vec3> views = viewsAt(asset, appearance, hit.mesh, baked);
         const std::vector<ResidualSet>& ofPrefixes = prefixes[hit.mesh];
-        UnshadowedLight unshadowed;
+        std::vector<UnshadowedLight> unshadowed(kMostLights);
         if (!ofPrefixes.empty())
             unshadowed =
                 sumUnshadowed(transport, point, baked,
                               point.frame.n == baked.frame.n ? baked : bound.limitPointAt(hit, list[i].eye),
-                              boundFactors(asset, appearance, hit.mesh), {&cube, 1})
-                    .front();
-        std::array<std::vector<vec3>, kRungs> tuples;
-        for (size_t rung = 0; rung < kRungs; rung++)
-            tuples[rung] = tupleAt(vertices, asset, hit, rung, views.size());
+                              boundFactors(asset, appearance, hit.mesh), cubes);
+        std::array<std::vector<vec3>, kRungs> whole, fill;
+        for (size_t rung = 0; rung < kRungs; rung++) {
+            whole[rung] = tupleAt(vertices, asset, hit, Lit::Whole, rung, views.size());
+            fill[rung] = tupleAt(vertices, asset, hit, Lit::Fill, rung, views.size());
+        }
         for (size_t terms = 1; terms <= size_t(grid.terms); terms++) {
             const size_t own = std::min(terms, views.size());
             const ResidualSet* residual = ofPrefixes.empty() ? nullptr : &ofPrefixes[own - 1];
             for (size_t rung = 0; rung < kRungs; rung++) {
                 const vec3 radiance = estimateRadiance(residual, std::span(views).first(own),
-                                                       std::span(tuples[rung]).first(own), unshadowed);
+                                                       {std::span(whole[rung]).first(own), unshadowed[0]},
+                                                       {std::span(fill[rung]).first(own), unshadowed[1]});
                 const glm::dvec3 error = glm::dvec3(radiance) - glm::dvec3(exact[i]);
                 grid.errors[terms - 1][rung] += glm::dot(error, error);
             }

@@ -34,19 +34,13 @@ struct ErrorGrid {
     std::vector<double> shares; // per part: share of the points
 };
 
-// The light of a grid: its selected entries, and the cube from which they were selected.
-struct GridLight {
-    LightVector drawn;
-    LightCube cube; // F texels per side of a face
-};
-
 // Returns the grid of an asset with meshes, occluder and materials factored into the most terms to be tried;
 // its transport is not used. Factors must be nested, that is, the first K terms those of a factorization into
 // K (Factorization::NonNegative's are not). Parts whose set has a residual are drawn with it. `exact` is the
 // radiance of the points. Uses all cores; the same input gives the same grid. Throws Error if `exact` is
 // black.
 ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<const SeenPoints> points,
-                    std::span<const vec3> exact, const GridLight& light,
+                    std::span<const vec3> exact, const DrawnLight& light,
                     const std::function<void(double)>& progress = {});
 
 } // namespace relume

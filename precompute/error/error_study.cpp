@@ -59,14 +59,13 @@ void measure(ProgressiveReference& reference, const ViewPoints& points, int most
 
 StageLight stageLight(const Light& light, const LightCube& fine, int faceSize,
                       const LightSelection& selection) {
-    LightCube coarse = sampleLight(light, faceSize);
-    LightVector vector = makeLightVector(coarse, selection);
-    return {std::move(vector), std::move(coarse), fine};
+    return {drawnLight(sampleLight(light, faceSize), selection), fine};
 }
 
 // Returns the light for stages from kTermsStage on; earlier ones are not used.
 StageLight lowOrderStage(const StageLight& light, int order) {
-    return {light.drawn, lowOrderLight(light.coarse, order), lowOrderLight(light.fine, order)};
+    return {drawnLight(lowOrderLight(light.drawn[size_t(Lit::Whole)].cube, order), {}),
+            lowOrderLight(light.fine, order)};
 }
 constexpr size_t kTermsStage = size_t(ErrorSource::Interpolation) + 1; // K terms, all before them exact
 

@@ -42,14 +42,19 @@ uint64_t vertexKey(size_t part, uint32_t vertex) { return uint64_t(part) << 32 |
 
 } // namespace
 
-// A light in the orders and bases that stages need.
+// The whole light or its fill, in the orders and bases that stages need.
+struct StageTracer::DrawnPart {
+    std::vector<vec3> drawn;  // 6 F² Haar coefficients, of the LightVector
+    std::vector<vec3> haar;   // all 6 F² Haar coefficients
+    std::vector<vec3> coarse; // 6 F² texels in row order
+};
+
+// A light, and what stages need of it.
 struct StageTracer::Light {
-    std::vector<vec3> drawn;    // 6 F² Haar coefficients, of the LightVector
-    std::vector<vec3> haar;     // all 6 F² Haar coefficients
-    std::vector<vec3> coarse;   // 6 F² texels in row order
-    std::vector<vec3> coarseOf; // per cell of mTruth: the coarse texel around it
-    std::vector<vec3> fine;     // per cell of mTruth
-    LightDistribution paths;    // of `fine`, for paths
+    std::array<DrawnPart, kMostLights> parts; // by Lit
+    std::vector<vec3> coarseOf;               // per cell of mTruth: the coarse texel around it
+    std::vector<vec3> fine;                   // per cell of mTruth
+    LightDistribution paths;                  // of `fine`, for paths
 };
 
 // A vertex's tuples at the stages that depend on them.
@@ -57,10 +62,13 @@ struct StageTracer::Tuples {
     static constexpr size_t kStages = 4;  // as drawn, whole light, exact storage, all coefficients
     static constexpr size_t kBounced = 4; // the bounced part of the last stage
     static constexpr size_t kValues = 5;
-    std::vector<vec3> values; // [(light · kValues + stage) · K + term]
+    std::vector<vec3> values; // [((light · kMostLights + lit) · kValues + stage) · K + term]
 
-    std::span<const vec3> at(size_t light, size_t stage, size_t terms) const {
-        return std::span(values).subspan((light * kValues + stage) * terms, terms);
+    static size_t first(size_t light, Lit lit, size_t stage, size_t terms) {
+        return ((light * kMostLights + size_t(lit)) * kValues + stage) * terms;
+    }
+    std::span<const vec3> at(size_t light, Lit lit, size_t stage, size_t terms) const {
+        return std::span(values).subspan(first(light, lit, stage, terms), terms);
     }
 };
 
@@ -77,12 +85,12 @@ struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
 
     // Returns a point's tuple of a stage, interpolated between the corners of its triangle.
-    std::vector<vec3> interpolate(const RayHit& hit, const uvec3& corners, size_t light, size_t stage,
-                                  size_t terms) const {
+    std::vector<vec3> interpolate(const RayHit& hit, const uvec3& corners, size_t light, Lit lit,
+                                  size_t stage, size_t terms) const {
         std::vector<vec3> tuple(terms, vec3(0));
         for (int corner = 0; corner < 3; corner++) {
             const std::span<const vec3> of =
-                tuples.at(vertexKey(hit.mesh, corners[corner])).at(light, stage, terms);
+                tuples.at(vertexKey(hit.mesh, corners[corner])).at(light, lit, stage, terms);
             for (size_t term = 0; term < terms; term++) tuple[term] += hit.weights[corner] * of[term];
         }
         return tuple;
@@ -108,12 +116,14 @@ StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const
     : StageTracer(asset, appearance, options, optionsOf(asset)) {}
 
 StageTracer::Light StageTracer::prepare(const StageLight& light) const {
-    RELUME_CHECK_EQ(light.coarse.size, mAsset.faceSize);
     Light prepared{.paths = LightDistribution(light.fine)};
-    prepared.haar = haarOf(light.coarse.radiance, mAsset.faceSize);
-    prepared.drawn = dequantizedLight(light.drawn);
-    prepared.coarse = light.coarse.radiance;
-    const std::vector<vec3> ordered = mBaked.lighting().ordered(light.coarse);
+    for (size_t lit = 0; lit < kMostLights; lit++) {
+        const DrawnCube& from = light.drawn[lit];
+        RELUME_CHECK_EQ(from.cube.size, mAsset.faceSize);
+        prepared.parts[lit] = {dequantizedLight(from.entries), haarOf(from.cube.radiance, mAsset.faceSize),
+                               from.cube.radiance};
+    }
+    const std::vector<vec3> ordered = mBaked.lighting().ordered(light.drawn[0].cube);
     const size_t cells = mTruth.count() / mBaked.lighting().count();
     prepared.coarseOf.reserve(mTruth.count());
     for (size_t i = 0; i < mTruth.count(); i++) prepared.coarseOf.push_back(ordered[i / cells]);
@@ -125,7 +135,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
                                               std::span<const Light> lights) const {
     const MaterialSet& set = mAsset.parts[part].sets[mAppearance[part].set];
     const auto terms = size_t(set.brdf.terms);
-    Tuples tuples{std::vector<vec3>(lights.size() * Tuples::kValues * terms)};
+    Tuples tuples{std::vector<vec3>(lights.size() * kMostLights * Tuples::kValues * terms)};
     mBaked.forEachTerm(part, vertex, set.brdf, [&](size_t term, const std::vector<vec3>& direct) {
         const size_t row = size_t(vertex) * terms + term;
         std::vector<vec3> bounced(direct.size(), vec3(0));
@@ -135,14 +145,16 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
         std::ranges::transform(direct, bounced, exact.begin(), std::plus());
         const std::vector<uint16_t> kept = indicesOfLargest(exact, mAsset.coefficients);
         const std::vector<vec3> stored = dequantizedRow(set.transport, row, exact.size());
-        for (size_t light = 0; light < lights.size(); light++) {
-            vec3* of = &tuples.values[light * Tuples::kValues * terms + term];
-            of[0] = product(stored, lights[light].drawn);
-            of[terms] = product(stored, lights[light].haar);
-            of[2 * terms] = productOf(exact, kept, lights[light].haar);
-            of[3 * terms] = product(exact, lights[light].haar);
-            of[Tuples::kBounced * terms] = product(bounced, lights[light].haar);
-        }
+        for (size_t light = 0; light < lights.size(); light++)
+            for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+                const DrawnPart& from = lights[light].parts[size_t(lit)];
+                vec3* of = &tuples.values[Tuples::first(light, lit, 0, terms) + term];
+                of[0] = product(stored, from.drawn);
+                of[terms] = product(stored, from.haar);
+                of[2 * terms] = productOf(exact, kept, from.haar);
+                of[3 * terms] = product(exact, from.haar);
+                of[Tuples::kBounced * terms] = product(bounced, from.haar);
+            }
     });
     return tuples;
 }
@@ -160,9 +172,10 @@ StageTracer::Binding StageTracer::bindingAt(size_t number, const SurfacePoint& b
 std::vector<UnshadowedLight> StageTracer::unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
                                                        const SurfacePoint& limit, const Binding& binding,
                                                        std::span<const Light> lights) const {
-    if (!binding.residual) return std::vector<UnshadowedLight>(lights.size());
+    if (!binding.residual) return std::vector<UnshadowedLight>(lights.size() * kMostLights);
     std::vector<std::span<const vec3>> cubes;
-    for (const Light& light : lights) cubes.emplace_back(light.coarse);
+    for (const Light& light : lights)
+        for (const DrawnPart& part : light.parts) cubes.emplace_back(part.coarse);
     return sumUnshadowed(mBaked, point, baked, limit, *binding.brdf, cubes);
 }
 
@@ -173,10 +186,14 @@ void StageTracer::traceVertices(const RayHit& hit, const Binding& binding,
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
     constexpr size_t kFirst = size_t(ErrorSource::Drawing) + 1;
     for (size_t light = 0; light < result.size(); light++) {
-        for (size_t stage = 0; stage < Tuples::kStages; stage++)
+        for (size_t stage = 0; stage < Tuples::kStages; stage++) {
+            const std::vector<vec3> whole =
+                                        vertices.interpolate(hit, corners, light, Lit::Whole, stage, terms),
+                                    fill = vertices.interpolate(hit, corners, light, Lit::Fill, stage, terms);
             result[light][kFirst + stage] =
-                estimateRadiance(binding.residual, binding.views,
-                                 vertices.interpolate(hit, corners, light, stage, terms), unshadowed[light]);
+                estimateRadiance(binding.residual, binding.views, {whole, unshadowed[kMostLights * light]},
+                                 {fill, unshadowed[kMostLights * light + 1]});
+        }
         result[light][0] = result[light][kFirst];
     }
 }
@@ -201,13 +218,15 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
 
     constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 2;
     const size_t terms = binding.views.size();
-    std::vector<glm::dvec3> tuples(lights.size() * terms);
+    std::vector<glm::dvec3> tuples(lights.size() * kMostLights * terms);
     std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
     for (size_t i = 0; i < lit.size(); i++) {
         for (size_t term = 0; term < terms; term++) {
             const vec3 map = lit[i].weight * lookupMap(brdf.lightMap(int(term)), places[i]);
             for (size_t light = 0; light < lights.size(); light++)
-                tuples[light * terms + term] += glm::dvec3(map * lights[light].coarse[lit[i].texel]);
+                for (size_t part = 0; part < kMostLights; part++)
+                    tuples[(light * kMostLights + part) * terms + term] +=
+                        glm::dvec3(map * lights[light].parts[part].coarse[lit[i].texel]);
         }
     }
     for (size_t i = 0; i < seen.size(); i++) {
@@ -215,20 +234,29 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
                                                      point.reflected(seen[i].local)};
         for (size_t light = 0; light < lights.size(); light++)
             for (size_t stage = 0; stage < kStages; stage++)
-                sums[light][stage] +=
-                    glm::dvec3(seen[i].weight * reflected[stage] * lights[light].coarse[seen[i].texel]);
+                sums[light][stage] += glm::dvec3(seen[i].weight * reflected[stage] *
+                                                 lights[light].parts[0].coarse[seen[i].texel]);
     }
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
     std::vector<vec3> added;
     for (size_t light = 0; light < lights.size(); light++) {
-        const auto first = tuples.begin() + std::ptrdiff_t(light * terms);
-        std::vector<vec3> tuple(first, first + std::ptrdiff_t(terms));
+        std::array<std::vector<vec3>, kMostLights> byLit;
+        for (size_t part = 0; part < kMostLights; part++) {
+            const auto first = tuples.begin() + std::ptrdiff_t((light * kMostLights + part) * terms);
+            byLit[part] = {first, first + std::ptrdiff_t(terms)};
+        }
         const auto estimate = [&] {
-            return estimateRadiance(binding.residual, binding.views, tuple, unshadowed[light]);
+            return estimateRadiance(binding.residual, binding.views,
+                                    {byLit[0], unshadowed[kMostLights * light]},
+                                    {byLit[1], unshadowed[kMostLights * light + 1]});
         };
         const vec3 direct = estimate();
-        const std::vector<vec3> bounced = vertices.interpolate(hit, corners, light, Tuples::kBounced, terms);
-        std::ranges::transform(tuple, bounced, tuple.begin(), std::plus());
+        for (const Lit part : {Lit::Whole, Lit::Fill}) {
+            std::vector<vec3>& tuple = byLit[size_t(part)];
+            const std::vector<vec3> bounced =
+                vertices.interpolate(hit, corners, light, part, Tuples::kBounced, terms);
+            std::ranges::transform(tuple, bounced, tuple.begin(), std::plus());
+        }
         result[light][kFirst] = estimate();
         added.push_back(result[light][kFirst] - direct);
         for (size_t stage = 0; stage < kStages; stage++)

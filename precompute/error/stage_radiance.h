@@ -1,10 +1,10 @@
 // Computes the radiance of points as drawn, and with one approximation after another made exact.
 #pragma once
 
-#include "engine/light/light_vector.h"
 #include "precompute/bake/bake_options.h"
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/error/baked_transport.h"
+#include "precompute/error/drawn_light.h"
 #include "precompute/error/error_source.h"
 #include "precompute/error/tabulated_brdf.h"
 #include "precompute/error/unshadowed_light.h"
@@ -26,9 +26,8 @@ constexpr int kStagePaths = 512;      // per point and light, if light bounces
 
 // A light as the stages use it.
 struct StageLight {
-    LightVector drawn; // `coarse`, selected and quantized
-    LightCube coarse;  // F texels per side of a face, as used by the bake
-    LightCube fine;    // kTruthFaceSize texels per side; may be negative
+    DrawnLight drawn;
+    LightCube fine; // kTruthFaceSize texels per side; may be negative
 };
 
 struct StageOptions {
@@ -55,6 +54,7 @@ class StageTracer {
     StageTracer(const Asset& asset, const Appearance& appearance, const StageOptions& options,
                 const BakeOptions& baked);
 
+    struct DrawnPart;
     struct Light;
     struct Tuples;
     struct Vertices;
@@ -64,7 +64,7 @@ class StageTracer {
     Tuples vertexTuples(size_t part, uint32_t vertex, std::span<const Light> lights) const;
     // `baked` is the point in the frame of its transport.
     Binding bindingAt(size_t part, const SurfacePoint& baked) const;
-    // Returns the sums per light; zeros if terms are drawn without a residual.
+    // Returns the sums [light][Lit]; zeros if terms are drawn without a residual.
     std::vector<UnshadowedLight> unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
                                               const SurfacePoint& limit, const Binding& binding,
                                               std::span<const Light> lights) const;

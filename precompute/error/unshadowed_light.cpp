@@ -1,10 +1,30 @@
 #include "precompute/error/unshadowed_light.h"
 
 #include "precompute/residual/residual_estimate.h"
+#include "shaders/shared/render.h"
 
 namespace relume {
 
 namespace {
+
+EstimateSums sumTerms(const ResidualSet& residual, std::span<const vec3> views, const PointLight& light) {
+    EstimateSums sums;
+    sums.exact = light.unshadowed.exact;
+    for (size_t term = 0; term < views.size(); term++) {
+        const vec3 weight = residual.hasNonnegativeTerms ? vec3(1) : residual.irradianceWeights[term];
+        const vec3 free = light.unshadowed.tuple[term];
+        sums.shadowed += views[term] * light.tuple[term];
+        sums.terms += views[term] * free;
+        sums.lit += weight * light.tuple[term];
+        sums.unlit += weight * free;
+    }
+    return sums;
+}
+
+vec3 estimate(const EstimateSums& sums, const ResidualSet& residual, float leastView) {
+    return residual.hasNonnegativeTerms ? ratioEstimate(sums, leastView, residual.isBounced)
+                                        : differenceEstimate(sums, residual.isBounced);
+}
 
 // Returns the unshadowed radiance of a point, per light.
 std::vector<glm::dvec3> sumExact(std::span<const LitCell> lit, const SurfacePoint& point,
@@ -52,21 +72,14 @@ std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, cons
     return unshadowed;
 }
 
-vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, std::span<const vec3> tuple,
-                      const UnshadowedLight& unshadowed) {
-    ResidualSums sums{vec3(0), unshadowed.exact, vec3(0)};
-    for (size_t term = 0; term < views.size(); term++) sums.shadowed += views[term] * tuple[term];
-    if (!residual) return glm::max(sums.shadowed, vec3(0));
-    vec3 lit(0), unlit(0);
-    for (size_t term = 0; term < views.size(); term++) {
-        const vec3 weight = residual->hasNonnegativeTerms ? vec3(1) : residual->irradianceWeights[term];
-        sums.terms += views[term] * unshadowed.tuple[term];
-        lit += weight * tuple[term];
-        unlit += weight * unshadowed.tuple[term];
-    }
-    return residual->hasNonnegativeTerms
-               ? ratioEstimate(sums, lit, unlit, residual->isBounced)
-               : differenceEstimate(sums, litShare(lit, unlit), residual->isBounced);
+vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, const PointLight& whole,
+                      const PointLight& fill) {
+    vec3 shadowed(0);
+    for (size_t term = 0; term < views.size(); term++) shadowed += views[term] * whole.tuple[term];
+    if (!residual) return glm::max(shadowed, vec3(0));
+    const EstimateSums all = sumTerms(*residual, views, whole), own = sumTerms(*residual, views, fill);
+    return estimate(own, *residual, shared::kFillLeastView) +
+           estimate(all - own, *residual, shared::kKeyLeastView);
 }
 
 } // namespace relume

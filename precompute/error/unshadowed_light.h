@@ -21,10 +21,16 @@ std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, cons
                                            const FactoredBrdf& factors,
                                            std::span<const std::span<const vec3>> lights);
 
-// Returns the radiance of a pixel, as view_shade.frag computes it: with the estimate of `residual`, or, if
-// that is null, the sum of the terms clamped at zero. `views` has a value per term that is summed: the view
-// maps of the bound layers times their weights.
-vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, std::span<const vec3> tuple,
-                      const UnshadowedLight& unshadowed);
+// A point's tuple and unshadowed sums under a light.
+struct PointLight {
+    std::span<const vec3> tuple;
+    const UnshadowedLight& unshadowed;
+};
+
+// Returns the radiance of a pixel, as view_shade.frag computes it: with the estimates of `residual` for the
+// fill and for the rest of the light, or, if it is null, the sum of the whole light's terms clamped at zero.
+// `views` has a value per term that is summed: the view maps of the bound layers times their weights.
+vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, const PointLight& whole,
+                      const PointLight& fill);
 
 } // namespace relume

@@ -1,12 +1,16 @@
 #include "precompute/reference/reference_image.h"
 
 #include "engine/base/error.h"
+#include "engine/light/fill_light.h"
 #include "engine/math/cubemap.h"
+#include "engine/relight/set_relighter.h"
 #include "engine/transport/asset_check.h"
 #include "precompute/reference/bound_asset.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
 #include "precompute/residual/residual_estimate.h"
+#include "shaders/shared/light.h"
+#include "shaders/shared/render.h"
 
 #include <algorithm>
 #include <array>
@@ -19,10 +23,10 @@ namespace relume {
 
 namespace {
 
-// A direction of incident light, with radiance · solid angle.
+// A direction of incident light, with radiance · solid angle: of the whole light, and of its fill.
 struct LightSample {
     vec3 direction;
-    vec3 energy;
+    vec3 energy, fill;
 };
 
 // Side, in texels, of the light cube that paths sample if the light is an environment.
@@ -146,25 +150,41 @@ vec3 Renderer::estimateRadiance(const RayHit& hit) const {
     const SurfacePoint point = asset.pointAt(hit, camera.eye), ofTerms = terms->pointAt(hit, camera.eye);
     const bool isMapped = point.frame.n != ofTerms.frame.n;
     const SurfacePoint limit = isMapped ? asset.limitPointAt(hit, camera.eye) : point;
-    glm::dvec3 exact(0), most(0), unshadowed(0), shadowed(0), irradiance(0), lit(0);
+    struct {
+        glm::dvec3 exact{0}, most{0}, terms{0}, shadowed{0}, unlit{0}, lit{0};
+    } sums[kMostLights]; // by Lit
     const vec3 origin = point.position + shadowOffset * point.normal;
     for (const LightSample& light : lights) {
         const vec3 seen = point.frame.toLocal(light.direction),
                    incoming = ofTerms.frame.toLocal(light.direction);
-        if (seen.z > 0) exact += light.energy * seen.z * point.reflected(seen);
-        if (!(incoming.z > 0)) continue;
-        if (isMapped) most += light.energy * incoming.z * limit.reflected(incoming);
-        const vec3 energy = light.energy * incoming.z, f = ofTerms.reflected(incoming);
-        unshadowed += energy * f;
-        irradiance += energy;
-        if (occluder.occluded(origin, light.direction)) continue;
-        shadowed += energy * f;
-        lit += energy;
+        const vec3 found = seen.z > 0 ? seen.z * point.reflected(seen) : vec3(0);
+        const bool isAbove = incoming.z > 0;
+        const vec3 limited = isAbove && isMapped ? incoming.z * limit.reflected(incoming) : vec3(0);
+        const vec3 f = isAbove ? incoming.z * ofTerms.reflected(incoming) : vec3(0);
+        const bool isLit = isAbove && !occluder.occluded(origin, light.direction);
+        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+            const vec3 energy = lit == Lit::Whole ? light.energy : light.fill;
+            auto& of = sums[size_t(lit)];
+            of.exact += energy * found;
+            of.most += energy * limited;
+            if (!isAbove) continue;
+            of.terms += energy * f;
+            of.unlit += energy * incoming.z;
+            if (!isLit) continue;
+            of.shadowed += energy * f;
+            of.lit += energy * incoming.z;
+        }
     }
-    const ResidualSums sums{vec3(shadowed), isMapped ? glm::min(vec3(exact), vec3(most)) : vec3(exact),
-                            vec3(unshadowed)};
-    return hasNonnegativeTerms[hit.mesh] ? ratioEstimate(sums, vec3(lit), vec3(irradiance))
-                                         : differenceEstimate(sums, litShare(vec3(lit), vec3(irradiance)));
+    EstimateSums estimated[kMostLights];
+    for (size_t i = 0; i < kMostLights; i++)
+        estimated[i] = {vec3(sums[i].shadowed),
+                        vec3(isMapped ? glm::min(sums[i].exact, sums[i].most) : sums[i].exact),
+                        vec3(sums[i].terms), vec3(sums[i].lit), vec3(sums[i].unlit)};
+    const auto& [whole, fill] = estimated;
+    const EstimateSums key = whole - fill;
+    return hasNonnegativeTerms[hit.mesh]
+               ? ratioEstimate(fill, shared::kFillLeastView) + ratioEstimate(key, shared::kKeyLeastView)
+               : differenceEstimate(fill) + differenceEstimate(key);
 }
 
 Image render(const Renderer& renderer, const std::function<void(int)>& progress) {
@@ -229,6 +249,7 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
 // Returns samples of the lit texels, each divided into side × side equal squares of its face.
 std::vector<LightSample> lightSamples(const LightCube& light, int side) {
     std::vector<LightSample> samples;
+    const LightCube fill = fillOf(light);
     const int fineSize = light.size * side;
     for (int face = 0; face < kCubeFaces; face++)
         for (int y = 0; y < fineSize; y++)
@@ -236,15 +257,31 @@ std::vector<LightSample> lightSamples(const LightCube& light, int side) {
                 const int texel = cubeTexelIndex(face, x / side, y / side, light.size);
                 const vec3 radiance = light.radiance[size_t(texel)];
                 if (radiance == vec3(0)) continue;
-                samples.push_back({cubeTexelDirection(face, x, y, fineSize),
-                                   radiance * cubeTexelSolidAngle(x, y, fineSize)});
+                const float solidAngle = cubeTexelSolidAngle(x, y, fineSize);
+                samples.push_back({cubeTexelDirection(face, x, y, fineSize), radiance * solidAngle,
+                                   fill.radiance[size_t(texel)] * solidAngle});
             }
     return samples;
+}
+
+// Returns where the fill of a latlong map is cut, as fillOf() would cut that of a fine cube.
+float mostOfFill(const Environment& map) {
+    double sum = 0, weights = 0;
+    for (int row = 0; row < map.height; row++) {
+        const double weight = std::sin(double(kPi) * (row + 0.5) / map.height);
+        for (int column = 0; column < map.width; column++) {
+            const vec3 radiance = map.radiance[size_t(row) * size_t(map.width) + size_t(column)];
+            sum += weight * double(std::max({radiance.x, radiance.y, radiance.z, 0.0f}));
+            weights += weight;
+        }
+    }
+    return shared::kMostOfMean * float(sum / weights);
 }
 
 // Returns a sample per lit pixel of a latlong map, with its exact solid angle: Δlongitude · Δ sin latitude.
 std::vector<LightSample> lightSamples(const Environment& map, float rotation) {
     const float cosine = std::cos(rotation), sine = std::sin(rotation);
+    const float most = mostOfFill(map);
     std::vector<LightSample> samples;
     for (int row = 0; row < map.height; row++) {
         const double top = double(kPi) * (0.5 - double(row) / map.height);
@@ -255,7 +292,7 @@ std::vector<LightSample> lightSamples(const Environment& map, float rotation) {
             if (radiance == vec3(0)) continue;
             const vec3 d = map.direction(float(column) + 0.5f, float(row) + 0.5f);
             const vec3 turned(cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x);
-            samples.push_back({turned, radiance * solidAngle});
+            samples.push_back({turned, radiance * solidAngle, glm::min(radiance, vec3(most)) * solidAngle});
         }
     }
     return samples;

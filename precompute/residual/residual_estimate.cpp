@@ -9,7 +9,6 @@ namespace relume {
 namespace {
 
 constexpr float kLeastShare = 0.25f;                      // least estimate, relative to r E
-constexpr float kLeastView = 1e-4f;                       // added to every view map in ratios
 constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // bounds of a channel's ratio over luminance's
 
 } // namespace
@@ -19,18 +18,24 @@ float litShare(vec3 irradiance, vec3 unshadowed) {
     return all > 0 ? std::clamp(luminance(irradiance) / all, 0.0f, 1.0f) : 1;
 }
 
-vec3 differenceEstimate(const ResidualSums& sums, float share, bool isBounced) {
+EstimateSums operator-(const EstimateSums& whole, const EstimateSums& part) {
+    return {whole.shadowed - part.shadowed, glm::max(whole.exact - part.exact, vec3(0)),
+            whole.terms - part.terms, whole.lit - part.lit, whole.unlit - part.unlit};
+}
+
+vec3 differenceEstimate(const EstimateSums& sums, bool isBounced) {
+    const float share = litShare(sums.lit, sums.unlit);
     const vec3 above = isBounced ? glm::max(sums.shadowed - sums.terms, vec3(0)) : vec3(0);
     return glm::clamp(sums.shadowed + share * (sums.exact - sums.terms), kLeastShare * share * sums.exact,
                       sums.exact + above);
 }
 
-vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples, bool isBounced) {
-    const vec3 all = sums.terms + kLeastView * unshadowedTuples, lit = sums.shadowed + kLeastView * tuples;
+vec3 ratioEstimate(const EstimateSums& sums, float leastView, bool isBounced) {
+    const vec3 all = sums.terms + leastView * sums.unlit, lit = sums.shadowed + leastView * sums.lit;
     if (isBounced)
         return sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1)) +
                glm::max(sums.shadowed - sums.terms, vec3(0));
-    const float gray = std::max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
+    const float gray = std::max(litShare(lit, all), kLeastShare * litShare(sums.lit, sums.unlit));
     const vec3 ratio =
         glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGray * gray), vec3(kMostOfGray * gray));
     return sums.exact * glm::min(ratio, vec3(1));

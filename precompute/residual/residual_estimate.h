@@ -8,22 +8,27 @@ namespace relume {
 // Returns the share of irradiance that reaches a point, by luminance, in [0, 1]; 1 if there is no light.
 float litShare(vec3 irradiance, vec3 unshadowed);
 
-// The sums for a point and view: the shadowed K terms (T), the unshadowed exact BRDF (E) and the unshadowed K
-// terms (S).
-struct ResidualSums {
-    vec3 shadowed, exact, terms;
+// The sums of a light for a point and view: the shadowed K terms (T), the unshadowed exact BRDF (E) and the
+// unshadowed K terms (S); and tuples without a view, shadowed and not: weighted so that they sum to
+// irradiance where terms are signed, added up where they are not.
+struct EstimateSums {
+    vec3 shadowed{0}, exact{0}, terms{0};
+    vec3 lit{0}, unlit{0};
 };
 
-// Returns the estimate for signed terms, the control variate T + r (E - S), clamped to [r E / 4, E]; `share`
-// is r. With `isBounced`, T includes light from other surfaces, and the estimate may exceed E by as much as T
-// exceeds S.
-vec3 differenceEstimate(const ResidualSums& sums, float share, bool isBounced = false);
+// Returns the sums of one light without another that it contains; E is not negative.
+EstimateSums operator-(const EstimateSums& whole, const EstimateSums& part);
 
-// Returns the estimate for nonnegative terms, the ratio E T / S. If all terms vanish in the view, sums of the
-// tuples give the ratio. Each channel's ratio is clamped to [0.8, 1.25] of the luminance's and to at most 1,
-// the luminance's to at least a quarter of the irradiance's, since storage errors would otherwise color and
-// darken faint light. With `isBounced`, ratios are only clamped to [0, 1], and the excess of T over S is
-// added.
-vec3 ratioEstimate(const ResidualSums& sums, vec3 tuples, vec3 unshadowedTuples, bool isBounced = false);
+// Returns the estimate for signed terms, the control variate T + r (E - S), clamped to [r E / 4, E], where r
+// is the lit share of the irradiance. With `isBounced`, T includes light from other surfaces, and the
+// estimate may exceed E by as much as T exceeds S.
+vec3 differenceEstimate(const EstimateSums& sums, bool isBounced = false);
+
+// Returns the estimate for nonnegative terms, the ratio E T / S. `leastView` (shared::kFillLeastView and so
+// on) is added to every view map: the more, the more the sums of the tuples give the ratio. Each channel's
+// ratio is clamped to [0.8, 1.25] of the luminance's and to at most 1, the luminance's to at least a quarter
+// of the irradiance's, since storage errors would otherwise color and darken faint light. With `isBounced`,
+// ratios are only clamped to [0, 1], and the excess of T over S is added.
+vec3 ratioEstimate(const EstimateSums& sums, float leastView, bool isBounced = false);
 
 } // namespace relume

@@ -1,5 +1,5 @@
-// Structs and push constants of the light sources that are summed into the lighting cube:
-// engine/light/light.h.
+// Structs and push constants of the light sources that are summed into the lighting cube
+// (engine/light/light.h), and of its fill (engine/light/fill_light.h).
 #ifndef RELUME_SHADERS_SHARED_LIGHT_H
 #define RELUME_SHADERS_SHARED_LIGHT_H
 #include "shaders/shared/types.h"
@@ -51,6 +51,16 @@ struct LightDistantPush {
     uint taps;
 };
 RELUME_SHARED_SIZE(LightDistantPush, 4)
+
+// The fill is the light cut at this many times its mean; lanes that sum the mean.
+const float kMostOfMean = 10;
+const uint kFillLanes = 128;
+
+struct LightFillPush {
+    uint texels; // of the cube
+    float share; // kMostOfMean / texels
+};
+RELUME_SHARED_SIZE(LightFillPush, 8)
 
 RELUME_SHARED_END
 

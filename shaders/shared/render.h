@@ -148,6 +148,11 @@ const uint kUnshadowed = 8;      // in their place: shows the unshadowed radianc
 const uint kShadow = 16;         // added to any: shows the shadow alone (GroundStyle::Shadow)
 const float kLeastShadow = 0.03; // shadow that is taken for an error of transport
 
+// What is added to every view map in ratios. Under the fill, terms see different light, and this serves only
+// where all of them vanish in the view. The key is small, so that all terms see about the same share of it,
+// of which their sums have the smallest error.
+const float kFillLeastView = 1e-4f, kKeyLeastView = 0.1f;
+
 // The source of a part's paint.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;
 
@@ -183,9 +188,10 @@ struct ViewShadePush {
     // For the residual:
     uint firstSlot;   // kSingleLook: ViewLayer::firstSlot of the layer
     uint firstTuples; // first image of the set's unshadowed tuples, and first texel of its irradiance weights
+    uint fillSlots;   // number of slots before those of the fill
     vec4 groundFade;  // GroundFade: center, inner and outer; outer 0: no fade
 };
-RELUME_SHARED_SIZE(ViewShadePush, 124)
+RELUME_SHARED_SIZE(ViewShadePush, 128)
 
 struct ViewEdgesPush {
     ViewRays rays;

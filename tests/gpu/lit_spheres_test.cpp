@@ -1,4 +1,5 @@
 // Lit spheres: the device against the CPU twin, and both against the sum over the light's texels.
+#include "engine/light/fill_light.h"
 #include "engine/math/cubemap.h"
 #include "engine/math/polar_map.h"
 #include "engine/math/tangent_frame.h"
@@ -110,12 +111,14 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
     // Samplers round bilinear weights to 8 bits, but lavapipe's.
     const bool isExact = static_cast<const vk::Device&>(device).info().driver.starts_with("llvmpipe");
     const double filtering = isExact ? 2e-3 : 1e-2;
-    const LightCube light = skyCube();
+    const LightCube light = skyCube(), fill = fillOf(light);
+    REQUIRE(fill.radiance != light.radiance); // there is a sun
     const Material gold = makeMaterial("gold", 5), steel = makeMaterial("brushed-steel", 4);
     const std::shared_ptr<ResidualSet> sets[] = {residualOf(gold), residualOf(steel)};
     CHECK(sets[0]->layers[0]->harmonics == 0);
     CHECK(sets[1]->layers[0]->harmonics > 0);
     LightPass pass(device, 64);
+    FillLight fillLight(device, 64);
     pass.setCube(light);
     for (const bool hasTangents : {false, true}) {
         CAPTURE(hasTangents);
@@ -128,21 +131,26 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
         vk::Commands commands(device, "spheres");
         commands.begin();
         pass.record(commands);
-        spheres.recordLight(commands, pass);
+        fillLight.record(commands, pass);
+        spheres.recordLight(commands, pass, &fillLight);
         const uint32_t both[] = {0, 1};
         spheres.record(commands, both, nodes);
         commands.submitAndWait();
 
-        const std::vector<vec3> cube = sphereCube(light);
-        const std::vector<CellLight> lights = cellLights(light);
-        for (uint32_t i = 0; i < 2; i++) {
-            const SphereKernel& kernel = *sets[i]->layers[0];
-            CHECK(relativeError(
-                      spheres.readTuples(i, 0),
-                      unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors, hasTangents)) < 2e-3);
-            for (const uint32_t node : {40u, 79u})
-                CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node),
-                                    litSpheres(kernel, polarLight(cube, gridDirection(node)))) < filtering);
+        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+            const LightCube& own = lit == Lit::Whole ? light : fill;
+            const std::vector<vec3> cube = sphereCube(own);
+            const std::vector<CellLight> lights = cellLights(own);
+            for (uint32_t i = 0; i < 2; i++) {
+                const SphereKernel& kernel = *sets[i]->layers[0];
+                CHECK(relativeError(spheres.readTuples(i, 0, lit),
+                                    unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors,
+                                                     hasTangents)) < 2e-3);
+                for (const uint32_t node : {40u, 79u})
+                    CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node, lit),
+                                        litSpheres(kernel, polarLight(cube, gridDirection(node)))) <
+                          filtering);
+            }
         }
     }
 }

@@ -61,9 +61,7 @@ Camera cameraOf(const Asset& asset) { return orbitCamera(boundsOf(asset), 0.6f, 
 StageLight skyOf(int faceSize, const LightSelection& selection) {
     const auto sky = std::make_shared<const Environment>(prepareForSampling(makeSky()));
     const Light light{.environments = {{sky}}};
-    LightCube coarse = sampleLight(light, faceSize);
-    LightVector vector = makeLightVector(coarse, selection);
-    return {std::move(vector), std::move(coarse), sampleLight(light, kTruthFaceSize)};
+    return {drawnLight(sampleLight(light, faceSize), selection), sampleLight(light, kTruthFaceSize)};
 }
 
 double changeBy(std::span<const StageRadiance> stages, ErrorSource source) {
@@ -147,8 +145,7 @@ TEST_CASE("error grid: it predicts the drawn image's error, whatever K and N") {
     const SeenPoints seen{camera.eye, points.hits};
     const std::vector<vec3> exact = exactRadiance(most, appearance, std::span(&seen, 1), light.fine);
     REQUIRE(most.parts[0].sets[0].residual);
-    const ErrorGrid grid =
-        errorGrid(most, appearance, std::span(&seen, 1), exact, {light.drawn, light.coarse});
+    const ErrorGrid grid = errorGrid(most, appearance, std::span(&seen, 1), exact, light.drawn);
     CHECK(grid.terms == kTerms);
     CHECK(grid.shares[0] == doctest::Approx(1));
     for (const size_t rung : {size_t(2), size_t(6), size_t(9)}) {

@@ -120,9 +120,9 @@ class BasesRelighter::ShardData {
 };
 
 BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& programs,
-                               const BasisTransport& transport, uint32_t coefficients, uint64_t largestShard,
-                               const std::string& name)
-    : SetRelighter(device, transport.rows(), name), mPrograms(programs), mTerms(transport.terms),
+                               const BasisTransport& transport, uint32_t coefficients, size_t lights,
+                               uint64_t largestShard, const std::string& name)
+    : SetRelighter(device, transport.rows(), lights, name), mPrograms(programs), mTerms(transport.terms),
       mKinds(uint32_t(transport.kinds.size())),
       mGroupsPerTerm(roundUp(kBasisVertices / kVerticesPerLane, programs.combine.groupSize()[0])) {
     std::vector<shared::BasisTermKinds> termKinds(mTerms, {0, 0});
@@ -152,27 +152,33 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
 BasesRelighter::Shard BasesRelighter::upload(const vk::Device& device, const ShardData& data,
                                              uint32_t coefficients, const std::string& name) const {
     const uint64_t components = std::max<uint64_t>(data.components, 1);
+    std::vector<Projected> projected;
+    for (size_t light = 0; light < lights(); light++)
+        projected.push_back(
+            {vk::Buffer(device, components * sizeof(ivec3), vk::BufferUse::Device, name + " projection sums"),
+             vk::Buffer(device, components * sizeof(vec4), vk::BufferUse::Device, name + " projections"),
+             vk::upload<uint32_t>(device, std::vector<uint32_t>(data.clusters.size(), 0), name + " stamps")});
     return {uint32_t(data.clusters.size()),
             uint32_t(data.groups.size()),
             vk::upload<shared::BasisGroup>(device, data.groups, name + " basis groups"),
             vk::upload<uint32_t>(device, inPairs(data.indices, coefficients), name + " column indices"),
             vk::upload<uint32_t>(device, data.basis, name + " basis"),
-            vk::Buffer(device, components * sizeof(ivec3), vk::BufferUse::Device, name + " projection sums"),
-            vk::Buffer(device, components * sizeof(vec4), vk::BufferUse::Device, name + " projections"),
-            vk::upload<uint32_t>(device, std::vector<uint32_t>(data.clusters.size(), 0), name + " stamps"),
             vk::upload<shared::BasisVertices>(device, data.clusters, name + " clusters"),
             vk::upload<shared::BasisWeighting>(device, data.weightings, name + " weightings"),
             vk::upload<uint32_t>(device, data.weights, name + " weights"),
-            vk::upload<float>(device, data.scales, name + " weight scales")};
+            vk::upload<float>(device, data.scales, name + " weight scales"),
+            std::move(projected)};
 }
 
-void BasesRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode) const {
+void BasesRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
+                                  Lit lit) const {
     const auto stamp = uint32_t(light.recording);
+    const auto of = [&](const Shard& shard) -> const Projected& { return shard.projected[size_t(lit)]; };
     for (const Shard& shard : mShards)
         if (shard.groups > 0)
             commands.dispatch(mPrograms.project,
                               {shard.indices, light.table, light.stats, shard.groupList, shard.basis,
-                               shard.sums, shard.projections, shard.stamps},
+                               of(shard).sums, of(shard).projections, of(shard).stamps},
                               shared::RelightProjectPush{pushed(mode), stamp},
                               {shard.groups * mPrograms.project.groupSize()[0], 1, 1});
     commands.barrier(Stage::Compute, Stage::Compute);
@@ -182,7 +188,8 @@ void BasesRelighter::recordLayout(vk::Commands& commands, const DeviceLight& lig
             {shard.clusterList, mTermKinds, mColors, shard.weightings,
              vk::Binding::texelsOf(shard.weights, VK_FORMAT_R32G32_UINT),
              vk::Binding::texelsOf(shard.scales, VK_FORMAT_R32_SFLOAT),
-             vk::Binding::texelsOf(shard.projections, VK_FORMAT_R32G32B32A32_SFLOAT), tuples(), shard.stamps},
+             vk::Binding::texelsOf(of(shard).projections, VK_FORMAT_R32G32B32A32_SFLOAT), tuples(lit),
+             of(shard).stamps},
             shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, stamp},
             {shard.clusters * mTerms * mGroupsPerTerm * mPrograms.combine.groupSize()[0], 1, 1});
 }

@@ -20,17 +20,23 @@ class BasesRelighter : public SetRelighter {
 
     // See RowsRelighter.
     BasesRelighter(const vk::Device& device, const Programs& programs, const BasisTransport& transport,
-                   uint32_t coefficients, uint64_t largestShard, const std::string& name);
+                   uint32_t coefficients, size_t lights, uint64_t largestShard, const std::string& name);
 
     size_t shards() const override { return mShards.size(); }
 
   private:
-    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode) const override;
+    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
+                      Lit lit) const override;
 
+    // A light projected on the basis vectors of a shard.
+    struct Projected {
+        vk::Buffer sums, projections, stamps;
+    };
     struct Shard {
         uint32_t clusters = 0, groups = 0;
-        vk::Buffer groupList, indices, basis, sums, projections, stamps; // relight_project.comp
-        vk::Buffer clusterList, weightings, weights, scales;             // relight_combine.comp
+        vk::Buffer groupList, indices, basis;                // relight_project.comp
+        vk::Buffer clusterList, weightings, weights, scales; // relight_combine.comp
+        std::vector<Projected> projected;                    // by light
     };
     class ShardData;
     Shard upload(const vk::Device& device, const ShardData& data, uint32_t coefficients,

@@ -54,9 +54,9 @@ RowsRelighter::Programs::Programs(const vk::Device& device)
     : relight(device, relight_rows_comp_spirv, {}, "relight rows") {}
 
 RowsRelighter::RowsRelighter(const vk::Device& device, const Programs& programs,
-                             const SparseTransport& transport, uint32_t coefficients, uint64_t largestShard,
-                             const std::string& name)
-    : SetRelighter(device, transport.rows(), name), mPrograms(programs),
+                             const SparseTransport& transport, uint32_t coefficients, size_t lights,
+                             uint64_t largestShard, const std::string& name)
+    : SetRelighter(device, transport.rows(), lights, name), mPrograms(programs),
       mScales(vk::upload<float>(device, transport.scales, name + " row scales")) {
     const uint64_t largestGroups = largestShard / kGroupBytes;
     const uint32_t largestRows = largestRowCount(device, programs.relight, largestShard);
@@ -75,10 +75,11 @@ RowsRelighter::RowsRelighter(const vk::Device& device, const Programs& programs,
     }
 }
 
-void RowsRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode) const {
+void RowsRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode,
+                                 Lit lit) const {
     for (const Shard& shard : mShards)
         commands.dispatch(mPrograms.relight,
-                          {shard.starts, shard.entries, light.table, light.stats, mScales, tuples()},
+                          {shard.starts, shard.entries, light.table, light.stats, mScales, tuples(lit)},
                           shared::RelightRowsPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
 }
 

@@ -16,16 +16,16 @@ class RowsRelighter : public SetRelighter {
         explicit Programs(const vk::Device& device);
     };
 
-    // `coefficients` is the light's, 6 F²; all indices must be below it. `largestShard` limits a shard's
-    // bytes; a shard has at least one row.
+    // `coefficients` is the light's, 6 F²; all indices must be below it; `lights` as of SetRelighter.
+    // `largestShard` limits a shard's bytes; a shard has at least one row.
     RowsRelighter(const vk::Device& device, const Programs& programs, const SparseTransport& transport,
-                  uint32_t coefficients, uint64_t largestShard, const std::string& name);
+                  uint32_t coefficients, size_t lights, uint64_t largestShard, const std::string& name);
 
     size_t shards() const override { return mShards.size(); }
 
   private:
     // Ignores the mode and relights in full: to find the changed entries it would have to read all indices.
-    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode) const override;
+    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode, Lit lit) const override;
 
     struct Shard {
         uint32_t firstRow = 0, rows = 0;
