@@ -1,6 +1,7 @@
 #version 460
 // Downsamples the lighting cube to faces of kSphereCube² texels, each with a border from its neighbors so that
-// bilinear lookups have no seam, and makes one light of every coarse cell, at the centroid of its radiance.
+// bilinear lookups have no seam, and makes one light of every coarse cell, at the centroid of its radiance: for the fill,
+// at that of the whole light.
 // C++ twin: sphereCube() and cellLights() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,7 +12,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { SphereCubePush push; };
 layout(binding = 0, scalar) readonly buffer Radiance { vec3 radiance[]; };
 layout(binding = 1, std430) writeonly buffer Texels { vec4 texels[]; };
-layout(binding = 2, std430) writeonly buffer Lights { vec4 lights[]; }; // direction, and radiance · solid angle
+layout(binding = 2, std430) writeonly buffer Lights { vec4 lights[]; }; // kCellTexels each
 
 // Returns the mean radiance of a texel, of kSphereCube a side.
 vec3 meanOf(uint face, uvec2 texel) {
@@ -47,9 +48,13 @@ void writeLight(uint item) {
             energy += emitted;
             weighted += dot(abs(emitted), vec3(1)) * normalize(cubeDirection(face, uv));
         }
+    if (push.isFill != 0) {
+        lights[kCellTexels * item + 2] = vec4(energy, 0);
+        return;
+    }
     const vec3 middle = cubeDirection(face, (vec2(cell) + 0.5) * (2.0 / kTupleCells) - 1);
-    lights[2 * item] = vec4(normalize(dot(weighted, weighted) > 0 ? weighted : middle), 0);
-    lights[2 * item + 1] = vec4(energy, 0);
+    lights[kCellTexels * item] = vec4(normalize(dot(weighted, weighted) > 0 ? weighted : middle), 0);
+    lights[kCellTexels * item + 1] = vec4(energy, 0);
 }
 
 void main() {

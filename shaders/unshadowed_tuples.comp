@@ -1,5 +1,6 @@
 #version 460
-// Sums the unshadowed tuples of all normals: polar maps about +Y, four terms per invocation.
+// Sums the unshadowed tuples of all normals, of the whole light and of its fill: polar maps about +Y, four terms per
+// invocation.
 // C++ twin: unshadowedTuples() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,7 +12,7 @@
 
 layout(local_size_x = 16) in;
 layout(push_constant, scalar) uniform Push { UnshadowedTuplesPush push; };
-TEXELS(0, vec4, samplerBuffer, Lights, lights);           // direction, and radiance · solid angle
+TEXELS(0, vec4, samplerBuffer, Lights, lights);           // kCellTexels each
 layout(binding = 1) uniform sampler2DArray lightMaps;     // packed as ViewMapTexture is
 layout(binding = 2, std430) writeonly buffer Tuples { vec4 tuples[]; }; // [image][row][azimuth]
 
@@ -27,26 +28,29 @@ void main() {
     const mat2 turned = mat2(cos(angle), -sin(angle), sin(angle), cos(angle));
     const mat3 frame = mat3(turned) * (side == 0 ? tangentFrame(normal) : lowerTangentFrame(normal));
     const uint images = push.isGray != 0 ? (push.terms + 3) / 4 : (3 * push.terms + 3) / 4;
-    vec4 a = vec4(0), b = vec4(0), c = vec4(0); // rgbr, gbrg, brgb, as tuples are stored
+    // Four terms of the whole light and of its fill: rgbr, gbrg, brgb, as tuples are stored.
+    mat3x4 whole = mat3x4(0), fill = mat3x4(0);
     for (int light = 0; light < int(kTupleLights); light++) {
-        const vec3 local = frame * texelOf(lights, 2 * light).xyz;
+        const int texel = int(kCellTexels) * light;
+        const vec3 local = frame * texelOf(lights, texel).xyz;
         if (local.z <= kGrazingCosine) continue;
-        const vec3 energy = local.z * texelOf(lights, 2 * light + 1).rgb;
+        const vec3 energy = local.z * texelOf(lights, texel + 1).rgb, own = local.z * texelOf(lights, texel + 2).rgb;
         const vec2 place = diskMapCoordinates(push.mapping, local);
+        mat3x4 maps = mat3x4(0);
         if (push.isGray != 0) {
             const vec4 m = textureLod(lightMaps, vec3(place, quad), 0);
-            a += m.xxxy * energy.rgbr;
-            b += m.yyzz * energy.gbrg;
-            c += m.zwww * energy.brgb;
+            maps = mat3x4(m.xxxy, m.yyzz, m.zwww);
         } else {
-            a += textureLod(lightMaps, vec3(place, 3 * quad), 0) * energy.rgbr;
-            if (3 * quad + 1 < images) b += textureLod(lightMaps, vec3(place, 3 * quad + 1), 0) * energy.gbrg;
-            if (3 * quad + 2 < images) c += textureLod(lightMaps, vec3(place, 3 * quad + 2), 0) * energy.brgb;
+            for (uint i = 0; i < 3; i++)
+                if (3 * quad + i < images) maps[i] = textureLod(lightMaps, vec3(place, 3 * quad + i), 0);
         }
+        whole += matrixCompMult(maps, mat3x4(energy.rgbr, energy.gbrg, energy.brgb));
+        fill += matrixCompMult(maps, mat3x4(own.rgbr, own.gbrg, own.brgb));
     }
     const uint image = push.rows * kTupleAzimuths;
     const uint first = (push.firstImage + 3 * quad) * image + row * kTupleAzimuths + azimuth;
-    tuples[first] = a;
-    tuples[first + image] = b;
-    tuples[first + 2 * image] = c;
+    for (uint i = 0; i < 3; i++) {
+        tuples[first + i * image] = whole[i];
+        tuples[first + (push.fillImages + i) * image] = fill[i];
+    }
 }

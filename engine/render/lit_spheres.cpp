@@ -143,8 +143,8 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
     for (size_t light = 0; light < kMostLights; light++)
         mReduced.push_back(
             {makeTexels(device, 6 * kSphereCubeBordered * kSphereCubeBordered, "sphere cube"),
-             makeTexels(device, 2 * kTupleLights, "lights of cells"),
              vk::Image(device, imageOptions(kSphereCubeBordered, kSphereCubeBordered, 6), "sphere cube")});
+    mCells = makeTexels(device, kCellTexels * kTupleLights, "lights of cells");
     const uint32_t tupleImages = kMostLights * mTupleImages;
     mTupleTexels =
         makeTexels(device, uint64_t(tupleImages) * mTupleRows * kTupleAzimuths, "unshadowed tuples");
@@ -202,31 +202,30 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light, con
     if (mSets.empty()) return;
     RELUME_CHECK(fill || mKernels.empty());
     freeSlots();
-    const size_t lights = fill ? kMostLights : 1;
     // Draws and passes of an earlier frame may still be reading.
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Compute);
     commands.barrier(Stage::Draw, Stage::Transfer);
     commands.barrier(Stage::Transfer, Stage::Compute);
     commands.pass("unshadowed", [&] {
-        for (size_t i = 0; i < lights; i++)
+        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+            const bool isFill = lit == Lit::Fill;
             commands.dispatch(
-                mCube, {i == 0 ? light.radiance() : fill->radiance(), mReduced[i].texels, mReduced[i].cells},
-                SphereCubePush{uint32_t(light.faceSize())},
+                mCube,
+                {isFill && fill ? fill->radiance() : light.radiance(), mReduced[size_t(lit)].texels, mCells},
+                SphereCubePush{uint32_t(light.faceSize()), isFill},
                 {6 * kSphereCubeBordered * kSphereCubeBordered, 1, 1});
+        }
         commands.barrier(Stage::Compute, Stage::Compute);
-        for (size_t i = 0; i < lights; i++)
-            for (const Set& set : mSets) {
-                const uint32_t firstImage = uint32_t(i) * mTupleImages + set.firstImage;
-                commands.dispatch(
-                    mUnshadowed,
-                    {texels(mReduced[i].cells),
-                     {set.lightMaps.image, isPolar(DiskMapping(set.mapping)) ? mPolarSampler : mSampler},
-                     mTupleTexels},
-                    UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGray, firstImage, mTupleRows,
-                                         set.isTurned},
-                    {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});
-            }
+        for (const Set& set : mSets)
+            commands.dispatch(
+                mUnshadowed,
+                {texels(mCells),
+                 {set.lightMaps.image, isPolar(DiskMapping(set.mapping)) ? mPolarSampler : mSampler},
+                 mTupleTexels},
+                UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGray, set.firstImage, mTupleRows,
+                                     set.isTurned, mTupleImages},
+                {kTupleAzimuths, set.rows(), roundUp(set.terms, 4)});
         commands.barrier(Stage::Compute, Stage::Transfer);
         const auto copyTo = [&](const vk::Buffer& from, const vk::Image& to, Stage readBy) {
             commands.transition(to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
@@ -235,7 +234,7 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light, con
             commands.transition(to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Stage::Transfer, readBy);
         };
-        for (size_t i = 0; i < lights; i++) copyTo(mReduced[i].texels, mReduced[i].cube, Stage::Compute);
+        for (const ReducedLight& reduced : mReduced) copyTo(reduced.texels, reduced.cube, Stage::Compute);
         copyTo(mTupleTexels, mTuples, Stage::Draw);
     });
 }

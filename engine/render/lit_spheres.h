@@ -99,13 +99,13 @@ class LitSpheres {
     std::vector<Kernel> mKernels;
     vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
     vk::Sampler mSampler, mPolarSampler; // mPolarSampler repeats in x
-    // What a light is reduced to.
+    // A light's cube, downsampled.
     struct ReducedLight {
-        vk::Buffer texels, cells; // of the cube, and the lights of its cells
+        vk::Buffer texels;
         vk::Image cube;
     };
     std::vector<ReducedLight> mReduced; // by Lit
-    vk::Buffer mTupleTexels, mGrid, mSlots, mWeights;
+    vk::Buffer mCells, mTupleTexels, mGrid, mSlots, mWeights;
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mImage, mTuples;
     std::vector<vk::Image> mRetired;  // earlier, smaller images, which pending commands may still use

@@ -34,7 +34,7 @@ std::vector<vec3> sphereCube(const LightCube& light) {
     return texels;
 }
 
-std::vector<CellLight> cellLights(const LightCube& light) {
+std::vector<CellLight> cellLights(const LightCube& light, const LightCube& whole) {
     constexpr int kSize = kTupleCells;
     const int side = light.size / kSize;
     std::vector<CellLight> lights;
@@ -44,10 +44,10 @@ std::vector<CellLight> cellLights(const LightCube& light) {
                 vec3 energy(0), weighted(0);
                 for (int j = y * side; j < (y + 1) * side; j++)
                     for (int i = x * side; i < (x + 1) * side; i++) {
-                        const vec3 emitted = cubeTexelSolidAngle(i, j, light.size) *
-                                             light.radiance[size_t(cubeTexelIndex(face, i, j, light.size))];
-                        energy += emitted;
-                        weighted += (std::abs(emitted.x) + std::abs(emitted.y) + std::abs(emitted.z)) *
+                        const auto texel = size_t(cubeTexelIndex(face, i, j, light.size));
+                        const float solidAngle = cubeTexelSolidAngle(i, j, light.size);
+                        energy += solidAngle * light.radiance[texel];
+                        weighted += glm::dot(glm::abs(whole.radiance[texel]), vec3(solidAngle)) *
                                     cubeTexelDirection(face, i, j, light.size);
                     }
                 const bool isLit = glm::dot(weighted, weighted) > 0;

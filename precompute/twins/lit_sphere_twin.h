@@ -10,12 +10,12 @@ namespace relume {
 // Twin of sphere_cube.comp: returns six faces of kSphereCubeBordered² texels.
 std::vector<vec3> sphereCube(const LightCube& light);
 
-// Twin of sphere_cube.comp: a cell's light, concentrated at its center of emission.
+// Twin of sphere_cube.comp: a cell's light, concentrated where the center of emission of `whole` is.
 struct CellLight {
     vec3 direction;
     vec3 energy; // radiance · solid angle
 };
-std::vector<CellLight> cellLights(const LightCube& light);
+std::vector<CellLight> cellLights(const LightCube& light, const LightCube& whole);
 
 // Twin of unshadowed_tuples.comp: returns kTupleRings × kTupleAzimuths × terms for normals about +Y, in the
 // frames that follow from them; if `isTurned`, kTurnedRows × kTupleAzimuths × terms in frames rotated from

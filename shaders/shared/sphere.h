@@ -28,8 +28,12 @@ const uint kTurnedRows = 2 * kTupleTurns * kTupleSideRings; // rows of an image:
 
 struct SphereCubePush {
     uint faceSize; // F of the lighting cube
+    uint isFill;   // 1: radiance is that of the fill; the whole light's cells have been made
 };
-RELUME_SHARED_SIZE(SphereCubePush, 4)
+RELUME_SHARED_SIZE(SphereCubePush, 8)
+
+// Texels per light of a cell: its direction, and radiance · solid angle of the whole light and of its fill.
+const uint kCellTexels = 3;
 
 struct UnshadowedTuplesPush {
     uint mapping;    // of the light maps: DiskMapping
@@ -38,8 +42,9 @@ struct UnshadowedTuplesPush {
     uint firstImage; // the set's first image; it has three per four terms
     uint rows;       // of an image: kTupleRings or, if any set is turned, kTurnedRows
     uint isTurned;   // 1: for each of kTupleTurns turns
+    uint fillImages; // number of images before those of the fill
 };
-RELUME_SHARED_SIZE(UnshadowedTuplesPush, 24)
+RELUME_SHARED_SIZE(UnshadowedTuplesPush, 28)
 
 // The layout of a kernel's spheres in the buffers between passes.
 struct SpherePush {

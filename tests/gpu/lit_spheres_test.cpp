@@ -140,7 +140,7 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
         for (const Lit lit : {Lit::Whole, Lit::Fill}) {
             const LightCube& own = lit == Lit::Whole ? light : fill;
             const std::vector<vec3> cube = sphereCube(own);
-            const std::vector<CellLight> lights = cellLights(own);
+            const std::vector<CellLight> lights = cellLights(own, light);
             for (uint32_t i = 0; i < 2; i++) {
                 const SphereKernel& kernel = *sets[i]->layers[0];
                 CHECK(relativeError(spheres.readTuples(i, 0, lit),
@@ -177,7 +177,7 @@ TEST_CASE("lit spheres: a strongly brushed metal has no spokes around the point 
 TEST_CASE("lit spheres: unshadowed tuples are sums over the light's texels") {
     const LightCube light = skyCube();
     const Material gold = makeMaterial("gold", 8);
-    const std::vector<vec3> tuples = unshadowedTuples(cellLights(light), gold.factors);
+    const std::vector<vec3> tuples = unshadowedTuples(cellLights(light, light), gold.factors);
     std::vector<vec3> made, exact;
     for (uint32_t ring = 1; ring < shared::kTupleRings; ring += 5)
         for (uint32_t azimuth = 0; azimuth < shared::kTupleAzimuths; azimuth += 9) {
@@ -212,7 +212,7 @@ TEST_CASE("lit spheres: tuples tell irradiance") {
         CAPTURE(std::string(name));
         const Material material = makeMaterial(name, 6);
         const std::vector<vec3> weights = irradianceWeights(material.factors);
-        const std::vector<vec3> tuples = unshadowedTuples(cellLights(light), material.factors);
+        const std::vector<vec3> tuples = unshadowedTuples(cellLights(light, light), material.factors);
         for (size_t normal = 0; normal < tuples.size() / weights.size(); normal += 97) {
             vec3 irradiance(0);
             for (size_t term = 0; term < weights.size(); term++)
