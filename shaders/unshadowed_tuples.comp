@@ -34,7 +34,7 @@ void main() {
         const int texel = int(kCellTexels) * light;
         const vec3 local = frame * texelOf(lights, texel).xyz;
         if (local.z <= kGrazingCosine) continue;
-        const vec3 energy = local.z * texelOf(lights, texel + 1).rgb, own = local.z * texelOf(lights, texel + 2).rgb;
+        const vec3 energy = local.z * texelOf(lights, texel + 1).rgb, ofFill = local.z * texelOf(lights, texel + 2).rgb;
         const vec2 place = diskMapCoordinates(push.mapping, local);
         mat3x4 maps = mat3x4(0);
         if (push.isGray != 0) {
@@ -45,7 +45,7 @@ void main() {
                 if (3 * quad + i < images) maps[i] = textureLod(lightMaps, vec3(place, 3 * quad + i), 0);
         }
         whole += matrixCompMult(maps, mat3x4(energy.rgbr, energy.gbrg, energy.brgb));
-        fill += matrixCompMult(maps, mat3x4(own.rgbr, own.gbrg, own.brgb));
+        fill += matrixCompMult(maps, mat3x4(ofFill.rgbr, ofFill.gbrg, ofFill.brgb));
     }
     const uint image = push.rows * kTupleAzimuths;
     const uint first = (push.firstImage + 3 * quad) * image + row * kTupleAzimuths + azimuth;

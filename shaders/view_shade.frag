@@ -13,6 +13,7 @@
 #include "shaders/lib/texels.glsl"
 #include "shaders/lib/texture_footprint.glsl"
 #include "shaders/lib/unshadowed.glsl"
+#include "shaders/shared/light.h"
 #include "shaders/shared/render.h"
 
 layout(constant_id = 0) const uint kTerms = 4;
@@ -24,7 +25,6 @@ layout(constant_id = 7) const uint kHarmonics = 0; // most harmonics of a bound 
 layout(constant_id = 8) const bool kTangents = false; // frames follow from vertex tangents; else from normals
 const uint kEstimate = kDrawn & ~kShadow;
 const bool kShowsShadow = (kDrawn & kShadow) != 0;
-const uint kLights = 2; // the whole light, and its fill
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
 const uint kLayerImages = kGray ? kQuads : (3 * kTerms + 3) / 4;
@@ -147,7 +147,7 @@ Quad tupleAt(float azimuth, float row, uint rows, uint band, uint image) {
 // Returns four terms of the unshadowed tuple of the whole light (`lit` 0) or its fill (1), interpolated between
 // normals and turns.
 Quad unshadowedTuple(TuplePlace at, uint quad, uint lit) {
-    const uint image = lit * uint(textureSize(unshadowedTuples, 0).z) / kLights + push.firstTuples + 3 * quad;
+    const uint image = lit * uint(textureSize(unshadowedTuples, 0).z) / kLightParts + push.firstTuples + 3 * quad;
     const float ring = at.polar.y * kTupleRings;
     // Between the center of the last ring and a pole, the opposite normals of that ring take part. Without tangents
     // frames differ around -Y.
@@ -169,25 +169,29 @@ Quad unshadowedTuple(TuplePlace at, uint quad, uint lit) {
     return mixed(ofTurn[0], ofTurn[1], fract(turn));
 }
 
-// The whole light's part of something, and the fill's.
-struct Parts {
-    vec3 whole, fill;
+// The unshadowed radiance of the whole light and of its parts.
+struct Unshadowed {
+    vec3 whole, fill, key;
 };
 
 // Returns the unshadowed radiance towards the eye, whose direction in the frame is `local`; or, if `isLimit`, the
 // most to which normal maps may raise it.
-Parts unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
+Unshadowed unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
     const SpherePlaces at = spherePlaces(-direction, frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
-    if (kLook == kSingleLook)
-        return Parts(push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at),
-                     push.weight * unshadowedRadiance(push.firstSlot + push.fillSlots, kHarmonics, at));
-    Parts sum = Parts(vec3(0), vec3(0));
-    for (uint i = 0; i < push.layers; i++) {
-        const vec3 weight = (isLimit ? layers[i].mostOfFlat : 1) * layerWeight(layers[i], paint, base);
-        const uint slot = layers[i].firstSlot, harmonics = min(layers[i].harmonics, kHarmonics);
-        sum.whole += weight * unshadowedRadiance(slot, harmonics, at);
-        sum.fill += weight * unshadowedRadiance(slot + push.fillSlots, harmonics, at);
-    }
+    Unshadowed sum = Unshadowed(vec3(0), vec3(0), vec3(0));
+    if (kLook == kSingleLook) {
+        sum.whole = push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at);
+        if (kEstimate != kUnshadowed)
+            sum.fill = push.weight * unshadowedRadiance(push.firstSlot + push.fillSlots, kHarmonics, at);
+    } else
+        for (uint i = 0; i < push.layers; i++) {
+            const vec3 weight = (isLimit ? layers[i].mostOfFlat : 1) * layerWeight(layers[i], paint, base);
+            const uint slot = layers[i].firstSlot, harmonics = min(layers[i].harmonics, kHarmonics);
+            sum.whole += weight * unshadowedRadiance(slot, harmonics, at);
+            if (kEstimate != kUnshadowed)
+                sum.fill += weight * unshadowedRadiance(slot + push.fillSlots, harmonics, at);
+        }
+    sum.key = max(sum.whole - sum.fill, 0);
     return sum;
 }
 
@@ -209,9 +213,12 @@ void addTerms(inout Sums sums, Quad maps, Quad weights, Quad tuple, Quad free) {
     sums.unlit = plus(sums.unlit, times(weights, free));
 }
 
+// Returns the weight of the sums of view maps.
+float viewWeight() { return kLook == kSingleLook ? push.weight : 1; }
+
 // Returns the estimate from the sums of a light and its unshadowed radiance.
-vec3 estimateOf(Sums sums, vec3 exact, float leastView) {
-    const float weight = kLook == kSingleLook ? push.weight : 1;
+vec3 estimateOf(Sums sums, vec3 exact, vec3 leastView) {
+    const float weight = viewWeight();
     const bool isBounced = (kEstimate & kBounced) != 0;
     const vec3 shadowed = weight * sumOf(sums.shadowed), terms = weight * sumOf(sums.terms);
     const vec3 lit = sumOf(sums.lit), unlit = sumOf(sums.unlit);
@@ -283,7 +290,7 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
             seen = liftAboveHorizon(mapped * normalize(-direction));
         }
     }
-    Parts exact = Parts(vec3(0), vec3(0));
+    Unshadowed exact = Unshadowed(vec3(0), vec3(0), vec3(0));
     tuplePlace.polar = polarPlace(vec3(0, 1, 0), vec3(1, 0, 0), normal).yx;
     // At -Y tangentFrame() is singular, and equals the frames at this azimuth.
     if (!kTangents && normal.y < -1 + 1e-5) tuplePlace.polar.x = 0.25;
@@ -292,14 +299,15 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
         // radiance at most by the concentration of its kernel, which is too little if a low sun is the only light.
         exact = unshadowedAt(direction, mapped, seen, paint, base, false);
         if (kLook == kSurfaceLook && detail.normalScale != 0) {
-            const Parts most = unshadowedAt(direction, frame, local, paint, base, true);
-            exact = Parts(min(exact.whole, most.whole), min(exact.fill, most.fill));
+            const Unshadowed most = unshadowedAt(direction, frame, local, paint, base, true);
+            exact = Unshadowed(min(exact.whole, most.whole), min(exact.fill, most.fill), min(exact.key, most.key));
         }
         unshadowed = exact.whole;
         if (kEstimate == kUnshadowed) return exact.whole + emitted;
     }
 
     Sums whole = Sums(kNone, kNone, kNone, kNone), fill = whole;
+    Quad views = kNone;
     const uint quads = kAllTerms ? kQuads : (push.terms + 3) / 4;
     for (uint quad = 0; quad < quads; quad++) {
         Quad maps = kNone;
@@ -312,6 +320,7 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
                 maps = plus(maps, Quad(weight.rgbr * layer.a, weight.gbrg * layer.b, weight.brgb * layer.c));
             }
         if (!kAllTerms) keepTerms(maps, push.terms - 4 * quad);
+        views = plus(views, maps);
         Quad tuple = kNone, fillTuple = kNone;
         for (int c = 0; c < 3; c++) {
             ADD_TUPLE(tuple, weights[c], tuples, corners[c], quad)
@@ -323,21 +332,24 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
             irradiance = Quad(texelOf(irradianceWeights, first), texelOf(irradianceWeights, first + 1),
                               texelOf(irradianceWeights, first + 2));
         }
+        if (!kAllTerms) keepTerms(irradiance, push.terms - 4 * quad);
         const Quad free = kDrawn != kTermsAlone ? unshadowedTuple(tuplePlace, quad, 0) : kNone;
         addTerms(whole, maps, irradiance, tuple, free);
         if (kEstimate != kTermsAlone)
             addTerms(fill, maps, irradiance, fillTuple, unshadowedTuple(tuplePlace, quad, 1));
     }
     if (kEstimate == kTermsAlone) {
-        const float weight = kLook == kSingleLook ? push.weight : 1;
-        unshadowed = weight * sumOf(whole.terms);
+        unshadowed = viewWeight() * sumOf(whole.terms);
         // A truncated sum of products can be negative.
-        return max(weight * sumOf(whole.shadowed), 0) + emitted;
+        return max(viewWeight() * sumOf(whole.shadowed), 0) + emitted;
     }
     const Sums key = Sums(minus(whole.shadowed, fill.shadowed), minus(whole.terms, fill.terms),
                           minus(whole.lit, fill.lit), minus(whole.unlit, fill.unlit));
-    return estimateOf(fill, exact.fill, kFillLeastView) +
-           estimateOf(key, max(exact.whole - exact.fill, 0), kKeyLeastView) + emitted;
+    // Where normals nearby see nothing of the key, what spheres show of it is their blur.
+    if (luminance(sumOf(key.unlit)) <= 0) exact.key = vec3(0);
+    const vec3 mean = viewWeight() / float(kAllTerms ? kTerms : push.terms) * sumOf(views);
+    return estimateOf(fill, exact.fill, vec3(kLeastView)) +
+           estimateOf(key, exact.key, kLeastView + mean) + emitted;
 }
 
 // Returns the ground's coverage where the pixel's ray meets a triangle's plane. C++ twin: groundCoverage() in

@@ -44,6 +44,25 @@ nlohmann::json listOf(vec3 v) { return {v.x, v.y, v.z}; }
 
 } // namespace
 
+std::vector<StrokeChoice> strokesTo(const StrokeChoice& last, const StrokeChoice& next) {
+    constexpr float kSpacing = 0.4f; // of a radius
+    const float cosine =
+        glm::dot(directionAt(last.azimuth, last.elevation), directionAt(next.azimuth, next.elevation));
+    const float angle = glm::degrees(std::acos(std::clamp(cosine, -1.0f, 1.0f)));
+    const int steps = int(angle / (kSpacing * next.radius));
+    const float turn = std::remainder(next.azimuth - last.azimuth, 360.0f);
+    std::vector<StrokeChoice> strokes;
+    for (int step = 1; step < steps; step++) {
+        // Straight on the map, as the mouse went.
+        const float share = float(step) / float(steps);
+        strokes.push_back(next);
+        strokes.back().azimuth = std::remainder(last.azimuth + share * turn, 360.0f);
+        strokes.back().elevation = glm::mix(last.elevation, next.elevation, share);
+    }
+    if (steps > 0) strokes.push_back(next);
+    return strokes;
+}
+
 SunPlace sunPlaceOf(const DaySkyChoice& choice) {
     constexpr float kNorth = 180; // default of light files
     const SunPosition sun = sunPosition(parseMoment(timeOf(choice)), double(choice.latitude), 0);

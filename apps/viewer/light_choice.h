@@ -52,6 +52,10 @@ struct StrokeChoice {
     bool operator==(const StrokeChoice&) const = default;
 };
 
+// Returns the strokes by which a brush goes on from `last` to `next`: close enough to leave no gaps, the last
+// of them `next`; none if it is so close to `last` that it would add little.
+std::vector<StrokeChoice> strokesTo(const StrokeChoice& last, const StrokeChoice& next);
+
 // Everything that lights the object.
 struct LightState {
     std::vector<EnvironmentChoice> environments; // at least one

@@ -100,15 +100,16 @@ void drawMap(LightState& light, const Brush& b, const PanelFacts& facts) {
     if (!isHovered) return;
     const float across = b.radius / 180 * size.y;
     ImGui::GetWindowDrawList()->AddCircle(mouse, across, IM_COL32(255, 255, 255, 200));
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
+    const ImVec2 pressed = ImGui::GetIO().MouseClickedPos[ImGuiMouseButton_Left];
+    const bool isPressedHere = pressed.x >= corner.x && pressed.y >= corner.y &&
+                               pressed.x < corner.x + size.x && pressed.y < corner.y + size.y;
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || !isPressedHere) return;
     const StrokeChoice stroke{std::remainder(angles.azimuth - light.rotation, 360.0f), angles.elevation,
                               b.radius, b.brightness * b.color, b.opacity};
-    // A touch close to the last one adds little but would count as another stroke.
-    const bool isNew =
-        light.strokes.empty() || ImGui::IsMouseClicked(ImGuiMouseButton_Left) ||
-        glm::dot(directionAt(light.strokes.back().azimuth, light.strokes.back().elevation),
-                 directionAt(stroke.azimuth, stroke.elevation)) < std::cos(glm::radians(0.4f * b.radius));
-    if (isNew && light.strokes.size() < kMostSources) light.strokes.push_back(stroke);
+    const bool begins = light.strokes.empty() || ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+    for (const StrokeChoice& next :
+         begins ? std::vector<StrokeChoice>{stroke} : strokesTo(light.strokes.back(), stroke))
+        if (light.strokes.size() < kMostSources) light.strokes.push_back(next);
 }
 
 void drawBrush(LightState& light, Brush& b) {

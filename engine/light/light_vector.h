@@ -23,7 +23,7 @@ struct LightVector {
     std::vector<std::array<int16_t, 3>> values; // quantized, in [-32767, 32767]
 };
 
-// Transforms, selects and quantizes the light. CPU twin of LightPass after sampling:
+// Transforms, selects and quantizes the light. CPU twin of LightTable:
 //   1. Components of texels below kLeastRadiance count as 0: sums and differences of the others are normal
 //      floats, which no device flushes to zero. c = the Haar transform of each face; m = the largest
 //      |component| of all. If m is 0, nothing is kept.

@@ -20,7 +20,7 @@ SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, size_t light
         mLights.push_back({vk::uploadBytes(device, std::vector<std::byte>(bytes), name + " tuples")});
 }
 
-void SetRelighter::record(vk::Commands& commands, const DeviceLight& light, RelightMode mode, Lit lit) {
+void SetRelighter::record(vk::Commands& commands, const DeviceLight& light, RelightMode mode, LightPart lit) {
     uint64_t& recording = mLights[size_t(lit)].recording;
     const bool follows = recording > 0 && recording == light.recordingBefore;
     recording = light.recording;

@@ -1,6 +1,7 @@
 // The interface of relighters of one set of materials, which every layout of transport implements.
 #pragma once
 
+#include "engine/light/fill_light.h"
 #include "engine/vk/commands.h"
 
 #include <string>
@@ -23,20 +24,17 @@ struct DeviceLight {
     uint64_t recording, recordingBefore; // numbers of this recording of light and of the one before
 };
 
-// The lights that tuples are kept of: the whole light, and its fill (engine/light/fill_light.h).
-enum class Lit : size_t { Whole, Fill };
-constexpr size_t kMostLights = 2;
-
 // Computes the tuples of one set of materials from transport and light.
 class SetRelighter {
   public:
-    // Tuples are kept of the first `lights` of Lit. Throws OutOfMemory, or Error if the device cannot bind as
-    // many tuples. Errors name part `name`.
+    // Tuples are kept of the first `lights` of LightPart. Throws OutOfMemory, or Error if the device cannot
+    // bind as many tuples. Errors name part `name`.
     SetRelighter(const vk::Device& device, uint64_t rows, size_t lights, const std::string& name);
     virtual ~SetRelighter() = default;
 
-    // Records the computation of the tuples from the light recorded before, which is `lit`.
-    void record(vk::Commands& commands, const DeviceLight& light, RelightMode mode, Lit lit = Lit::Whole);
+    // Records the computation of the tuples from the light recorded before, which is `part`.
+    void record(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
+                LightPart lit = LightPart::Whole);
 
     size_t lights() const { return mLights.size(); }
 
@@ -45,11 +43,11 @@ class SetRelighter {
 
     uint32_t rows() const { return mRows; }
     // Returns one vec3 per row; zero before the first record().
-    const vk::Buffer& tuples(Lit lit = Lit::Whole) const { return mLights[size_t(lit)].tuples; }
+    const vk::Buffer& tuples(LightPart lit = LightPart::Whole) const { return mLights[size_t(lit)].tuples; }
 
   private:
     virtual void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
-                              Lit lit) const = 0;
+                              LightPart lit) const = 0;
 
     struct KeptLight {
         vk::Buffer tuples;

@@ -13,7 +13,7 @@ static uint32_t texelsOf(int faceSize) { return 6 * uint32_t(faceSize) * uint32_
 
 FillLight::FillLight(const vk::Device& device, int faceSize)
     : mDevice(device), mFaceSize(faceSize), mProgram(device, light_fill_comp_spirv, {}, "light fill"),
-      mTable(device, faceSize),
+      mTable(device, faceSize, "fill"),
       mRadiance(device, texelsOf(faceSize) * sizeof(vec3), vk::BufferUse::Device, "fill radiance") {}
 
 void FillLight::record(vk::Commands& commands, const LightPass& light) {

@@ -1,5 +1,5 @@
 // The light without its key on the device, beside the whole light of a light pass: what shading needs to
-// estimate the shadows of each on their own (engine/scene/residual.h).
+// estimate the shadows of each on their own (docs/residual.md).
 #pragma once
 
 #include "engine/render/light_pass.h"
@@ -10,7 +10,7 @@ class FillLight {
   public:
     FillLight(const vk::Device& device, int faceSize);
 
-    // Records pass "light fill", of the light recorded before, and the passes of its table.
+    // Records passes "light fill", "fill haar" and "fill quantize", of the light recorded before.
     void record(vk::Commands& commands, const LightPass& light);
 
     const LightTable& table() const { return mTable; }

@@ -9,7 +9,7 @@ using vk::BufferUse;
 using vk::Stage;
 
 LightPass::LightPass(const vk::Device& device, int faceSize)
-    : mDevice(device), mFaceSize(faceSize), mSources(device, faceSize), mTable(device, faceSize),
+    : mDevice(device), mFaceSize(faceSize), mSources(device, faceSize), mTable(device, faceSize, "light"),
       mRadiance(device, coefficients() * sizeof(vec3), BufferUse::Device, "light radiance") {}
 
 void LightPass::setLight(Light light) {

@@ -15,18 +15,19 @@ namespace relume {
 using vk::BufferUse;
 using vk::Stage;
 
-LightTable::LightTable(const vk::Device& device, int faceSize) : mDevice(device), mFaceSize(faceSize) {
+LightTable::LightTable(const vk::Device& device, int faceSize, const std::string& name)
+    : mDevice(device), mFaceSize(faceSize), mHaarName(name + " haar"), mQuantizeName(name + " quantize") {
     RELUME_CHECK(faceSize >= 2 && std::has_single_bit(unsigned(faceSize)));
     RELUME_CHECK_LE(coefficients(), kMaximumLightEntries);
     const vk::Constants size{uint32_t(faceSize)};
     mHaarProgram = vk::ComputeProgram(device, light_haar_comp_spirv, size, "light haar");
     mQuantizeProgram = vk::ComputeProgram(device, light_quantize_comp_spirv, {}, "light quantize");
     mCoefficients =
-        vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, "light coefficients");
+        vk::Buffer(device, coefficients() * sizeof(vec3), BufferUse::Device, name + " coefficients");
     mTable = vk::Buffer(device, 2 * coefficients() * sizeof(shared::PackedLight), BufferUse::Device,
-                        "light table");
-    mStats = vk::Buffer(device, sizeof(shared::LightStats), BufferUse::Device, "light stats");
-    mWeights = vk::Buffer(device, coefficients() * sizeof(uint32_t), BufferUse::Device, "light weights");
+                        name + " table");
+    mStats = vk::Buffer(device, sizeof(shared::LightStats), BufferUse::Device, name + " stats");
+    mWeights = vk::Buffer(device, coefficients() * sizeof(uint32_t), BufferUse::Device, name + " weights");
 }
 
 void LightTable::record(vk::Commands& commands, const vk::Buffer& radiance, const LightSelection& selection) {
@@ -40,12 +41,12 @@ void LightTable::record(vk::Commands& commands, const vk::Buffer& radiance, cons
     static std::atomic<uint64_t> recordings = 0;
     mRecordingBefore = mRecording;
     mRecording = ++recordings;
-    commands.pass("light haar", [&] {
+    commands.pass(mHaarName.c_str(), [&] {
         // One workgroup per face and channel.
         commands.dispatch(mHaarProgram, {radiance, mCoefficients}, 0, {1, 6, 3});
         commands.barrier(Stage::Compute, Stage::Compute);
     });
-    commands.pass("light quantize", [&] {
+    commands.pass(mQuantizeName.c_str(), [&] {
         commands.dispatch(mQuantizeProgram, {mCoefficients, mTable, mStats, mWeights}, quantize, {1, 1, 1});
         commands.barrier(Stage::Compute, Stage::Compute);
         commands.barrier(Stage::Compute, Stage::Draw);

@@ -20,11 +20,12 @@ struct LightStats {
 // Transforms, selects and quantizes radiance. Keeps a reference to the device, which must outlive it.
 class LightTable {
   public:
-    // `faceSize` is F, an even power of two up to 64.
-    LightTable(const vk::Device& device, int faceSize);
+    // `faceSize` is F, an even power of two up to 64. Passes begin with `name`.
+    LightTable(const vk::Device& device, int faceSize, const std::string& name);
 
-    // Records passes "light haar" and "light quantize" of 6 F² × vec3. Compute and draws may use the results
-    // at once. Submit recordings once, in order: the table has the changes since the recording before.
+    // Records passes NAME "haar" and NAME "quantize" of 6 F² × vec3. Compute and draws may use the results
+    // at once; callers order what still reads earlier ones before. Submit recordings once, in order: the
+    // table has the changes since the recording before.
     void record(vk::Commands& commands, const vk::Buffer& radiance, const LightSelection& selection);
 
     // Returns 6 F² × shared::PackedLight, zero where dropped, then as many differences from the light before.
@@ -45,6 +46,7 @@ class LightTable {
 
     const vk::Device& mDevice;
     int mFaceSize;
+    std::string mHaarName, mQuantizeName; // of the passes
     vk::ComputeProgram mHaarProgram, mQuantizeProgram;
     vk::Buffer mCoefficients; // 6 F² × vec3
     vk::Buffer mTable, mStats, mWeights;

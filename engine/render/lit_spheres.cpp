@@ -140,12 +140,12 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
     weights.resize(std::max<size_t>(weights.size(), 4), 0);
     mWeights = vk::upload<float>(device, weights, "irradiance weights");
     mGrid = vk::upload<vec4>(device, gridFrames(allNodes()), "view grid");
-    for (size_t light = 0; light < kMostLights; light++)
+    for (size_t light = 0; light < kLightParts; light++)
         mReduced.push_back(
             {makeTexels(device, 6 * kSphereCubeBordered * kSphereCubeBordered, "sphere cube"),
              vk::Image(device, imageOptions(kSphereCubeBordered, kSphereCubeBordered, 6), "sphere cube")});
     mCells = makeTexels(device, kCellTexels * kTupleLights, "lights of cells");
-    const uint32_t tupleImages = kMostLights * mTupleImages;
+    const uint32_t tupleImages = kLightParts * mTupleImages;
     mTupleTexels =
         makeTexels(device, uint64_t(tupleImages) * mTupleRows * kTupleAzimuths, "unshadowed tuples");
     mTuples = emptyImage(device, kTupleAzimuths, mTupleRows, tupleImages, "unshadowed tuples");
@@ -156,7 +156,7 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
         makeTexels(device, uint64_t(batch) * components * (kSphereRings / 4) * 6, "reflected spectrum");
     mParts = makeTexels(device, uint64_t(batch) * mMostParts * kSphereTexels, "sphere parts");
     mImage = emptyImage(device, kSphereAzimuths, mMostParts * kSphereRings, 1, "lit spheres");
-    mSlotTable.assign(kMostLights * std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
+    mSlotTable.assign(kLightParts * std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
     mSlots = vk::upload<uint32_t>(device, mSlotTable, "sphere slots");
 }
 
@@ -208,8 +208,8 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light, con
     commands.barrier(Stage::Draw, Stage::Transfer);
     commands.barrier(Stage::Transfer, Stage::Compute);
     commands.pass("unshadowed", [&] {
-        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
-            const bool isFill = lit == Lit::Fill;
+        for (const LightPart lit : {LightPart::Whole, LightPart::Fill}) {
+            const bool isFill = lit == LightPart::Fill;
             commands.dispatch(
                 mCube,
                 {isFill && fill ? fill->radiance() : light.radiance(), mReduced[size_t(lit)].texels, mCells},
@@ -256,20 +256,21 @@ void LitSpheres::makeRoom(size_t spheres) {
 }
 
 void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernels,
-                        const std::set<uint32_t>& nodes) {
-    const size_t spheres = kMostLights * kernels.size() * nodes.size();
+                        const std::set<uint32_t>& nodes, bool makesFill) {
+    const size_t spheres = (makesFill ? kLightParts : 1) * kernels.size() * nodes.size();
     const bool isNew = spheres > mSlotCount;
     makeRoom(spheres);
     struct Missing {
         uint32_t kernel;
-        Lit lit;
+        LightPart lit;
         std::vector<uint32_t> nodes;
     };
     std::vector<Missing> missing;
     std::set<uint32_t> used;
     size_t wanted = 0;
     for (const uint32_t kernel : kernels)
-        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+        for (const LightPart lit : {LightPart::Whole, LightPart::Fill}) {
+            if (lit == LightPart::Fill && !makesFill) continue;
             missing.push_back({kernel, lit, {}});
             for (const uint32_t node : nodes) {
                 const uint32_t slot = mSlotTable[slotOf(kernel, lit, node)];
@@ -306,7 +307,7 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
     });
 }
 
-void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, Lit lit,
+void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, LightPart lit,
                              std::span<const uint32_t> nodes) {
     const Kernel& kernel = mKernels[number];
     SpherePush push = kernel.push;
@@ -338,7 +339,7 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, Lit lit,
     }
 }
 
-std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node, Lit lit) const {
+std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node, LightPart lit) const {
     const uint32_t slot = mSlotTable[slotOf(kernel, lit, node)];
     RELUME_CHECK(slot != kNone);
     const std::vector<vec4> texels = readImage(mDevice, mImage);
@@ -346,7 +347,7 @@ std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node, Lit lit
     return {first, first + std::ptrdiff_t(mKernels[kernel].parts() * kSphereTexels)};
 }
 
-std::vector<vec3> LitSpheres::readTuples(size_t part, size_t number, Lit lit) const {
+std::vector<vec3> LitSpheres::readTuples(size_t part, size_t number, LightPart lit) const {
     RELUME_CHECK(mSetOf[part][number]);
     const Set& set = *mSetOf[part][number];
     const size_t firstImage = size_t(lit) * mTupleImages + set.firstImage;

@@ -30,8 +30,10 @@ class LitSpheres {
     void recordLight(vk::Commands& commands, const LightPass& light, const FillLight* fill);
 
     // Records pass "spheres", which makes the missing spheres of these kernels and grid nodes, for draws that
-    // follow. Throws Error if the device's images have too few layers.
-    void record(vk::Commands& commands, std::span<const uint32_t> kernels, const std::set<uint32_t>& nodes);
+    // follow: of the whole light, and of its fill if `makesFill`. Throws Error if the device's images have
+    // too few layers.
+    void record(vk::Commands& commands, std::span<const uint32_t> kernels, const std::set<uint32_t>& nodes,
+                bool makesFill = true);
 
     // Returns the residual of a set, or null if its K terms are drawn alone.
     const ResidualSet* set(size_t part, size_t set) const { return mResiduals[part][set].get(); }
@@ -44,7 +46,7 @@ class LitSpheres {
     const vk::Image& image() const { return mImage; }
     // Returns the layer, a uint, of kernel · kGridNodes + node; those of the fill follow at fillSlots().
     const vk::Buffer& slots() const { return mSlots; }
-    uint32_t fillSlots() const { return uint32_t(mSlotTable.size() / kMostLights); }
+    uint32_t fillSlots() const { return uint32_t(mSlotTable.size() / kLightParts); }
     // Returns two vec4 per node: its direction, and the side towards azimuth 0.
     const vk::Buffer& grid() const { return mGrid; }
     // Returns the unshadowed tuples, RGBA32F: polar maps about +Y of kTupleAzimuths × kTupleRings normals
@@ -62,8 +64,8 @@ class LitSpheres {
 
     // Return what was last made, for tests and `relume verify`. Wait for the device.
     // Spheres × rings × azimuths, and rows × azimuths × terms.
-    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node, Lit lit = Lit::Whole) const;
-    std::vector<vec3> readTuples(size_t part, size_t set, Lit lit = Lit::Whole) const;
+    std::vector<vec3> readSphere(uint32_t kernel, uint32_t node, LightPart lit = LightPart::Whole) const;
+    std::vector<vec3> readTuples(size_t part, size_t set, LightPart lit = LightPart::Whole) const;
 
   private:
     struct Kernel {
@@ -84,8 +86,8 @@ class LitSpheres {
     void makePrograms();
     Set& addSet(const FactoredBrdf& factors, const ResidualSet* residual, std::vector<float>& weights);
     void makeRoom(size_t spheres);
-    void makeSpheres(vk::Commands& commands, uint32_t kernel, Lit lit, std::span<const uint32_t> nodes);
-    size_t slotOf(uint32_t kernel, Lit lit, uint32_t node) const {
+    void makeSpheres(vk::Commands& commands, uint32_t kernel, LightPart lit, std::span<const uint32_t> nodes);
+    size_t slotOf(uint32_t kernel, LightPart lit, uint32_t node) const {
         return (size_t(lit) * mKernels.size() + kernel) * shared::kGridNodes + node;
     }
     void freeSlots();
@@ -104,7 +106,7 @@ class LitSpheres {
         vk::Buffer texels;
         vk::Image cube;
     };
-    std::vector<ReducedLight> mReduced; // by Lit
+    std::vector<ReducedLight> mReduced; // by LightPart
     vk::Buffer mCells, mTupleTexels, mGrid, mSlots, mWeights;
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mImage, mTuples;

@@ -51,7 +51,7 @@ void Relighter::record(vk::Commands& commands, const LightPass& light, const App
         for (size_t part = 0; part < mParts.size(); part++) {
             SetRelighter& set = *mParts[part].at(appearance.empty() ? 0 : appearance[part].set);
             set.record(commands, light.table().onDevice(), mMode);
-            if (set.lights() > 1) set.record(commands, mFill->table().onDevice(), mMode, Lit::Fill);
+            if (set.lights() > 1) set.record(commands, mFill->table().onDevice(), mMode, LightPart::Fill);
         }
         commands.barrier(Stage::Compute, Stage::Draw);
     });
@@ -60,7 +60,7 @@ void Relighter::record(vk::Commands& commands, const LightPass& light, const App
 
 const vk::Buffer& Relighter::fillTuples(size_t part, size_t set) const {
     const SetRelighter& own = *mParts[part][set];
-    return own.tuples(own.lights() > 1 ? Lit::Fill : Lit::Whole);
+    return own.tuples(own.lights() > 1 ? LightPart::Fill : LightPart::Whole);
 }
 
 std::vector<vec3> Relighter::readTuples(size_t part, size_t set) const {

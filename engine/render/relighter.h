@@ -29,10 +29,10 @@ class Relighter {
     // cannot relight a layout.
     Relighter(const vk::Device& device, const Asset& asset, const RelighterOptions& options = {});
 
-    // Records pass "relight": computes the tuples of every part's bound set (without `appearance`: of its
-    // first set) from the light recorded before, and of sets with a residual those of its fill. Draws may use
-    // them at once. The tuples of other sets stay as they are. Submit recordings once, in order: tuples may
-    // be made from those of the light before.
+    // Records pass "relight", after those of FillLight where a set has a residual: computes the tuples of
+    // every part's bound set (without `appearance`: of its first set) from the light recorded before, and of
+    // sets with a residual those of its fill. Draws may use them at once. The tuples of other sets stay as
+    // they are. Submit recordings once, in order: tuples may be made from those of the light before.
     void record(vk::Commands& commands, const LightPass& light, const Appearance& appearance = {});
 
     // Sets the mode of the record() calls that follow.

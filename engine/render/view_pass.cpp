@@ -443,7 +443,8 @@ void ViewPass::recordSpheres(vk::Commands& commands, const Frame& frame, const R
         }
     }
     if (!kernels.empty())
-        relighter.spheres().record(commands, std::vector(kernels.begin(), kernels.end()), nodes);
+        relighter.spheres().record(commands, std::vector(kernels.begin(), kernels.end()), nodes,
+                                   !mIsUnshadowed);
 }
 
 void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, const Relighter& relighter,

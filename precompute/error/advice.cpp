@@ -155,7 +155,7 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
     advice.vertices = plan.vertices();
     for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
-    advice.bases = adviseBases(device, request, scene, grid, drawn[size_t(Lit::Whole)].entries, points,
+    advice.bases = adviseBases(device, request, scene, grid, drawn[size_t(LightPart::Whole)].entries, points,
                                observer, shareOf(report, 0.8, 1));
     if (advice.bases) *advice.bases->seconds += secondsBefore;
     if (advice.rows && advice.bases) // they take equally long per term

@@ -1,7 +1,5 @@
 #include "precompute/error/drawn_light.h"
 
-#include "engine/light/fill_light.h"
-
 namespace relume {
 
 DrawnLight drawnLight(LightCube cube, const LightSelection& selection) {

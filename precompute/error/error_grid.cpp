@@ -4,8 +4,8 @@
 #include "engine/base/error.h"
 #include "precompute/error/shared_progress.h"
 #include "precompute/error/unshadowed_light.h"
-#include "precompute/error/vertex_views.h"
 #include "precompute/reference/reference_image.h"
+#include "precompute/reference/vertex_views.h"
 #include "precompute/residual/residuals.h"
 
 #include <algorithm>
@@ -34,11 +34,11 @@ std::vector<SeenPoint> listPoints(std::span<const SeenPoints> points) {
 
 // One row at every tried N: its tuples under the lights, and the entries left after quantization.
 struct Ladder {
-    std::array<std::array<vec3, kRungs>, kMostLights> tuples{}; // by Lit
+    std::array<std::array<vec3, kRungs>, kLightParts> tuples{}; // by LightPart
     std::array<float, kRungs> entries{};
 };
 
-using LightCoefficients = std::array<std::vector<vec3>, kMostLights>; // Haar, by Lit
+using LightCoefficients = std::array<std::vector<vec3>, kLightParts>; // Haar, by LightPart
 
 Ladder climb(const std::vector<vec3>& coefficients, const LightCoefficients& lights) {
     std::vector<uint32_t> order;
@@ -55,17 +55,17 @@ Ladder climb(const std::vector<vec3>& coefficients, const LightCoefficients& lig
         return keyA > keyB || (keyA == keyB && a < b);
     });
     Ladder ladder;
-    std::array<glm::dvec3, kMostLights> sums{};
+    std::array<glm::dvec3, kLightParts> sums{};
     float entries = 0;
     size_t next = 0;
     for (size_t rung = 0; rung < kRungs; rung++) {
         for (; next < order.size() && next < size_t(kTriedCoefficients[rung]); next++) {
             const vec3 coefficient = coefficients[order[next]];
-            for (size_t light = 0; light < kMostLights; light++)
+            for (size_t light = 0; light < kLightParts; light++)
                 sums[light] += glm::dvec3(coefficient * lights[light][order[next]]);
             entries += quantizeCoefficient(coefficient, scale) != ivec3(0);
         }
-        for (size_t light = 0; light < kMostLights; light++) ladder.tuples[light][rung] = vec3(sums[light]);
+        for (size_t light = 0; light < kLightParts; light++) ladder.tuples[light][rung] = vec3(sums[light]);
         ladder.entries[rung] = entries;
     }
     return ladder;
@@ -140,7 +140,7 @@ std::vector<vec3> viewsAt(const Asset& asset, const Appearance& appearance, size
 }
 
 // Returns the interpolated tuple.
-std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, const RayHit& hit, Lit lit,
+std::vector<vec3> tupleAt(const VertexLadders& vertices, const Asset& asset, const RayHit& hit, LightPart lit,
                           size_t rung, size_t terms) {
     const uvec3 corners = asset.parts[hit.mesh].mesh.triangles[hit.triangle];
     std::vector<vec3> tuple(terms, vec3(0));
@@ -230,7 +230,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
     MaterialBrdfs brdfs;
     const BoundAsset bound(asset, appearance, ReferenceBrdf::Exact, brdfs);
     const BakedTransport transport(asset);
-    const std::array<std::span<const vec3>, kMostLights> cubes = {light[0].cube.radiance,
+    const std::array<std::span<const vec3>, kLightParts> cubes = {light[0].cube.radiance,
                                                                   light[1].cube.radiance};
     std::vector<std::vector<ResidualSet>> prefixes;
     for (size_t part = 0; part < asset.parts.size(); part++)
@@ -243,7 +243,7 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
         const SurfacePoint baked = bound.bakedPointAt(hit, list[i].eye);
         const std::vector<vec3> views = viewsAt(asset, appearance, hit.mesh, baked);
         const std::vector<ResidualSet>& ofPrefixes = prefixes[hit.mesh];
-        std::vector<UnshadowedLight> unshadowed(kMostLights);
+        std::vector<UnshadowedLight> unshadowed(kLightParts);
         if (!ofPrefixes.empty())
             unshadowed =
                 sumUnshadowed(transport, point, baked,
@@ -251,8 +251,8 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
                               boundFactors(asset, appearance, hit.mesh), cubes);
         std::array<std::vector<vec3>, kRungs> whole, fill;
         for (size_t rung = 0; rung < kRungs; rung++) {
-            whole[rung] = tupleAt(vertices, asset, hit, Lit::Whole, rung, views.size());
-            fill[rung] = tupleAt(vertices, asset, hit, Lit::Fill, rung, views.size());
+            whole[rung] = tupleAt(vertices, asset, hit, LightPart::Whole, rung, views.size());
+            fill[rung] = tupleAt(vertices, asset, hit, LightPart::Fill, rung, views.size());
         }
         for (size_t terms = 1; terms <= size_t(grid.terms); terms++) {
             const size_t own = std::min(terms, views.size());

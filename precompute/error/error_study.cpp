@@ -64,7 +64,7 @@ StageLight stageLight(const Light& light, const LightCube& fine, int faceSize,
 
 // Returns the light for stages from kTermsStage on; earlier ones are not used.
 StageLight lowOrderStage(const StageLight& light, int order) {
-    return {drawnLight(lowOrderLight(light.drawn[size_t(Lit::Whole)].cube, order), {}),
+    return {drawnLight(lowOrderLight(light.drawn[size_t(LightPart::Whole)].cube, order), {}),
             lowOrderLight(light.fine, order)};
 }
 constexpr size_t kTermsStage = size_t(ErrorSource::Interpolation) + 1; // K terms, all before them exact

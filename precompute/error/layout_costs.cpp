@@ -4,8 +4,8 @@
 #include "engine/base/stopwatch.h"
 #include "precompute/bake/bounced_transport.h"
 #include "precompute/cpu/cpu_relighter.h"
-#include "precompute/error/vertex_views.h"
 #include "precompute/layout/conversion.h"
+#include "precompute/reference/vertex_views.h"
 
 #include <cmath>
 

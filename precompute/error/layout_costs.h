@@ -14,7 +14,8 @@ constexpr std::array<double, 7> kTriedLayoutErrors = {0.4, 0.25, 0.15, 0.1, 0.05
 
 struct LayoutCosts {
     // By tried error: RMS difference in radiance between bases and rows of plan.options.coefficients,
-    // relative to the exact radiance; and bytes of the whole asset's transport in memory.
+    // relative to the exact radiance, of sums of terms under the whole light, without a residual; and bytes
+    // of the whole asset's transport in memory.
     std::array<double, kTriedLayoutErrors.size()> errors{}, bytes{};
     double bakeSeconds = 0; // for all vertices, extrapolated from the sample
 };

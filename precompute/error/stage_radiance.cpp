@@ -5,9 +5,9 @@
 #include "engine/transport/asset_check.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/error/shared_progress.h"
-#include "precompute/error/vertex_views.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/reference_image.h"
+#include "precompute/reference/vertex_views.h"
 #include "precompute/transport/row_packing.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ struct StageTracer::DrawnPart {
 
 // A light, and what stages need of it.
 struct StageTracer::Light {
-    std::array<DrawnPart, kMostLights> parts; // by Lit
+    std::array<DrawnPart, kLightParts> parts; // by LightPart
     std::vector<vec3> coarseOf;               // per cell of mTruth: the coarse texel around it
     std::vector<vec3> fine;                   // per cell of mTruth
     LightDistribution paths;                  // of `fine`, for paths
@@ -62,12 +62,12 @@ struct StageTracer::Tuples {
     static constexpr size_t kStages = 4;  // as drawn, whole light, exact storage, all coefficients
     static constexpr size_t kBounced = 4; // the bounced part of the last stage
     static constexpr size_t kValues = 5;
-    std::vector<vec3> values; // [((light · kMostLights + lit) · kValues + stage) · K + term]
+    std::vector<vec3> values; // [((light · kLightParts + lit) · kValues + stage) · K + term]
 
-    static size_t first(size_t light, Lit lit, size_t stage, size_t terms) {
-        return ((light * kMostLights + size_t(lit)) * kValues + stage) * terms;
+    static size_t first(size_t light, LightPart lit, size_t stage, size_t terms) {
+        return ((light * kLightParts + size_t(lit)) * kValues + stage) * terms;
     }
-    std::span<const vec3> at(size_t light, Lit lit, size_t stage, size_t terms) const {
+    std::span<const vec3> at(size_t light, LightPart lit, size_t stage, size_t terms) const {
         return std::span(values).subspan(first(light, lit, stage, terms), terms);
     }
 };
@@ -85,7 +85,7 @@ struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
 
     // Returns a point's tuple of a stage, interpolated between the corners of its triangle.
-    std::vector<vec3> interpolate(const RayHit& hit, const uvec3& corners, size_t light, Lit lit,
+    std::vector<vec3> interpolate(const RayHit& hit, const uvec3& corners, size_t light, LightPart lit,
                                   size_t stage, size_t terms) const {
         std::vector<vec3> tuple(terms, vec3(0));
         for (int corner = 0; corner < 3; corner++) {
@@ -117,7 +117,7 @@ StageTracer::StageTracer(const Asset& asset, const Appearance& appearance, const
 
 StageTracer::Light StageTracer::prepare(const StageLight& light) const {
     Light prepared{.paths = LightDistribution(light.fine)};
-    for (size_t lit = 0; lit < kMostLights; lit++) {
+    for (size_t lit = 0; lit < kLightParts; lit++) {
         const DrawnCube& from = light.drawn[lit];
         RELUME_CHECK_EQ(from.cube.size, mAsset.faceSize);
         prepared.parts[lit] = {dequantizedLight(from.entries), haarOf(from.cube.radiance, mAsset.faceSize),
@@ -135,7 +135,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
                                               std::span<const Light> lights) const {
     const MaterialSet& set = mAsset.parts[part].sets[mAppearance[part].set];
     const auto terms = size_t(set.brdf.terms);
-    Tuples tuples{std::vector<vec3>(lights.size() * kMostLights * Tuples::kValues * terms)};
+    Tuples tuples{std::vector<vec3>(lights.size() * kLightParts * Tuples::kValues * terms)};
     mBaked.forEachTerm(part, vertex, set.brdf, [&](size_t term, const std::vector<vec3>& direct) {
         const size_t row = size_t(vertex) * terms + term;
         std::vector<vec3> bounced(direct.size(), vec3(0));
@@ -146,7 +146,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
         const std::vector<uint16_t> kept = indicesOfLargest(exact, mAsset.coefficients);
         const std::vector<vec3> stored = dequantizedRow(set.transport, row, exact.size());
         for (size_t light = 0; light < lights.size(); light++)
-            for (const Lit lit : {Lit::Whole, Lit::Fill}) {
+            for (const LightPart lit : {LightPart::Whole, LightPart::Fill}) {
                 const DrawnPart& from = lights[light].parts[size_t(lit)];
                 vec3* of = &tuples.values[Tuples::first(light, lit, 0, terms) + term];
                 of[0] = product(stored, from.drawn);
@@ -172,7 +172,7 @@ StageTracer::Binding StageTracer::bindingAt(size_t number, const SurfacePoint& b
 std::vector<UnshadowedLight> StageTracer::unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
                                                        const SurfacePoint& limit, const Binding& binding,
                                                        std::span<const Light> lights) const {
-    if (!binding.residual) return std::vector<UnshadowedLight>(lights.size() * kMostLights);
+    if (!binding.residual) return std::vector<UnshadowedLight>(lights.size() * kLightParts);
     std::vector<std::span<const vec3>> cubes;
     for (const Light& light : lights)
         for (const DrawnPart& part : light.parts) cubes.emplace_back(part.coarse);
@@ -187,12 +187,13 @@ void StageTracer::traceVertices(const RayHit& hit, const Binding& binding,
     constexpr size_t kFirst = size_t(ErrorSource::Drawing) + 1;
     for (size_t light = 0; light < result.size(); light++) {
         for (size_t stage = 0; stage < Tuples::kStages; stage++) {
-            const std::vector<vec3> whole =
-                                        vertices.interpolate(hit, corners, light, Lit::Whole, stage, terms),
-                                    fill = vertices.interpolate(hit, corners, light, Lit::Fill, stage, terms);
+            const std::vector<vec3> whole = vertices.interpolate(hit, corners, light, LightPart::Whole, stage,
+                                                                 terms),
+                                    fill = vertices.interpolate(hit, corners, light, LightPart::Fill, stage,
+                                                                terms);
             result[light][kFirst + stage] =
-                estimateRadiance(binding.residual, binding.views, {whole, unshadowed[kMostLights * light]},
-                                 {fill, unshadowed[kMostLights * light + 1]});
+                estimateRadiance(binding.residual, binding.views, {whole, unshadowed[kLightParts * light]},
+                                 {fill, unshadowed[kLightParts * light + 1]});
         }
         result[light][0] = result[light][kFirst];
     }
@@ -218,14 +219,14 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
 
     constexpr size_t kFirst = size_t(ErrorSource::Interpolation) + 1, kStages = 2;
     const size_t terms = binding.views.size();
-    std::vector<glm::dvec3> tuples(lights.size() * kMostLights * terms);
+    std::vector<glm::dvec3> tuples(lights.size() * kLightParts * terms);
     std::vector<std::array<glm::dvec3, kStages>> sums(lights.size());
     for (size_t i = 0; i < lit.size(); i++) {
         for (size_t term = 0; term < terms; term++) {
             const vec3 map = lit[i].weight * lookupMap(brdf.lightMap(int(term)), places[i]);
             for (size_t light = 0; light < lights.size(); light++)
-                for (size_t part = 0; part < kMostLights; part++)
-                    tuples[(light * kMostLights + part) * terms + term] +=
+                for (size_t part = 0; part < kLightParts; part++)
+                    tuples[(light * kLightParts + part) * terms + term] +=
                         glm::dvec3(map * lights[light].parts[part].coarse[lit[i].texel]);
         }
     }
@@ -240,18 +241,18 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
     const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
     std::vector<vec3> added;
     for (size_t light = 0; light < lights.size(); light++) {
-        std::array<std::vector<vec3>, kMostLights> byLit;
-        for (size_t part = 0; part < kMostLights; part++) {
-            const auto first = tuples.begin() + std::ptrdiff_t((light * kMostLights + part) * terms);
+        std::array<std::vector<vec3>, kLightParts> byLit;
+        for (size_t part = 0; part < kLightParts; part++) {
+            const auto first = tuples.begin() + std::ptrdiff_t((light * kLightParts + part) * terms);
             byLit[part] = {first, first + std::ptrdiff_t(terms)};
         }
         const auto estimate = [&] {
             return estimateRadiance(binding.residual, binding.views,
-                                    {byLit[0], unshadowed[kMostLights * light]},
-                                    {byLit[1], unshadowed[kMostLights * light + 1]});
+                                    {byLit[0], unshadowed[kLightParts * light]},
+                                    {byLit[1], unshadowed[kLightParts * light + 1]});
         };
         const vec3 direct = estimate();
-        for (const Lit part : {Lit::Whole, Lit::Fill}) {
+        for (const LightPart part : {LightPart::Whole, LightPart::Fill}) {
             std::vector<vec3>& tuple = byLit[size_t(part)];
             const std::vector<vec3> bounced =
                 vertices.interpolate(hit, corners, light, part, Tuples::kBounced, terms);

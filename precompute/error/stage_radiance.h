@@ -64,7 +64,7 @@ class StageTracer {
     Tuples vertexTuples(size_t part, uint32_t vertex, std::span<const Light> lights) const;
     // `baked` is the point in the frame of its transport.
     Binding bindingAt(size_t part, const SurfacePoint& baked) const;
-    // Returns the sums [light][Lit]; zeros if terms are drawn without a residual.
+    // Returns the sums [light][LightPart]; zeros if terms are drawn without a residual.
     std::vector<UnshadowedLight> unshadowedAt(const SurfacePoint& point, const SurfacePoint& baked,
                                               const SurfacePoint& limit, const Binding& binding,
                                               std::span<const Light> lights) const;

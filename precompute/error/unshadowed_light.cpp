@@ -9,7 +9,7 @@ namespace {
 
 EstimateSums sumTerms(const ResidualSet& residual, std::span<const vec3> views, const PointLight& light) {
     EstimateSums sums;
-    sums.exact = light.unshadowed.exact;
+    sums.exact = glm::min(light.unshadowed.exact, light.unshadowed.most);
     for (size_t term = 0; term < views.size(); term++) {
         const vec3 weight = residual.hasNonnegativeTerms ? vec3(1) : residual.irradianceWeights[term];
         const vec3 free = light.unshadowed.tuple[term];
@@ -21,7 +21,7 @@ EstimateSums sumTerms(const ResidualSet& residual, std::span<const vec3> views, 
     return sums;
 }
 
-vec3 estimate(const EstimateSums& sums, const ResidualSet& residual, float leastView) {
+vec3 estimate(const EstimateSums& sums, const ResidualSet& residual, vec3 leastView) {
     return residual.hasNonnegativeTerms ? ratioEstimate(sums, leastView, residual.isBounced)
                                         : differenceEstimate(sums, residual.isBounced);
 }
@@ -50,13 +50,9 @@ std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, cons
     const auto terms = size_t(factors.terms);
     std::vector<glm::dvec3> tuples(lights.size() * terms);
     const bool isMapped = point.frame.n != baked.frame.n;
-    std::vector<glm::dvec3> exact =
+    const std::vector<glm::dvec3> exact =
         sumExact(isMapped ? transport.lit(free, point.frame) : lit, point, lights);
-    if (isMapped) {
-        const std::vector<glm::dvec3> most = sumExact(lit, limit, lights);
-        for (size_t light = 0; light < lights.size(); light++)
-            exact[light] = glm::min(exact[light], most[light]);
-    }
+    const std::vector<glm::dvec3> most = isMapped ? sumExact(lit, limit, lights) : exact;
     for (size_t i = 0; i < lit.size(); i++) {
         for (size_t term = 0; term < terms; term++) {
             const vec3 map = lit[i].weight * lookupMap(factors.lightMap(int(term)), places[i]);
@@ -67,7 +63,9 @@ std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, cons
     std::vector<UnshadowedLight> unshadowed;
     for (size_t light = 0; light < lights.size(); light++) {
         const auto first = tuples.begin() + std::ptrdiff_t(light * terms);
-        unshadowed.push_back({glm::max(vec3(exact[light]), vec3(0)), {first, first + std::ptrdiff_t(terms)}});
+        unshadowed.push_back({glm::max(vec3(exact[light]), vec3(0)),
+                              glm::max(vec3(most[light]), vec3(0)),
+                              {first, first + std::ptrdiff_t(terms)}});
     }
     return unshadowed;
 }
@@ -78,8 +76,11 @@ vec3 estimateRadiance(const ResidualSet* residual, std::span<const vec3> views, 
     for (size_t term = 0; term < views.size(); term++) shadowed += views[term] * whole.tuple[term];
     if (!residual) return glm::max(shadowed, vec3(0));
     const EstimateSums all = sumTerms(*residual, views, whole), own = sumTerms(*residual, views, fill);
-    return estimate(own, *residual, shared::kFillLeastView) +
-           estimate(all - own, *residual, shared::kKeyLeastView);
+    const auto beyond = [](vec3 a, vec3 b) { return glm::max(a - b, vec3(0)); };
+    const EstimateSums key = keyOf(all, own,
+                                   glm::min(beyond(whole.unshadowed.exact, fill.unshadowed.exact),
+                                            beyond(whole.unshadowed.most, fill.unshadowed.most)));
+    return estimate(own, *residual, vec3(shared::kLeastView)) + estimate(key, *residual, keyLeastView(views));
 }
 
 } // namespace relume

@@ -11,6 +11,7 @@ namespace relume {
 // Unshadowed sums at a point, seen from one direction.
 struct UnshadowedLight {
     vec3 exact{0};           // radiance with the exact BRDF
+    vec3 most{0};            // what limits it at a mapped normal; elsewhere the same
     std::vector<vec3> tuple; // per term of the factors
 };
 

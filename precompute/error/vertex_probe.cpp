@@ -4,7 +4,7 @@
 #include "engine/math/cubemap.h"
 #include "engine/math/haar.h"
 #include "precompute/cpu/cpu_visibility.h"
-#include "precompute/error/vertex_views.h"
+#include "precompute/reference/vertex_views.h"
 
 namespace relume {
 

@@ -3,11 +3,11 @@
 #include "engine/base/error.h"
 #include "engine/light/fill_light.h"
 #include "engine/math/cubemap.h"
-#include "engine/relight/set_relighter.h"
 #include "engine/transport/asset_check.h"
 #include "precompute/reference/bound_asset.h"
 #include "precompute/reference/path_sampling.h"
 #include "precompute/reference/pixel_hits.h"
+#include "precompute/reference/vertex_views.h"
 #include "precompute/residual/residual_estimate.h"
 #include "shaders/shared/light.h"
 #include "shaders/shared/render.h"
@@ -42,9 +42,13 @@ struct Renderer {
     const ReferenceOptions& options;
     std::vector<LightSample> lights;
     BoundAsset asset;
-    std::optional<BoundAsset> terms;       // for ReferenceBrdf::Residual: the asset with its K terms as BRDFs
-    std::vector<bool> hasNonnegativeTerms; // per part, of its bound set
-    RayTracer surfaces;                    // one mesh per part
+    std::optional<BoundAsset> terms; // for ReferenceBrdf::Residual: the asset with its K terms as BRDFs
+    // For ReferenceBrdf::Residual, per part, of its bound set: factors; layers; the sum of the light maps,
+    // empty unless terms are nonnegative.
+    std::vector<const FactoredBrdf*> boundFactors;
+    std::vector<std::vector<BoundLayer>> boundLayersOf;
+    std::vector<std::vector<vec3>> lightMapSums;
+    RayTracer surfaces;                       // one mesh per part
     std::unique_ptr<RayTracer> withoutGround; // the same, if the ground is hidden from the eye; else null
     RayTracer occluder;
     float shadowOffset;
@@ -150,41 +154,53 @@ vec3 Renderer::estimateRadiance(const RayHit& hit) const {
     const SurfacePoint point = asset.pointAt(hit, camera.eye), ofTerms = terms->pointAt(hit, camera.eye);
     const bool isMapped = point.frame.n != ofTerms.frame.n;
     const SurfacePoint limit = isMapped ? asset.limitPointAt(hit, camera.eye) : point;
+    const bool isRatio = !lightMapSums[hit.mesh].empty();
+    const FactoredBrdf& factors = *boundFactors[hit.mesh];
     struct {
         glm::dvec3 exact{0}, most{0}, terms{0}, shadowed{0}, unlit{0}, lit{0};
-    } sums[kMostLights]; // by Lit
+    } sums[kLightParts]; // by LightPart
     const vec3 origin = point.position + shadowOffset * point.normal;
     for (const LightSample& light : lights) {
         const vec3 seen = point.frame.toLocal(light.direction),
                    incoming = ofTerms.frame.toLocal(light.direction);
         const vec3 found = seen.z > 0 ? seen.z * point.reflected(seen) : vec3(0);
         const bool isAbove = incoming.z > 0;
-        const vec3 limited = isAbove && isMapped ? incoming.z * limit.reflected(incoming) : vec3(0);
-        const vec3 f = isAbove ? incoming.z * ofTerms.reflected(incoming) : vec3(0);
+        vec3 limited(0), f(0), tuples(0);
+        if (isAbove) {
+            if (isMapped) limited = incoming.z * limit.reflected(incoming);
+            f = incoming.z * ofTerms.reflected(incoming);
+            tuples = incoming.z * (isRatio ? lookupMap(lightMapSums[hit.mesh].data(), factors.size,
+                                                       factors.mapping, incoming)
+                                           : vec3(1));
+        }
         const bool isLit = isAbove && !occluder.occluded(origin, light.direction);
-        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
-            const vec3 energy = lit == Lit::Whole ? light.energy : light.fill;
-            auto& of = sums[size_t(lit)];
+        for (const LightPart part : {LightPart::Whole, LightPart::Fill}) {
+            const vec3 energy = part == LightPart::Whole ? light.energy : light.fill;
+            auto& of = sums[size_t(part)];
             of.exact += energy * found;
             of.most += energy * limited;
-            if (!isAbove) continue;
             of.terms += energy * f;
-            of.unlit += energy * incoming.z;
+            of.unlit += energy * tuples;
             if (!isLit) continue;
             of.shadowed += energy * f;
-            of.lit += energy * incoming.z;
+            of.lit += energy * tuples;
         }
     }
-    EstimateSums estimated[kMostLights];
-    for (size_t i = 0; i < kMostLights; i++)
-        estimated[i] = {vec3(sums[i].shadowed),
-                        vec3(isMapped ? glm::min(sums[i].exact, sums[i].most) : sums[i].exact),
-                        vec3(sums[i].terms), vec3(sums[i].lit), vec3(sums[i].unlit)};
-    const auto& [whole, fill] = estimated;
-    const EstimateSums key = whole - fill;
-    return hasNonnegativeTerms[hit.mesh]
-               ? ratioEstimate(fill, shared::kFillLeastView) + ratioEstimate(key, shared::kKeyLeastView)
-               : differenceEstimate(fill) + differenceEstimate(key);
+    const auto& [whole, fill] = sums;
+    vec3 ofFill(fill.exact), ofKey = glm::max(vec3(whole.exact - fill.exact), vec3(0));
+    if (isMapped) {
+        ofFill = glm::min(ofFill, vec3(fill.most));
+        ofKey = glm::min(ofKey, glm::max(vec3(whole.most - fill.most), vec3(0)));
+    }
+    const auto estimated = [](const auto& of, vec3 exact) {
+        return EstimateSums{vec3(of.shadowed), exact, vec3(of.terms), vec3(of.lit), vec3(of.unlit)};
+    };
+    const EstimateSums own = estimated(fill, ofFill);
+    const EstimateSums key = keyOf(estimated(whole, vec3(0)), own, ofKey);
+    if (!isRatio) return differenceEstimate(own) + differenceEstimate(key);
+    const std::vector<vec3> views =
+        pointViews(factors, boundLayersOf[hit.mesh], ofTerms.layerWeights(), ofTerms.outgoing);
+    return ratioEstimate(own, vec3(shared::kLeastView)) + ratioEstimate(key, keyLeastView(views));
 }
 
 Image render(const Renderer& renderer, const std::function<void(int)>& progress) {
@@ -199,6 +215,13 @@ Image render(const Renderer& renderer, const std::function<void(int)>& progress)
         progress(++finished);
     });
     return image;
+}
+
+std::vector<vec3> sumOfLightMaps(const FactoredBrdf& factors) {
+    std::vector<vec3> sum(factors.mapTexels(), vec3(0));
+    for (int term = 0; term < factors.terms; term++)
+        for (size_t texel = 0; texel < sum.size(); texel++) sum[texel] += factors.lightMap(term)[texel];
+    return sum;
 }
 
 // Renders an image; `cube` is the light that paths sample.
@@ -223,11 +246,17 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
     MaterialBrdfs brdfs;
     const bool isEstimate = options.brdf == ReferenceBrdf::Residual;
     std::optional<BoundAsset> terms;
-    std::vector<bool> hasNonnegativeTerms;
+    std::vector<const FactoredBrdf*> factors;
+    std::vector<std::vector<BoundLayer>> layers;
+    std::vector<std::vector<vec3>> lightMapSums;
     if (isEstimate) {
         terms.emplace(asset, appearance, ReferenceBrdf::Factored, brdfs);
-        for (size_t i = 0; i < asset.parts.size(); i++)
-            hasNonnegativeTerms.push_back(isNonnegative(asset.parts[i].sets[appearance[i].set].brdf));
+        for (size_t i = 0; i < asset.parts.size(); i++) {
+            factors.push_back(&asset.parts[i].sets[appearance[i].set].brdf);
+            layers.push_back(boundLayers(asset.parts[i], appearance[i]));
+            lightMapSums.push_back(isNonnegative(*factors[i]) ? sumOfLightMaps(*factors[i])
+                                                              : std::vector<vec3>());
+        }
     }
     const Renderer renderer{
         camera,
@@ -235,7 +264,9 @@ Image renderUnder(std::vector<LightSample> lights, const LightCube& cube, const 
         std::move(lights),
         BoundAsset(asset, appearance, isEstimate ? ReferenceBrdf::Exact : options.brdf, brdfs),
         std::move(terms),
-        std::move(hasNonnegativeTerms),
+        std::move(factors),
+        std::move(layers),
+        std::move(lightMapSums),
         RayTracer(meshes),
         tracerWithout(options.groundFade, camera.eye, meshes),
         RayTracer(occluders),

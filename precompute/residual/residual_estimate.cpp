@@ -1,6 +1,7 @@
 #include "precompute/residual/residual_estimate.h"
 
 #include "engine/math/color.h"
+#include "shaders/shared/render.h"
 
 #include <algorithm>
 
@@ -18,9 +19,16 @@ float litShare(vec3 irradiance, vec3 unshadowed) {
     return all > 0 ? std::clamp(luminance(irradiance) / all, 0.0f, 1.0f) : 1;
 }
 
-EstimateSums operator-(const EstimateSums& whole, const EstimateSums& part) {
-    return {whole.shadowed - part.shadowed, glm::max(whole.exact - part.exact, vec3(0)),
-            whole.terms - part.terms, whole.lit - part.lit, whole.unlit - part.unlit};
+EstimateSums keyOf(const EstimateSums& whole, const EstimateSums& fill, vec3 exact) {
+    const vec3 unlit = whole.unlit - fill.unlit;
+    return {whole.shadowed - fill.shadowed, luminance(unlit) > 0 ? exact : vec3(0), whole.terms - fill.terms,
+            whole.lit - fill.lit, unlit};
+}
+
+vec3 keyLeastView(std::span<const vec3> views) {
+    vec3 sum(0);
+    for (const vec3& view : views) sum += view;
+    return shared::kLeastView + sum / float(views.size());
 }
 
 vec3 differenceEstimate(const EstimateSums& sums, bool isBounced) {
@@ -30,7 +38,7 @@ vec3 differenceEstimate(const EstimateSums& sums, bool isBounced) {
                       sums.exact + above);
 }
 
-vec3 ratioEstimate(const EstimateSums& sums, float leastView, bool isBounced) {
+vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced) {
     const vec3 all = sums.terms + leastView * sums.unlit, lit = sums.shadowed + leastView * sums.lit;
     if (isBounced)
         return sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1)) +

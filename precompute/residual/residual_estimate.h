@@ -3,6 +3,8 @@
 
 #include "engine/math/vector.h"
 
+#include <span>
+
 namespace relume {
 
 // Returns the share of irradiance that reaches a point, by luminance, in [0, 1]; 1 if there is no light.
@@ -16,19 +18,22 @@ struct EstimateSums {
     vec3 lit{0}, unlit{0};
 };
 
-// Returns the sums of one light without another that it contains; E is not negative.
-EstimateSums operator-(const EstimateSums& whole, const EstimateSums& part);
+// Returns the sums of the key, of which E is given. It counts as 0 where the tuples see nothing of the key.
+EstimateSums keyOf(const EstimateSums& whole, const EstimateSums& fill, vec3 exact);
+
+// Returns what ratios add to every view map under the key, from the mean of the views.
+vec3 keyLeastView(std::span<const vec3> views);
 
 // Returns the estimate for signed terms, the control variate T + r (E - S), clamped to [r E / 4, E], where r
 // is the lit share of the irradiance. With `isBounced`, T includes light from other surfaces, and the
 // estimate may exceed E by as much as T exceeds S.
 vec3 differenceEstimate(const EstimateSums& sums, bool isBounced = false);
 
-// Returns the estimate for nonnegative terms, the ratio E T / S. `leastView` (shared::kFillLeastView and so
-// on) is added to every view map: the more, the more the sums of the tuples give the ratio. Each channel's
-// ratio is clamped to [0.8, 1.25] of the luminance's and to at most 1, the luminance's to at least a quarter
-// of the irradiance's, since storage errors would otherwise color and darken faint light. With `isBounced`,
-// ratios are only clamped to [0, 1], and the excess of T over S is added.
-vec3 ratioEstimate(const EstimateSums& sums, float leastView, bool isBounced = false);
+// Returns the estimate for nonnegative terms, the ratio E T / S. `leastView` is added to every view map: the
+// more, the more the sums of the tuples give the ratio. Each channel's ratio is clamped to [0.8, 1.25] of the
+// luminance's and to at most 1, the luminance's to at least a quarter of the irradiance's, since storage
+// errors would otherwise color and darken faint light. With `isBounced`, ratios are only clamped to [0, 1],
+// and the excess of T over S is added.
+vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced = false);
 
 } // namespace relume

@@ -1,4 +1,4 @@
-// Packing of light entries in tables. C++ unpacks them in engine/render/light_pass.cpp.
+// Packing of light entries in tables. C++ unpacks them in engine/render/light_table.cpp.
 #ifndef RELUME_LIB_LIGHT_PACKING_GLSL
 #define RELUME_LIB_LIGHT_PACKING_GLSL
 #include "shaders/shared/render.h"

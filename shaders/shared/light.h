@@ -55,6 +55,7 @@ RELUME_SHARED_SIZE(LightDistantPush, 4)
 // The fill is the light cut at this many times its mean; lanes that sum the mean.
 const float kMostOfMean = 10;
 const uint kFillLanes = 128;
+const uint kLightParts = 2; // LightPart: the whole light, and its fill
 
 struct LightFillPush {
     uint texels; // of the cube

@@ -148,10 +148,10 @@ const uint kUnshadowed = 8;      // in their place: shows the unshadowed radianc
 const uint kShadow = 16;         // added to any: shows the shadow alone (GroundStyle::Shadow)
 const float kLeastShadow = 0.03; // shadow that is taken for an error of transport
 
-// What is added to every view map in ratios. Under the fill, terms see different light, and this serves only
-// where all of them vanish in the view. The key is small, so that all terms see about the same share of it,
-// of which their sums have the smallest error.
-const float kFillLeastView = 1e-4f, kKeyLeastView = 0.1f;
+// What is added to every view map in ratios, for the case that all of them vanish. Under the key their mean
+// is added, too: the key is small, so that all terms see about the same share of it, which their sums tell
+// with the smallest error.
+const float kLeastView = 1e-4f;
 
 // The source of a part's paint.
 const uint kUnpainted = 0, kPaintedByMap = 1, kPaintedByColors = 2;

@@ -70,7 +70,7 @@ TEST_CASE("fill light: the device makes that of the twin, and its entries") {
         }
 }
 
-TEST_CASE("fill light: sets with a residual have its tuples, in every layout and mode") {
+TEST_CASE("fill light: sets with a residual have its tuples, in every layout, from changes too") {
     const TestDevice device;
     for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
         Scene scene;
@@ -95,5 +95,15 @@ TEST_CASE("fill light: sets with a residual have its tuples, in every layout and
             CHECK(relighter.readFillTuples(1) == relighter.readTuples(1));
         }
         CHECK(&alone.fillTuples(0, 0) == &alone.tuples(0));
+
+        relighter.setMode(RelightMode::Incremental);
+        LightCube cube = sunnyCube(asset.faceSize);
+        for (size_t step = 0; step < 8; step++) {
+            cube.radiance[500 + 40 * step] += vec3(0.25f); // far below the sun, which decides the scale
+            light.setCube(cube);
+            record(device, light, [&](vk::Commands& commands) { relighter.record(commands, light); });
+            CHECK(relighter.readFillTuples(0) ==
+                  relight(asset.parts[0].sets[0].transport, makeLightVector(fillOf(cube))));
+        }
     }
 }

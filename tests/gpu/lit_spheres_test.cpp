@@ -137,8 +137,8 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
         spheres.record(commands, both, nodes);
         commands.submitAndWait();
 
-        for (const Lit lit : {Lit::Whole, Lit::Fill}) {
-            const LightCube& own = lit == Lit::Whole ? light : fill;
+        for (const LightPart lit : {LightPart::Whole, LightPart::Fill}) {
+            const LightCube& own = lit == LightPart::Whole ? light : fill;
             const std::vector<vec3> cube = sphereCube(own);
             const std::vector<CellLight> lights = cellLights(own, light);
             for (uint32_t i = 0; i < 2; i++) {

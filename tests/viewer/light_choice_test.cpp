@@ -113,6 +113,24 @@ TEST_CASE("light choice: what a file says can be chosen again") {
     }
 }
 
+TEST_CASE("light choice: a brush that moves fast leaves no gaps, and one that rests no strokes") {
+    const StrokeChoice last{170, 10, 15, vec3(2), 0.5f}, next{-130, -20, 10, vec3(1), 1};
+    const std::vector<StrokeChoice> strokes = strokesTo(last, next); // across the map's edge
+    REQUIRE(strokes.size() > 10);
+    CHECK(strokes.back() == next);
+    StrokeChoice before = last;
+    for (const StrokeChoice& stroke : strokes) {
+        CHECK(glm::dot(directionAt(before.azimuth, before.elevation),
+                       directionAt(stroke.azimuth, stroke.elevation)) > std::cos(glm::radians(6.0f)));
+        CHECK(stroke.elevation < before.elevation);
+        CHECK(std::abs(stroke.azimuth) > 129);
+        CHECK(stroke.radius == next.radius);
+        before = stroke;
+    }
+    CHECK(strokesTo(next, {-129, -20, 10, vec3(1), 1}).empty());
+    CHECK(strokesTo(next, {-125, -20, 10, vec3(1), 1}).size() == 1);
+}
+
 TEST_CASE("light choice: a lamp lights white that faces it to its brightness") {
     Choices choices;
     choices.state.environmentGain = 0;

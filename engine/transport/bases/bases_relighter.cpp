@@ -171,7 +171,7 @@ BasesRelighter::Shard BasesRelighter::upload(const vk::Device& device, const Sha
 }
 
 void BasesRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
-                                  Lit lit) const {
+                                  LightPart lit) const {
     const auto stamp = uint32_t(light.recording);
     const auto of = [&](const Shard& shard) -> const Projected& { return shard.projected[size_t(lit)]; };
     for (const Shard& shard : mShards)

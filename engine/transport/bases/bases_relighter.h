@@ -26,7 +26,7 @@ class BasesRelighter : public SetRelighter {
 
   private:
     void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
-                      Lit lit) const override;
+                      LightPart lit) const override;
 
     // A light projected on the basis vectors of a shard.
     struct Projected {

@@ -76,7 +76,7 @@ RowsRelighter::RowsRelighter(const vk::Device& device, const Programs& programs,
 }
 
 void RowsRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode,
-                                 Lit lit) const {
+                                 LightPart lit) const {
     for (const Shard& shard : mShards)
         commands.dispatch(mPrograms.relight,
                           {shard.starts, shard.entries, light.table, light.stats, mScales, tuples(lit)},

@@ -25,7 +25,8 @@ class RowsRelighter : public SetRelighter {
 
   private:
     // Ignores the mode and relights in full: to find the changed entries it would have to read all indices.
-    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode, Lit lit) const override;
+    void recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode,
+                      LightPart lit) const override;
 
     struct Shard {
         uint32_t firstRow = 0, rows = 0;

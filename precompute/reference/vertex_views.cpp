@@ -1,4 +1,4 @@
-#include "precompute/error/vertex_views.h"
+#include "precompute/reference/vertex_views.h"
 
 #include "engine/math/tangent_frame.h"
 #include "engine/render/appearance.h"
