@@ -6,6 +6,7 @@
 #include "precompute/bake/bake.h"
 #include "tests/support/temporary_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -39,24 +40,31 @@ Held heldNow(const vk::Device& device) {
             size_t(std::distance(begin(files), end(files)))};
 }
 
-// Calls step(i) `count` times, and finds that the last nine tenths of these hold on to nothing.
+// The most that is held after any of several steps. At single moments less may be held: drivers store shaders
+// and free what is no longer used in threads of their own.
+void keepMost(Held& most, const Held& held) {
+    most.heapBytes = std::max(most.heapBytes, held.heapBytes);
+    most.deviceAllocations = std::max(most.deviceAllocations, held.deviceAllocations);
+    most.files = std::max(most.files, held.files);
+}
+
+// Calls step(i) `count` times, and finds that the second half of these holds no more than the first did.
 template <typename Step>
 void checkFlat(const char* what, const vk::Device& device, int count, const Step& step) {
-    std::optional<Held> first;
+    Held before{}, after{};
     for (int i = 0; i < count; i++) {
-        if (i == count / 10) first = heldNow(device); // caches are filled
         step(i);
+        if (i >= count / 10) keepMost(i < count / 2 ? before : after, heldNow(device)); // caches are filled
     }
-    const Held last = heldNow(device);
-    const double growth = double(last.heapBytes) / double(first->heapBytes) - 1;
-    MESSAGE(std::string(what), ": ", count, " times; heap ", first->heapBytes, " bytes, then ", 100 * growth,
-            " % more; ", first->deviceAllocations, " allocations of the device, ", first->files,
+    const double growth = double(after.heapBytes) / double(before.heapBytes) - 1;
+    MESSAGE(std::string(what), ": ", count, " times; heap ", before.heapBytes, " bytes, then ", 100 * growth,
+            " % more; ", before.deviceAllocations, " allocations of the device, ", before.files,
             " open files");
 #ifndef RELUME_SANITIZE // sanitizers have a heap of their own
     CHECK_LE(growth, 0.01);
 #endif
-    CHECK_EQ(last.deviceAllocations, first->deviceAllocations);
-    CHECK_EQ(last.files, first->files);
+    CHECK_LE(after.deviceAllocations, before.deviceAllocations);
+    CHECK_LE(after.files, before.files);
 }
 
 // A ball in one of two materials of a set, over a plane.

@@ -2,6 +2,7 @@
 // the same estimate.
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
+#include "engine/math/cubemap.h"
 #include "engine/render/compare.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
@@ -13,6 +14,7 @@
 #include "precompute/residual/residuals.h"
 #include "tests/support/test_device.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace relume;
@@ -84,6 +86,37 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         // Switched off, not a bit of it is left.
         CHECK(relit(device, asset, sky, {}, false).pixels == terms.pixels);
     }
+}
+
+TEST_CASE("image: where a sun is shadowed, the sky is reflected all the same") {
+    const TestDevice device;
+    const Asset asset = bakeKnot(device, "gold", Factorization::NonNegative);
+    LightCube sun{asset.faceSize, std::vector<vec3>(6 * size_t(asset.faceSize) * size_t(asset.faceSize))};
+    LightCube light = sun;
+    for (vec3& radiance : light.radiance) radiance = {0.4f, 0.5f, 0.7f};
+    size_t place = 0;
+    float nearest = -1;
+    forEachTexel(asset.faceSize, [&](int face, int x, int y, size_t texel) {
+        const float cosine =
+            glm::dot(cubeTexelDirection(face, x, y, asset.faceSize), glm::normalize(vec3(0.3f, 0.8f, 0.5f)));
+        if (cosine > nearest) nearest = cosine, place = texel;
+    });
+    sun.radiance[place] = light.radiance[place] = vec3(8000);
+    const Image exact = reference(asset, light, ReferenceBrdf::Exact),
+                ofSun = reference(asset, sun, ReferenceBrdf::Exact);
+    const Image drawn = relit(device, asset, light);
+    double difference = 0, level = 0;
+    int shadowed = 0;
+    for (size_t i = 0; i < exact.pixels.size(); i++) {
+        if (exact.pixels[i].w < 1 || drawn.pixels[i].w < 1 || vec3(ofSun.pixels[i]) != vec3(0)) continue;
+        const vec3 off = vec3(drawn.pixels[i]) - vec3(exact.pixels[i]);
+        difference += double(glm::dot(off, off));
+        level += double(glm::dot(vec3(exact.pixels[i]), vec3(exact.pixels[i])));
+        shadowed++;
+    }
+    MESSAGE("relative error in the sun's shadow, ", shadowed, " pixels: ", std::sqrt(difference / level));
+    CHECK(shadowed > 200);
+    CHECK(std::sqrt(difference / level) < 0.22); // 0.236 with one ratio for all light
 }
 
 TEST_CASE("image: a sketch of what shadows nothing is its reference") {
