@@ -1,6 +1,6 @@
 #version 460
-// Separates the fill from the light: cuts every channel at kMostOfMean times the mean, over all texels, of their largest
-// channels. One work-group.
+// Separates the fill from the light: cuts every channel at kMostOfMean times the mean, over all texels, of their
+// largest channels, in one work-group.
 // C++ twin: fillOf() in engine/light/fill_light.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

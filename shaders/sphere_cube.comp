@@ -1,7 +1,7 @@
 #version 460
 // Downsamples the lighting cube to faces of kSphereCube² texels, each with a border from its neighbors so that
-// bilinear lookups have no seam, and makes one light of every coarse cell, at the centroid of its radiance: for the fill,
-// at that of the whole light.
+// bilinear lookups have no seam, and makes one light of every coarse cell, at the centroid of its radiance: for the
+// fill, at that of the whole light.
 // C++ twin: sphereCube() and cellLights() in precompute/twins/lit_sphere_twin.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -222,7 +222,8 @@ vec3 estimateOf(Sums sums, vec3 exact, vec3 leastView) {
     const bool isBounced = (kEstimate & kBounced) != 0;
     const vec3 shadowed = weight * sumOf(sums.shadowed), terms = weight * sumOf(sums.terms);
     const vec3 lit = sumOf(sums.lit), unlit = sumOf(sums.unlit);
-    if ((kEstimate & kResidualRatio) != 0) return ratioEstimate(shadowed, lit, exact, terms, unlit, isBounced, leastView);
+    if ((kEstimate & kResidualRatio) != 0)
+        return ratioEstimate(shadowed, lit, exact, terms, unlit, isBounced, leastView);
     return differenceEstimate(shadowed, litShare(lit, unlit), exact, terms, isBounced);
 }
 
@@ -345,7 +346,7 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
     }
     const Sums key = Sums(minus(whole.shadowed, fill.shadowed), minus(whole.terms, fill.terms),
                           minus(whole.lit, fill.lit), minus(whole.unlit, fill.unlit));
-    // Where normals nearby see nothing of the key, what spheres show of it is their blur.
+    // Spheres are blurred: they show some of the key to normals that face away from it.
     if (luminance(sumOf(key.unlit)) <= 0) exact.key = vec3(0);
     const vec3 mean = viewWeight() / float(kAllTerms ? kTerms : push.terms) * sumOf(views);
     return estimateOf(fill, exact.fill, vec3(kLeastView)) +

@@ -32,7 +32,7 @@ class SetRelighter {
     SetRelighter(const vk::Device& device, uint64_t rows, size_t lights, const std::string& name);
     virtual ~SetRelighter() = default;
 
-    // Records the computation of the tuples from the light recorded before, which is `part`.
+    // Records the computation of the tuples of `lit` from the light recorded before.
     void record(vk::Commands& commands, const DeviceLight& light, RelightMode mode,
                 LightPart lit = LightPart::Whole);
 

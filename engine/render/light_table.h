@@ -23,9 +23,9 @@ class LightTable {
     // `faceSize` is F, an even power of two up to 64. Passes begin with `name`.
     LightTable(const vk::Device& device, int faceSize, const std::string& name);
 
-    // Records passes NAME "haar" and NAME "quantize" of 6 F² × vec3. Compute and draws may use the results
-    // at once; callers order what still reads earlier ones before. Submit recordings once, in order: the
-    // table has the changes since the recording before.
+    // Records passes NAME "haar" and NAME "quantize" of 6 F² × vec3. The caller first lets those finish that
+    // read the table of an earlier recording; compute and draws may use the new one at once. Submit
+    // recordings once, in order: the table has the changes since the recording before.
     void record(vk::Commands& commands, const vk::Buffer& radiance, const LightSelection& selection);
 
     // Returns 6 F² × shared::PackedLight, zero where dropped, then as many differences from the light before.

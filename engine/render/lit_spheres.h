@@ -44,8 +44,9 @@ class LitSpheres {
     // kSphereAzimuths × kSphereRings texels for harmonic 0 of the view's azimuth a, and below them two such
     // images for each further harmonic c, which are added times cos 2ca and -sin 2ca.
     const vk::Image& image() const { return mImage; }
-    // Returns the layer, a uint, of kernel · kGridNodes + node; those of the fill follow at fillSlots().
+    // Returns the layer, a uint, of kernel · kGridNodes + node; those of the fill follow.
     const vk::Buffer& slots() const { return mSlots; }
+    // Returns the number of slots before those of the fill.
     uint32_t fillSlots() const { return uint32_t(mSlotTable.size() / kLightParts); }
     // Returns two vec4 per node: its direction, and the side towards azimuth 0.
     const vk::Buffer& grid() const { return mGrid; }
@@ -101,13 +102,14 @@ class LitSpheres {
     std::vector<Kernel> mKernels;
     vk::ComputeProgram mCube, mUnshadowed, mLight, mSpectrumProgram, mReflect, mSynthesize;
     vk::Sampler mSampler, mPolarSampler; // mPolarSampler repeats in x
-    // A light's cube, downsampled.
+    // A light's cube, downsampled: the whole light's or its fill's.
     struct ReducedLight {
         vk::Buffer texels;
         vk::Image cube;
     };
     std::vector<ReducedLight> mReduced; // by LightPart
-    vk::Buffer mCells, mTupleTexels, mGrid, mSlots, mWeights;
+    vk::Buffer mCells;                  // lights of cells, kCellTexels each
+    vk::Buffer mTupleTexels, mGrid, mSlots, mWeights;
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mImage, mTuples;
     std::vector<vk::Image> mRetired;  // earlier, smaller images, which pending commands may still use

@@ -18,7 +18,8 @@ Relighter::Relighter(const vk::Device& device, const Asset& asset, const Relight
         auto& sets = mParts.emplace_back();
         for (size_t s = 0; s < part.sets.size(); s++) {
             const bool hasFill = mSpheres->set(p, s) != nullptr;
-            sets.push_back(makeSet(part.sets[s].transport, part.name, largestShard, hasFill ? 2 : 1));
+            sets.push_back(
+                makeSet(part.sets[s].transport, part.name, largestShard, hasFill ? kLightParts : 1));
             if (hasFill && !mFill) mFill = std::make_unique<FillLight>(device, asset.faceSize);
         }
     }

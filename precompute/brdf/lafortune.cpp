@@ -63,8 +63,8 @@ Lobe readLobe(MaterialParameters& parameters) {
     return lobe;
 }
 
-// Notes it if a lobe peaks too high. Its base is at most the largest of |cx|, |cy| and cz, since ωi.z ωo.z is
-// never negative.
+// Notes a fault if a lobe peaks too high. Its base is at most the largest of |cx|, |cy| and cz, since ωi.z
+// ωo.z is never negative.
 void checkPeak(const Lobe& lobe, MaterialParameters& parameters) {
     for (int c = 0; c < 3; c++) {
         const float base = std::max({std::abs(lobe.x[c]), std::abs(lobe.y[c]), lobe.z[c], 0.0f});

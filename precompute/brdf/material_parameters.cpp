@@ -88,7 +88,7 @@ vec3 MaterialParameters::requiredColor(const std::string& key, ParameterRange ra
 std::string MaterialParameters::requiredText(const std::string& key) {
     const json* value = find(key, "text", "");
     if (value && value->is_string() && *value != "") return *value;
-    noteFault(fmt::format("\"{}\" must be a text, but {}", key,
+    noteFault(fmt::format("\"{}\" must be a text that is not empty, but {}", key,
                           value ? "is " + excerpt(*value) : std::string("is missing")));
     return "";
 }

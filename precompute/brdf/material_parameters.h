@@ -60,7 +60,7 @@ class MaterialParameters {
     };
 
     const nlohmann::json* find(const std::string& key, std::string values, std::string fallback);
-    std::string place() const; // in front of a fault of an item of a list
+    std::string place() const; // what precedes a fault: "lobes[2]: " in a list's item, else nothing
     vec3 readColor(const std::string& key, const nlohmann::json& value, vec3 fallback, ParameterRange range);
 
     std::string mOwner, mItem; // mItem: "lobes[2]" of a list's item, else empty

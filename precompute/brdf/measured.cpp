@@ -35,7 +35,7 @@ class Measured final : public Brdf {
     std::string mPath, mHash;
 };
 
-// Returns the path; notes it if a description cannot hold it as text.
+// Returns the path; notes a fault if a description cannot hold it as text.
 std::filesystem::path readPath(MaterialParameters& parameters) {
     const std::string text = parameters.requiredText("measured");
     if (text.size() > kMaxPathLength || text.find('\0') != std::string::npos)

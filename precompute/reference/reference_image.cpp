@@ -295,7 +295,8 @@ std::vector<LightSample> lightSamples(const LightCube& light, int side) {
     return samples;
 }
 
-// Returns where the fill of a latlong map is cut, as fillOf() would cut that of a fine cube.
+// Returns the radiance at which the fill of a latlong map is cut. The mean is over solid angles, while
+// fillOf() counts the texels of a cube alike.
 float mostOfFill(const Environment& map) {
     double sum = 0, weights = 0;
     for (int row = 0; row < map.height; row++) {

@@ -18,10 +18,10 @@ struct EstimateSums {
     vec3 lit{0}, unlit{0};
 };
 
-// Returns the sums of the key, of which E is given. It counts as 0 where the tuples see nothing of the key.
+// Returns the sums of the key. Its E is `exact`, or 0 where the tuples see nothing of the key.
 EstimateSums keyOf(const EstimateSums& whole, const EstimateSums& fill, vec3 exact);
 
-// Returns what ratios add to every view map under the key, from the mean of the views.
+// Returns what ratios add to every view map under the key: the mean of `views`, and shared::kLeastView.
 vec3 keyLeastView(std::span<const vec3> views);
 
 // Returns the estimate for signed terms, the control variate T + r (E - S), clamped to [r E / 4, E], where r

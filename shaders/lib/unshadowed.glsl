@@ -96,8 +96,8 @@ vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms, bool
     return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, most);
 }
 
-// Estimates radiance with nonnegative terms, by the ratio E T / S. `leastView` is added to every view map: the more, the
-// more the sums of the tuples, which do not depend on the view, give the ratio. Each channel's ratio is clamped to a
+// Estimates radiance with nonnegative terms, by the ratio E T / S. `leastView` is added to every view map: the more,
+// the more the sums of the tuples, which do not depend on the view, give the ratio. Each channel's ratio is clamped to a
 // range around that of luminance, and that from below by a part of the irradiance's: storage errors would color and
 // blacken places that little light reaches. Bounced light has its own colors, so that the excess of T over S is added
 // instead.

@@ -148,9 +148,9 @@ const uint kUnshadowed = 8;      // in their place: shows the unshadowed radianc
 const uint kShadow = 16;         // added to any: shows the shadow alone (GroundStyle::Shadow)
 const float kLeastShadow = 0.03; // shadow that is taken for an error of transport
 
-// What is added to every view map in ratios, for the case that all of them vanish. Under the key their mean
-// is added, too: the key is small, so that all terms see about the same share of it, which their sums tell
-// with the smallest error.
+// Ratios add this to every view map, for the case that all of them vanish. Under the key they add the maps'
+// mean, too: the key is small, so that all terms see about the same share of it, which their sums tell with
+// the smallest error.
 const float kLeastView = 1e-4f;
 
 // The source of a part's paint.
