@@ -117,6 +117,18 @@ uint32_t lookOf(const std::vector<shared::ViewLayer>& layers, bool isDetailed) {
     return layers.size() == 1 ? shared::kSingleLook : shared::kLayersLook;
 }
 
+// Returns what lookOf() may yield for bindings of the set.
+std::vector<uint32_t> looksOf(const AssetPart& part, const MaterialSet& set) {
+    if (part.detail.isAny()) return {shared::kSurfaceLook};
+    const auto bases = size_t(std::ranges::count(set.materials, true, &AssetMaterial::hasBase));
+    const size_t plain = set.materials.size() - bases;
+    std::vector<uint32_t> looks;
+    if (plain > 0) looks.push_back(shared::kSingleLook);
+    if (plain > 1) looks.push_back(shared::kLayersLook);
+    if (bases > 0 || part.isPainted()) looks.push_back(shared::kSurfaceLook);
+    return looks;
+}
+
 } // namespace
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
@@ -179,7 +191,7 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
             std::set<uint32_t> harmonics{mostHarmonics(residual)};
             if (residual)
                 for (const auto& layer : residual->layers) harmonics.insert(uint32_t(layer->harmonics));
-            for (uint32_t look : {shared::kSingleLook, shared::kLayersLook, shared::kSurfaceLook})
+            for (uint32_t look : looksOf(mAsset.parts[p], mAsset.parts[p].sets[s]))
                 for (Pixels pixels : {Pixels::All, Pixels::Inner, Pixels::Edges})
                     for (uint32_t count : harmonics)
                         if ((pixels == Pixels::All) == (mSamples == 1) &&

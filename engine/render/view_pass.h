@@ -152,7 +152,7 @@ class ViewPass {
     // Returns none if the bounds are not seen.
     static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Bounds& bounds);
     const vk::GraphicsProgram& shadeProgram(const Set& set, const Shading& shading);
-    // Makes the programs of all sets and looks before they are needed, so that no change of materials waits.
+    // Makes the programs of all sets and their looks early, so that no change of materials waits.
     void makeShadePrograms(const Relighter& relighter);
 
     const vk::Device& mDevice;
