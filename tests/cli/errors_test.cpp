@@ -88,16 +88,21 @@ TEST_CASE("errors: what it cannot look at is said") {
 
 TEST_CASE("advise: options in words and as data, and what to do where there are none") {
     const TemporaryFolder folder;
-    const std::string scene = "advise sphere -m clay --as-is --points 40 --error ";
-    const Outcome words = run(folder, scene + "0.1");
-    CHECK(says(words.out, "of fewest bytes: relume bake … --terms 1 --factorization environment --error"));
+    folder.write("octahedron.obj",
+                 "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                 "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+    const Outcome words = run(folder, "advise octahedron.obj -m clay --as-is --points 40 --error 0.2");
+    CHECK(says(words.out, "of fewest bytes: relume bake … --terms 1 --factorization environment"));
     CHECK(says(words.out, "--layout rows --coefficients"));
-    const Json data = Json::parse(run(folder, scene + "0.1 --json").out);
+    // A sphere shadows nothing, so that one term and what it leaves are nearly exact.
+    const Json data =
+        Json::parse(run(folder, "advise sphere -m clay --as-is --points 40 --error 0.1 --json").out);
     CHECK_EQ(data["asked"], 0.1);
     CHECK_EQ(data["best"], data["plain"]["bases"]["options"]);
-    // A sphere shadows nothing, so that one term and what it leaves are nearly exact.
-    const Outcome none = runRelume(
-        folder, "advise knot -m ashikhmin-shirley --as-is --points 40 --error 0.001", "LP_NUM_THREADS=0");
+    CHECK(says(data["best"].get<std::string>(), "--terms 1 --factorization environment --error"));
+    const Outcome none =
+        runRelume(folder, "advise octahedron.obj -m ashikhmin-shirley --as-is --points 40 --error 0.001",
+                  "LP_NUM_THREADS=0");
     CHECK_EQ(none.exitCode, 1);
     CHECK(says(none.err, "not reached"));
     CHECK(says(none.out, "least error by terms"));

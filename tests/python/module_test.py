@@ -41,17 +41,17 @@ class ModuleTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = os.path.join(cls.folder.name, "module.relume")
         # A ring of few vertices, in a file that both can read.
-        around, along = np.meshgrid(np.arange(32) / 32, np.arange(16) / 16, indexing="ij")
+        around, along = np.meshgrid(np.arange(16) / 16, np.arange(8) / 8, indexing="ij")
         radius = 1 + 0.4 * np.cos(2 * np.pi * along)
         places = np.stack([radius * np.cos(2 * np.pi * around), 0.4 * np.sin(2 * np.pi * along),
                            radius * np.sin(2 * np.pi * around)], axis=-1).reshape(-1, 3)
         cls.mesh = os.path.join(cls.folder.name, "ring.obj")
         with open(cls.mesh, "w") as file:
             file.writelines("v %.6f %.6f %.6f\n" % tuple(place) for place in places)
-            for i in range(32):
-                for j in range(16):
-                    a, b = 16 * i + j, 16 * i + (j + 1) % 16
-                    c, d = (a + 16) % 512, (b + 16) % 512
+            for i in range(16):
+                for j in range(8):
+                    a, b = 8 * i + j, 8 * i + (j + 1) % 8
+                    c, d = (a + 8) % 128, (b + 8) % 128
                     file.write(f"f {a + 1} {b + 1} {d + 1} {c + 1}\n")
         scene = relume.Scene().add(cls.mesh, material="gold")
         scene.add_ground(tessellation=10)
@@ -132,10 +132,10 @@ class ModuleTest(unittest.TestCase):
             np.testing.assert_allclose(2 * once, twice, rtol=1e-6, atol=1e-7)
 
     def test_reference_is_that_of_the_command_line(self):
-        image = relume.reference(self.asset, self.light, size=(80, 60))
-        run("reference", self.path, "--size", "80x60", "-o", self.file("truth.exr"))
+        image = relume.reference(self.asset, self.light, size=(40, 30))
+        run("reference", self.path, "--size", "40x30", "-o", self.file("truth.exr"))
         np.testing.assert_array_equal(image, relume.load_image(self.file("truth.exr")))
-        drawn = relume.Renderer(self.asset, (80, 60)).render(self.light)
+        drawn = relume.Renderer(self.asset, (40, 30)).render(self.light)
         drawn.save(self.file("drawn.exr"))
         ours = relume.compare(drawn, image)
         theirs = run_json("compare", self.file("drawn.exr"), self.file("truth.exr"))
@@ -264,11 +264,11 @@ class ModuleTest(unittest.TestCase):
 
     def test_advice_is_that_of_the_command_line(self):
         ours = relume.advise(relume.Scene().add(self.mesh, material="clay"), relume.Light.lamp(40, 50, 20, [1, 1, 1]),
-                             error=0.1, points=60, as_is=True)
+                             error=0.1, points=40, as_is=True)
         light = self.file("advise.light.json")
         with open(light, "w") as file:
             json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
-        theirs = run_json("advise", self.mesh, "-m", "clay", "--light", light, "--error", 0.1, "--points", 60,
+        theirs = run_json("advise", self.mesh, "-m", "clay", "--light", light, "--error", 0.1, "--points", 40,
                           "--as-is")
         for advice in (ours, theirs):  # seconds are measured
             for layout in ("bases", "rows"):
