@@ -40,12 +40,10 @@ TEXELS(2, vec4, samplerBuffer, Vertices, vertices);     // ViewVertex: kVertexTe
 #ifdef PORTABLE
 layout(binding = 3, std430) readonly buffer Tuples { float tuples[]; };
 layout(binding = 15, std430) readonly buffer FillTuples { float fillTuples[]; };
-#define ONE_OF(from, i) from[i]
 #define FOUR_OF(from, i) vec4(from[4 * (i)], from[4 * (i) + 1], from[4 * (i) + 2], from[4 * (i) + 3])
 #else
-layout(binding = 3) uniform samplerBuffer tuples; // texels of four floats if kWholeQuads, else of one
+layout(binding = 3) uniform samplerBuffer tuples;
 layout(binding = 15) uniform samplerBuffer fillTuples; // the same of the fill
-#define ONE_OF(from, i) texelFetch(from, i).x
 #define FOUR_OF(from, i) texelFetch(from, i)
 #endif
 layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
@@ -91,20 +89,25 @@ void keepTerms(inout Quad q, uint terms) {
     q.c *= kept.zwww;
 }
 
-// Adds four terms of a vertex's tuple, from `tuples` or `fillTuples`.
+// Four values from the place `shift` in two texels.
+vec4 window(vec4 a, vec4 b, uint shift) {
+    return shift == 0 ? a : shift == 1 ? vec4(a.yzw, b.x) : shift == 2 ? vec4(a.zw, b.xy) : vec4(a.w, b.xyz);
+}
+
+// Adds four terms of a vertex's tuple, from `tuples` or `fillTuples`. Unless K is a multiple of four they begin
+// anywhere in a texel.
 #define ADD_TUPLE(sum, weight, from, vertex, quad)                                                                     \
-    if (kWholeQuads) {                                                                                                 \
-        const int first = int(((vertex) * kQuads + (quad)) * 3);                                                       \
-        sum.a += (weight) * FOUR_OF(from, first);                                                                      \
-        sum.b += (weight) * FOUR_OF(from, first + 1);                                                                  \
-        sum.c += (weight) * FOUR_OF(from, first + 2);                                                                  \
-    } else {                                                                                                           \
-        const uint first = 3 * ((vertex) * kTerms + 4 * (quad)), channels = min(12, 3 * (kTerms - 4 * (quad)));        \
-        for (uint i = 0; i < 4; i++) {                                                                                 \
-            if (i < channels) sum.a[i] += (weight) * ONE_OF(from, int(first + i));                                     \
-            if (4 + i < channels) sum.b[i] += (weight) * ONE_OF(from, int(first + 4 + i));                             \
-            if (8 + i < channels) sum.c[i] += (weight) * ONE_OF(from, int(first + 8 + i));                             \
-        }                                                                                                              \
+    {                                                                                                                  \
+        const uint first = 3 * ((vertex) * kTerms + 4 * (quad)), shift = kWholeQuads ? 0 : first % 4;                  \
+        const uint end = shift + 3 * min(4, kTerms - 4 * (quad));                                                      \
+        vec4 texels[4];                                                                                                \
+        for (uint i = 0; i < 4; i++) texels[i] = 4 * i < end ? FOUR_OF(from, int(first / 4 + i)) : vec4(0);            \
+        Quad values = Quad(window(texels[0], texels[1], shift), window(texels[1], texels[2], shift),                   \
+                           window(texels[2], texels[3], shift));                                                       \
+        if (!kWholeQuads) keepTerms(values, kTerms - 4 * (quad));                                                      \
+        sum.a += (weight) * values.a;                                                                                  \
+        sum.b += (weight) * values.b;                                                                                  \
+        sum.c += (weight) * values.c;                                                                                  \
     }
 
 // Returns the weight of a layer where the surface has this paint and base color.

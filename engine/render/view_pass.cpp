@@ -36,14 +36,13 @@ float pixelFraction(const vk::Device& device) {
     return std::exp2(-float(device.limits().subPixelPrecisionBits));
 }
 
-// Throws unless the device can read `texels` of a buffer; `orElse` continues the advice.
-void expectTexels(const vk::Device& device, uint64_t texels, uint64_t texelBytes, const std::string& name,
-                  const std::string& orElse = "") {
-    if (texels > device.mostTexels(texelBytes))
+// Throws unless the device can read `texels` of a buffer, each of 16 bytes.
+void expectTexels(const vk::Device& device, uint64_t texels, const std::string& name) {
+    const uint64_t most = device.mostTexels(sizeof(vec4));
+    if (texels > most)
         throw Error(fmt::format(
-            "{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several "
-            "parts{}",
-            name, texels, device.name(), device.mostTexels(texelBytes), orElse));
+            "{}: {} texels are needed, {} reads at most {} of a buffer; split the mesh into several parts",
+            name, texels, device.name(), most));
 }
 
 // Returns options of passes that shade pixels whose stencil equals the part's value in these bits.
@@ -213,9 +212,8 @@ ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstTriangl
                         source.name, numbered.positions.size(), mDevice.name(), mostVertices));
     part.drawnPositions = vk::upload<vec3>(mDevice, numbered.positions, source.name + " drawn positions");
     part.drawnTriangles = vk::upload<uvec3>(mDevice, numbered.triangles, source.name + " drawn triangles");
-    expectTexels(mDevice, shared::kVertexTexels * source.mesh.vertexCount(), sizeof(vec4),
-                 source.name + " vertices");
-    expectTexels(mDevice, source.mesh.triangleCount(), sizeof(glm::u32vec4), source.name + " triangles");
+    expectTexels(mDevice, shared::kVertexTexels * source.mesh.vertexCount(), source.name + " vertices");
+    expectTexels(mDevice, source.mesh.triangleCount(), source.name + " triangles");
     part.vertices = uploadBindable(mDevice, verticesOf(source.mesh), source.name + " vertices");
     part.triangles = vk::upload<glm::u32vec4>(mDevice, cornersOf(source.mesh), source.name + " triangles");
     part.clusters = TriangleClusters(source.mesh);
@@ -251,12 +249,7 @@ ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& na
     Set set;
     set.terms = uint32_t(source.brdf.terms);
     RELUME_CHECK_EQ(set.terms, termsOf(source.transport));
-    const uint64_t texels = 3 * uint64_t(verticesOf(source.transport)) * set.terms / set.floatsPerTexel();
-    expectTexels(
-        mDevice, texels, set.floatsPerTexel() * sizeof(float), name + " tuples",
-        set.floatsPerTexel() == 1
-            ? fmt::format(", or bake a K that is a multiple of four (not {}): it takes a quarter", set.terms)
-            : "");
+    expectTexels(mDevice, 3 * uint64_t(verticesOf(source.transport)) * set.terms / 4 + 1, name + " tuples");
     set.materials = uint32_t(source.materials.size());
     set.mapping = source.brdf.mapping;
     set.viewMaps = makeViewMapTexture(mDevice, source.brdf, name + " view maps");
@@ -465,9 +458,8 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
     const Set& set = boundSet(part);
     const LitSpheres& spheres = relighter.spheres();
     const ResidualSet* residual = residualOf(number, part.bound.set, relighter);
-    const auto tuplesOf = [&](const vk::Buffer& tuples) {
-        return vk::Binding::texelsOf(tuples, set.floatsPerTexel() == 4 ? VK_FORMAT_R32G32B32A32_SFLOAT
-                                                                       : VK_FORMAT_R32_SFLOAT);
+    const auto tuplesOf = [](const vk::Buffer& tuples) {
+        return vk::Binding::texelsOf(tuples, VK_FORMAT_R32G32B32A32_SFLOAT);
     };
     const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
     if (!rays || part.triangleCount == 0) return;

@@ -84,8 +84,6 @@ class ViewPass {
         DiskMapping mapping = DiskMapping::Orthographic;
         ViewMapTexture viewMaps;
         bool hasTangents = false; // whether frames follow from tangents
-        // Texel size of the tuples as the shader reads them: four if no vertex then begins within a texel.
-        uint32_t floatsPerTexel() const { return terms % 4 == 0 ? 4 : 1; }
     };
     struct Part {
         Bounds bounds;
