@@ -51,7 +51,9 @@ void FactorizationArguments::add(CLI::App& command, const std::optional<Factoriz
             ->type_name("METHOD")
             ->check(CLI::IsMember({"nonnegative", "environment", "cosine", "paper", "normalized"}));
     if (defaults) {
-        terms->default_str(std::to_string(defaults->terms));
+        terms->default_str(defaults->terms ? std::to_string(*defaults->terms)
+                                           : fmt::format("{}, of anisotropic materials {}", kIsotropicTerms,
+                                                         kAnisotropicTerms));
         method->default_str(std::string(factorizationName(defaults->method)));
     }
     command

@@ -45,18 +45,18 @@ static void expectOneOf(const char* option, int value, const char* names, std::i
 
 int defaultCoefficients(TransportLayout layout) { return layout == TransportLayout::Rows ? 96 : 384; }
 
-FactorizationOptions defaultFactorization() { return {.terms = 8, .method = Factorization::NonNegative}; }
-
 int BakeOptions::mostTransportSamples() const {
     const int ratio = visibilitySize / std::max(faceSize, 1); // sizes may not be validated yet
     return std::max(ratio * ratio, 1);
 }
 
 void BakeOptions::validate() const {
-    expectRange("--terms", factorization.terms, 1, kMostTerms);
-    if (factorization.method == Factorization::Normalized && factorization.terms != 1)
-        throw UsageError(
-            fmt::format("--terms: factorization \"normalized\" has one term, not {}", factorization.terms));
+    if (const auto terms = factorization.terms) {
+        expectRange("--terms", *terms, 1, kMostTerms);
+        if (factorization.method == Factorization::Normalized && *terms != 1)
+            throw UsageError(
+                fmt::format("--terms: factorization \"normalized\" has one term, not {}", *terms));
+    }
     expectRange("--map-size", mapSize, kMinMapSize, kMaxMapSize);
     expectOneOf("--face-size", faceSize, "32 or 64", {32, 64});
     expectOneOf("--visibility-size", visibilitySize, "64, 128 or 256", {64, 128, 256});

@@ -14,13 +14,10 @@ namespace relume {
 // Returns the default N: 96 for rows, as in the paper; 384 for layouts that are encoded from rows.
 int defaultCoefficients(TransportLayout layout);
 
-// Returns the default: the best image quality with the residual for its size and time (docs/residual.md).
-FactorizationOptions defaultFactorization();
-
 struct BakeOptions {
     LayoutOptions layout;
-    // K, 1 to 32, and the method. K is an upper bound: a diffuse material needs one term.
-    FactorizationOptions factorization = defaultFactorization();
+    // K is an upper bound: a diffuse material needs one term.
+    FactorizationOptions factorization{.method = Factorization::NonNegative};
     int coefficients = defaultCoefficients(TransportLayout::Bases); // N, 1 to 6 F²
     int mapSize = 48;                                               // S, 4 to 64
     DiskMapping mapping = DiskMapping::EqualArea;

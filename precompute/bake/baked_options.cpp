@@ -35,6 +35,11 @@ class OptionReader {
         return value.get<uint64_t>();
     }
     int integer(const char* key) { return int(whole(key, 1u << 20)); }
+    std::optional<int> integerOrNull(const char* key) {
+        if (!mOptions.contains(key) || !mOptions[key].is_null()) return integer(key);
+        mTaken++;
+        return std::nullopt;
+    }
 
     std::optional<double> amount(const char* key, double most) {
         const json& value = take(key);
@@ -111,7 +116,7 @@ bool isByError(const LayoutOptions& layout) { return isCompressed(layout.layout)
 std::string describeOptions(const BakeOptions& options) {
     const FactorizationOptions& factorization = options.factorization;
     json description = {
-        {"terms", factorization.terms},
+        {"terms", factorization.terms ? json(*factorization.terms) : nullptr},
         {"error", factorization.wantedError ? json(*factorization.wantedError) : nullptr},
         {"factorization", factorizationName(factorization.method)},
         {"coefficients", options.coefficients},
@@ -142,7 +147,7 @@ std::string describeOptions(const BakeOptions& options) {
 BakeOptions optionsOf(const Asset& asset) {
     OptionReader in(asset.provenance.options);
     BakeOptions options;
-    options.factorization.terms = in.integer("terms");
+    options.factorization.terms = in.integerOrNull("terms");
     if (const auto error = in.amount("error", 1)) options.factorization.wantedError = float(*error);
     options.factorization.method =
         in.name("factorization", [](const std::string& name) { return factorizationFromName(name); });

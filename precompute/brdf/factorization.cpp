@@ -246,6 +246,12 @@ int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf
     return brdf.terms;
 }
 
+// Returns K where none is given.
+int defaultTerms(std::span<const BrdfTable> tables, Factorization method) {
+    if (method == Factorization::Normalized) return 1;
+    return std::ranges::all_of(tables, &BrdfTable::isIsotropic) ? kIsotropicTerms : kAnisotropicTerms;
+}
+
 } // namespace
 
 std::string_view factorizationName(Factorization method) { return kNames[size_t(method)]; }
@@ -265,14 +271,15 @@ TexelValue texelValueOf(Factorization method) {
 }
 
 FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOptions& options) {
-    if (options.terms < 1 || options.terms > kMostTerms)
-        throw UsageError(fmt::format("{} BRDF terms: choose from 1 to {}", options.terms, kMostTerms));
+    const int most = options.terms.value_or(defaultTerms(tables, options.method));
+    if (most < 1 || most > kMostTerms)
+        throw UsageError(fmt::format("{} BRDF terms: choose from 1 to {}", most, kMostTerms));
     if (options.wantedError && options.method == Factorization::NonNegative)
         throw UsageError(
             "terms chosen by error need terms that are good one by one, which those of factorization "
             "\"nonnegative\" are not: give their number");
-    if (options.terms != 1 && options.method == Factorization::Normalized)
-        throw UsageError(fmt::format("factorization \"normalized\" has one term, not {}", options.terms));
+    if (most != 1 && options.method == Factorization::Normalized)
+        throw UsageError(fmt::format("factorization \"normalized\" has one term, not {}", most));
     RELUME_CHECK(!tables.empty());
     for (const BrdfTable& table : tables) {
         RELUME_CHECK(!table.directions.empty());
@@ -284,7 +291,7 @@ FactoredBrdf factorize(std::span<const BrdfTable> tables, const FactorizationOpt
                     "of their own",
                     table.asymmetry));
     }
-    const int wanted = std::min(options.terms, int(tables[0].directions.size()));
+    const int wanted = std::min(most, int(tables[0].directions.size()));
     const std::array<ChannelFactors, 3> channels = factorizeChannels(tables, options.method, wanted);
     int terms = 1; // a black BRDF has one term of zeros
     for (const ChannelFactors& factors : channels) terms = std::max(terms, factors.terms());

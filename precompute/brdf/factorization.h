@@ -39,8 +39,14 @@ bool isPublished(Factorization method);
 // Returns what a method's tables hold: f at texel centers for published methods, otherwise means over texels.
 TexelValue texelValueOf(Factorization method);
 
+// K that factorize() chooses: the best image quality with the residual for its size and time
+// (docs/residual.md).
+constexpr int kIsotropicTerms = 8, kAnisotropicTerms = 9;
+
 struct FactorizationOptions {
-    int terms = 4; // K, 1 to kMostTerms; 1 for Normalized
+    // K, 1 to kMostTerms; 1 for Normalized. Otherwise, if not set, kAnisotropicTerms where a table is
+    // anisotropic, else kIsotropicTerms.
+    std::optional<int> terms;
     Factorization method = Factorization::Environment;
     // If set, uses the least number of terms, up to `terms`, with which expectedErrors() of every layer are
     // at most this; if there is none, all `terms`, and the log says so. Not for NonNegative, whose terms are

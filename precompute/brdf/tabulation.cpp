@@ -122,6 +122,7 @@ BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue v
     BrdfTable table;
     table.size = size;
     table.mapping = mapping;
+    table.isIsotropic = brdf.isIsotropic();
     listDirections(table);
     const int count = int(table.directions.size());
     for (Eigen::MatrixXf& channel : table.channels) channel.resize(count, count);

@@ -126,9 +126,20 @@ TEST_CASE("material factory: a texture splits what has a base, and only that") {
     CHECK_FALSE(factory.make("red-plastic", {}, false)[0].materials[0].hasBase);
 }
 
+TEST_CASE("material factory: unless K is given, anisotropic materials have one term more") {
+    MaterialFactory factory({.method = Factorization::NonNegative}, 12, DiskMapping::EqualArea);
+    const auto termsOf = [&](const char* material) {
+        return factory.make(material, {}, false)[0].brdf.terms;
+    };
+    CHECK_EQ(termsOf("gold"), 8);
+    CHECK_EQ(termsOf("brushed-steel"), 9);
+    CHECK_EQ(termsOf(R"({"set": ["gold", "brushed-steel"]})"), 9);
+    CHECK_EQ(smallFactory(8).make("brushed-steel", {}, false)[0].brdf.terms, 8);
+}
+
 TEST_CASE("material factory: light maps represent the base under a coat that is too narrow for its terms") {
     const std::string polished = R"({"model": "gltf", "base_color": 0.5, "roughness": 0.6, "clearcoat": 1})";
-    MaterialFactory factory({.terms = 8, .method = Factorization::NonNegative}, 32, DiskMapping::EqualArea);
+    MaterialFactory factory({.method = Factorization::NonNegative}, 32, DiskMapping::EqualArea);
     const MaterialSet set = factory.make(polished, {}, false)[0];
     CHECK(set.brdf.layers == 1);
     CHECK(set.brdf.viewMaps.size() == size_t(set.brdf.terms) * set.brdf.mapTexels());
