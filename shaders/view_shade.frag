@@ -99,7 +99,7 @@ vec4 window(vec4 a, vec4 b, uint shift) {
 #define ADD_TUPLE(sum, weight, from, vertex, quad)                                                                     \
     {                                                                                                                  \
         const uint first = 3 * ((vertex) * kTerms + 4 * (quad)), shift = kWholeQuads ? 0 : first % 4;                  \
-        const uint end = shift + 3 * min(4, kTerms - 4 * (quad));                                                      \
+        const uint end = kWholeQuads ? 12 : shift + 3 * min(4, kTerms - 4 * (quad));                                   \
         vec4 texels[4];                                                                                                \
         for (uint i = 0; i < 4; i++) texels[i] = 4 * i < end ? FOUR_OF(from, int(first / 4 + i)) : vec4(0);            \
         Quad values = Quad(window(texels[0], texels[1], shift), window(texels[1], texels[2], shift),                   \

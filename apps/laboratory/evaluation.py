@@ -22,7 +22,7 @@ from .report import Chapter, write_report
 from .scenes import FULL, Scale, Setup
 from .store import LabError, Path, hash_of, locked, log, read_result, replacing, write_text
 
-_VERSION = 1  # raised when steps give other results from the same inputs
+_VERSION = 2  # raised when steps give other results from the same inputs
 
 Results = dict[str, Any]  # numbers of the steps that are done, by name
 

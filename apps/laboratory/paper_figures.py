@@ -257,8 +257,8 @@ def scenes(setup: Setup) -> Section:
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
             "Each in the paper's way (its factorization, K = 4, rows of 96 coefficients, the light above its threshold "
-            "of 1024), with relume's defaults for direct light without refinement (K = 8, bases, 512 coefficients of the "
-            "light), and the reference: exact BRDF, full mesh, light of 6 x 256² texels.")
+            "of 1024), with relume's defaults for direct light without refinement (K = 8, of anisotropic materials "
+            "9, bases, 512 coefficients of the light), and the reference: exact BRDF, full mesh, light of 6 x 256² texels.")
         chapter.say(setup.scale.note)
         rows, errors = [], []
         for figure, name, remark in figures:

@@ -89,9 +89,11 @@ BakeOptions optionsFrom(const py::kwargs& kwargs) {
     given.take("preset", preset);
     BakeOptions options = presetOptions(presetFrom(preset));
     given.take("terms", options.factorization.terms);
-    if (const py::object name = given.pop("factorization"); !name.is_none())
+    if (const py::object name = given.pop("factorization"); !name.is_none()) {
         options.factorization.method =
             known(factorizationFromName(name.cast<std::string>()), "factorization", name.cast<std::string>());
+        options.mapping = defaultMapping(options.factorization.method);
+    }
     takeLayout(given, options);
     if (const py::object bounces = given.pop("bounces"); !bounces.is_none())
         options.bounces = bounces.cast<int>(), options.areBouncesAuto = false;

@@ -25,12 +25,6 @@ int termsFrom(const std::string& text) {
                                  kMostTerms, text));
 }
 
-// Returns the default mapping. Published tables are orthographic; errors weighted by area do best with
-// equal-area texels.
-DiskMapping mappingFor(Factorization method) {
-    return isPublished(method) ? DiskMapping::Orthographic : DiskMapping::EqualArea;
-}
-
 } // namespace
 
 void FactorizationArguments::add(CLI::App& command, const std::optional<FactorizationOptions>& defaults) {
@@ -70,7 +64,7 @@ void FactorizationArguments::resolve(const FactorizationOptions& otherwise, Disk
     mapping = map;
     if (mMethod) {
         options.method = *factorizationFromName(*mMethod);
-        mapping = mappingFor(options.method);
+        mapping = defaultMapping(options.method);
     }
     if (mMapping) mapping = *diskMappingFromName(*mMapping);
     const bool isAutomatic = mTerms && mTerms->starts_with(kAuto);
@@ -78,7 +72,7 @@ void FactorizationArguments::resolve(const FactorizationOptions& otherwise, Disk
         options.terms = isAutomatic ? kMostTerms : termsFrom(*mTerms);
         options.wantedError.reset();
     } else if (options.method == Factorization::Normalized) {
-        options.terms = 1;
+        options.terms.reset();
     }
     if (!isAutomatic) return;
     if (options.method == Factorization::Normalized)

@@ -9,7 +9,7 @@
 namespace relume {
 
 SetRelighter::SetRelighter(const vk::Device& device, uint64_t rows, size_t lights, const std::string& name) {
-    // Whole vec4, as which views read tuples.
+    // Padded to whole texels of four floats, as which views read tuples.
     const uint64_t bytes =
         (std::max<uint64_t>(rows, 1) * sizeof(vec3) + sizeof(vec4) - 1) / sizeof(vec4) * sizeof(vec4);
     if (bytes > device.largestStorageBuffer())

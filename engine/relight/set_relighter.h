@@ -42,7 +42,7 @@ class SetRelighter {
     virtual size_t shards() const = 0;
 
     uint32_t rows() const { return mRows; }
-    // Returns one vec3 per row; zero before the first record().
+    // Returns one vec3 per row, padded to 16 bytes; zero before the first record().
     const vk::Buffer& tuples(LightPart lit = LightPart::Whole) const { return mLights[size_t(lit)].tuples; }
 
   private:

@@ -116,7 +116,7 @@ uint32_t lookOf(const std::vector<shared::ViewLayer>& layers, bool isDetailed) {
     return layers.size() == 1 ? shared::kSingleLook : shared::kLayersLook;
 }
 
-// Returns what lookOf() may yield for bindings of the set.
+// Returns what lookOf() yields for bindings of the set that show something.
 std::vector<uint32_t> looksOf(const AssetPart& part, const MaterialSet& set) {
     if (part.detail.isAny()) return {shared::kSurfaceLook};
     const auto bases = size_t(std::ranges::count(set.materials, true, &AssetMaterial::hasBase));
@@ -187,16 +187,21 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
         for (size_t s = 0; s < mParts[p].sets.size(); s++) {
             const ResidualSet* residual = residualOf(p, s, relighter);
             const bool isShadow = mGroundFade && mGroundFade->part == p && mGroundFade->isShadow;
-            std::set<uint32_t> harmonics{mostHarmonics(residual)};
-            if (residual)
-                for (const auto& layer : residual->layers) harmonics.insert(uint32_t(layer->harmonics));
-            for (uint32_t look : looksOf(mAsset.parts[p], mAsset.parts[p].sets[s]))
-                for (Pixels pixels : {Pixels::All, Pixels::Inner, Pixels::Edges})
-                    for (uint32_t count : harmonics)
-                        if ((pixels == Pixels::All) == (mSamples == 1) &&
-                            (look == shared::kSingleLook || count == *harmonics.rbegin()))
-                            shadeProgram(mParts[p].sets[s],
-                                         {look, true, estimateOf(residual, isShadow), count, pixels});
+            const uint32_t estimate = estimateOf(residual, isShadow);
+            const MaterialSet& source = mAsset.parts[p].sets[s];
+            for (const uint32_t look : looksOf(mAsset.parts[p], source)) {
+                std::set<uint32_t> harmonics{mostHarmonics(residual)};
+                if (look == shared::kSingleLook && residual) {
+                    harmonics.clear();
+                    for (const AssetMaterial& material : source.materials)
+                        if (!material.hasBase)
+                            harmonics.insert(uint32_t(residual->layers[size_t(material.layer)]->harmonics));
+                }
+                for (const Pixels pixels : {Pixels::All, Pixels::Inner, Pixels::Edges})
+                    for (const uint32_t count : harmonics)
+                        if ((pixels == Pixels::All) == (mSamples == 1))
+                            shadeProgram(mParts[p].sets[s], {look, true, estimate, count, pixels});
+            }
         }
 }
 
@@ -249,7 +254,7 @@ ViewPass::Set ViewPass::makeSet(const MaterialSet& source, const std::string& na
     Set set;
     set.terms = uint32_t(source.brdf.terms);
     RELUME_CHECK_EQ(set.terms, termsOf(source.transport));
-    expectTexels(mDevice, 3 * uint64_t(verticesOf(source.transport)) * set.terms / 4 + 1, name + " tuples");
+    expectTexels(mDevice, (3 * uint64_t(verticesOf(source.transport)) * set.terms + 3) / 4, name + " tuples");
     set.materials = uint32_t(source.materials.size());
     set.mapping = source.brdf.mapping;
     set.viewMaps = makeViewMapTexture(mDevice, source.brdf, name + " view maps");

@@ -16,7 +16,7 @@ int defaultCoefficients(TransportLayout layout);
 
 struct BakeOptions {
     LayoutOptions layout;
-    // K is an upper bound: a diffuse material needs one term.
+    // K is an upper bound, 1 to 32: a diffuse material needs one term.
     FactorizationOptions factorization{.method = Factorization::NonNegative};
     int coefficients = defaultCoefficients(TransportLayout::Bases); // N, 1 to 6 F²
     int mapSize = 48;                                               // S, 4 to 64

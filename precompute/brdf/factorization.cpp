@@ -249,7 +249,8 @@ int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf
 // Returns K where none is given.
 int defaultTerms(std::span<const BrdfTable> tables, Factorization method) {
     if (method == Factorization::Normalized) return 1;
-    return std::ranges::all_of(tables, &BrdfTable::isIsotropic) ? kIsotropicTerms : kAnisotropicTerms;
+    const bool isIsotropic = std::ranges::all_of(tables, &BrdfTable::isIsotropic);
+    return method == Factorization::NonNegative && !isIsotropic ? kAnisotropicTerms : kIsotropicTerms;
 }
 
 } // namespace
@@ -264,6 +265,10 @@ std::optional<Factorization> factorizationFromName(std::string_view name) {
 
 bool isPublished(Factorization method) {
     return method == Factorization::Paper || method == Factorization::Normalized;
+}
+
+DiskMapping defaultMapping(Factorization method) {
+    return isPublished(method) ? DiskMapping::Orthographic : DiskMapping::EqualArea;
 }
 
 TexelValue texelValueOf(Factorization method) {

@@ -36,16 +36,19 @@ std::optional<Factorization> factorizationFromName(std::string_view name);
 // tables of f at texel centers, and the residual is not part of them.
 bool isPublished(Factorization method);
 
+// Returns the layout of maps for a method unless it is given: published tables are orthographic; errors
+// weighted by area do best with equal-area texels.
+DiskMapping defaultMapping(Factorization method);
+
 // Returns what a method's tables hold: f at texel centers for published methods, otherwise means over texels.
 TexelValue texelValueOf(Factorization method);
 
-// K that factorize() chooses: the best image quality with the residual for its size and time
-// (docs/residual.md).
+// K of nonnegative terms unless it is given, of isotropic and of anisotropic BRDFs: the best image quality
+// for its size and time (docs/residual.md). Other methods have kIsotropicTerms.
 constexpr int kIsotropicTerms = 8, kAnisotropicTerms = 9;
 
 struct FactorizationOptions {
-    // K, 1 to kMostTerms; 1 for Normalized. Otherwise, if not set, kAnisotropicTerms where a table is
-    // anisotropic, else kIsotropicTerms.
+    // K, 1 to kMostTerms. If not set: 1 for Normalized, else kIsotropicTerms or kAnisotropicTerms.
     std::optional<int> terms;
     Factorization method = Factorization::Environment;
     // If set, uses the least number of terms, up to `terms`, with which expectedErrors() of every layer are

@@ -159,8 +159,8 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
                                observer, shareOf(report, 0.8, 1));
     if (advice.bases) *advice.bases->seconds += secondsBefore;
     if (advice.rows && advice.bases) // they take equally long per term
-        advice.rows->seconds = *advice.bases->seconds * *advice.rows->options.factorization.terms /
-                               *advice.bases->options.factorization.terms;
+        advice.rows->seconds = *advice.bases->seconds * advice.rows->options.factorization.terms.value() /
+                               advice.bases->options.factorization.terms.value();
     if (report) report(1);
     return advice;
 }

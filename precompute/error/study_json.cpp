@@ -49,7 +49,7 @@ nlohmann::ordered_json describe(const ErrorStudy& study, const ViewPoints& point
 }
 
 std::string commandLineOf(const BakeOptions& options) {
-    std::string text = fmt::format("--terms {} --factorization {}", *options.factorization.terms,
+    std::string text = fmt::format("--terms {} --factorization {}", options.factorization.terms.value(),
                                    factorizationName(options.factorization.method));
     if (options.layout.layout == TransportLayout::Rows)
         text += fmt::format(" --layout rows --coefficients {}", options.coefficients);
@@ -65,7 +65,7 @@ namespace {
 nlohmann::ordered_json describe(const std::optional<AdvisedBake>& bake, uint64_t vertices) {
     if (!bake) return nullptr;
     return {{"options", commandLineOf(bake->options)},
-            {"terms", *bake->options.factorization.terms},
+            {"terms", bake->options.factorization.terms.value()},
             {"error", bake->error},
             {"bytes", uint64_t(bake->bytes)},
             {"bytes_per_vertex", uint64_t(bake->bytes / double(vertices))},

@@ -12,7 +12,7 @@ namespace relume {
 // shares of the squared total. Includes the low-order study if there is one.
 nlohmann::ordered_json describe(const ErrorStudy& study, const ViewPoints& points, const Asset& asset);
 
-// Returns the options of `relume bake` for an advised bake.
+// Returns the options of `relume bake` for an advised bake, whose K is set.
 std::string commandLineOf(const BakeOptions& options);
 
 // Describes advice; `asked` is the wanted error.

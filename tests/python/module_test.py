@@ -41,17 +41,17 @@ class ModuleTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = os.path.join(cls.folder.name, "module.relume")
         # A ring of few vertices, in a file that both can read.
-        around, along = np.meshgrid(np.arange(16) / 16, np.arange(8) / 8, indexing="ij")
+        around, along = np.meshgrid(np.arange(24) / 24, np.arange(12) / 12, indexing="ij")
         radius = 1 + 0.4 * np.cos(2 * np.pi * along)
         places = np.stack([radius * np.cos(2 * np.pi * around), 0.4 * np.sin(2 * np.pi * along),
                            radius * np.sin(2 * np.pi * around)], axis=-1).reshape(-1, 3)
         cls.mesh = os.path.join(cls.folder.name, "ring.obj")
         with open(cls.mesh, "w") as file:
             file.writelines("v %.6f %.6f %.6f\n" % tuple(place) for place in places)
-            for i in range(16):
-                for j in range(8):
-                    a, b = 8 * i + j, 8 * i + (j + 1) % 8
-                    c, d = (a + 8) % 128, (b + 8) % 128
+            for i in range(24):
+                for j in range(12):
+                    a, b = 12 * i + j, 12 * i + (j + 1) % 12
+                    c, d = (a + 12) % 288, (b + 12) % 288
                     file.write(f"f {a + 1} {b + 1} {d + 1} {c + 1}\n")
         scene = relume.Scene().add(cls.mesh, material="gold")
         scene.add_ground(tessellation=10)
@@ -189,11 +189,11 @@ class ModuleTest(unittest.TestCase):
 
     def test_coefficients_are_those_that_light_is_weighed_by(self):
         """Light that is even all around has one coefficient a face, the first: its radiance times 64."""
-        rows = self.asset.coefficients(0, [0, 1, 10, 11])  # of vertices 0 and 5, of 2 terms each
+        rows = self.asset.coefficients(0, [0, 1, 540, 541])  # of vertices 0 and 270, of 2 terms each
         self.assertEqual(rows.shape, (4, 6 * 64 * 64, 3))
         even = relume.Light.environment(np.ones((32, 64, 3), np.float32))
         tuples = relume.Renderer(self.asset, SIZE).relight(even)[0]
-        np.testing.assert_allclose(64 * rows[:, ::64 * 64].sum(axis=1), tuples[[0, 5]].reshape(4, 3), rtol=1e-3,
+        np.testing.assert_allclose(64 * rows[:, ::64 * 64].sum(axis=1), tuples[[0, 270]].reshape(4, 3), rtol=1e-3,
                                    atol=1e-4)
         with self.assertRaises(IndexError):
             self.asset.coefficients(0, [2 * len(self.asset.mesh(0).positions)])
