@@ -20,7 +20,7 @@ using namespace relume::test;
 
 namespace {
 
-constexpr int kWidth = 48, kHeight = 36;
+constexpr int kWidth = 64, kHeight = 48;
 
 class MaterialTest {
   public:
