@@ -89,7 +89,7 @@ void keepTerms(inout Quad q, uint terms) {
     q.c *= kept.zwww;
 }
 
-// Four values from the place `shift` in two texels.
+// Returns the four values that begin at component `shift` of two consecutive texels.
 vec4 window(vec4 a, vec4 b, uint shift) {
     return shift == 0 ? a : shift == 1 ? vec4(a.yzw, b.x) : shift == 2 ? vec4(a.zw, b.xy) : vec4(a.w, b.xyz);
 }

@@ -45,9 +45,10 @@ void FactorizationArguments::add(CLI::App& command, const std::optional<Factoriz
             ->type_name("METHOD")
             ->check(CLI::IsMember({"nonnegative", "environment", "cosine", "paper", "normalized"}));
     if (defaults) {
-        terms->default_str(defaults->terms ? std::to_string(*defaults->terms)
-                                           : fmt::format("{}, of anisotropic materials {}", kIsotropicTerms,
-                                                         kAnisotropicTerms));
+        terms->default_str(defaults->terms
+                               ? std::to_string(*defaults->terms)
+                               : fmt::format("{}, or {} nonnegative ones of an anisotropic material",
+                                             kIsotropicTerms, kAnisotropicTerms));
         method->default_str(std::string(factorizationName(defaults->method)));
     }
     command

@@ -19,7 +19,7 @@ struct BrdfTable {
     std::vector<vec3> directions;            // n: texel centers
     std::vector<float> solidAngles;          // n: of each direction's texel, sr
     std::array<Eigen::MatrixXf, 3> channels; // n × n each
-    bool isIsotropic = true;                 // of the BRDF
+    bool isIsotropic = true;                 // whether the BRDF is
     float asymmetry = 0;                     // max over channels of ‖M - Mᵀ‖ / ‖M‖ (Frobenius)
 };
 
