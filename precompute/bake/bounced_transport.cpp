@@ -13,6 +13,9 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 namespace relume {
@@ -102,16 +105,33 @@ void logHeld(const BakePlan& plan, const BounceGather& gather) {
                 plan.asset.parts[part].name, share));
 }
 
+// Returns rows made portion by portion in parallel: make(row, sum) uses a RowSum of `coefficients`, which is
+// empty and must be left so.
+template <typename Make>
+SparseTransport rowsInParallel(uint32_t vertices, uint32_t terms, size_t coefficients, const Make& make) {
+    constexpr uint32_t kTogether = 8; // vertices per portion
+    std::vector<SparseTransport> portions((vertices + kTogether - 1) / kTogether, emptyRows(terms));
+    tbb::enumerable_thread_specific<RowSum> sums(coefficients);
+    const auto makePortion = [&](size_t number) {
+        const auto first = uint32_t(number) * kTogether, end = std::min(first + kTogether, vertices);
+        for (size_t row = size_t(first) * terms; row < size_t(end) * terms; row++)
+            appendRow(portions[number], make(row, sums.local()));
+        portions[number].vertices = end - first;
+    };
+    // Isolated: a thread that waits for the last portion must not start to store a whole block meanwhile.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(size_t(0), portions.size(), makePortion); });
+    SparseTransport rows = emptyRows(terms);
+    for (const SparseTransport& portion : portions) appendRows(rows, portion);
+    return rows;
+}
+
 // Adds transport row by row.
 SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
-    SparseTransport rows{a.vertices, a.terms, {0}, {}, {}, {}};
-    RowSum sum(kBounceCoefficients);
-    for (size_t row = 0; row < a.rows(); row++) {
+    return rowsInParallel(a.vertices, a.terms, kBounceCoefficients, [&](size_t row, RowSum& sum) {
         sum.add(a, row, 1);
         sum.add(b, row, 1);
-        appendRow(rows, sum.pack(kSourceKept));
-    }
-    return rows;
+        return sum.pack(kSourceKept);
+    });
 }
 
 } // namespace
@@ -134,24 +154,23 @@ uint64_t bounceBytes(const Asset& asset, const Appearance& bound) {
 
 void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize,
                              int kept) const {
-    RowSum sum(6 * size_t(faceSize) * size_t(faceSize));
+    const size_t coefficients = 6 * size_t(faceSize) * size_t(faceSize);
     for (size_t set = 0; set < sets.size(); set++) {
         const SparseTransport& bounced = mRows[part][set];
-        BakedRows& baked = sets[set];
-        SparseTransport rows = emptyRows(baked.transport.terms);
-        for (size_t row = 0; row < baked.transport.rows(); row++) {
-            sum.add(baked.transport, row, 1);
+        const SparseTransport& direct = sets[set].transport;
+        const auto addRow = [&](size_t row, RowSum& sum) {
+            sum.add(direct, row, 1);
             sum.add(bounced, size_t(first) * bounced.terms + row, float(kBounceFaceSize) / float(faceSize),
                     [&](uint16_t index) { return coefficientOfBounce(index, faceSize); });
             RowSum::Energies energies;
-            appendRow(rows, sum.pack(kept, &energies));
-            TransportLosses& losses = baked.losses[row];
-            losses.total += energies.total - energyOf(baked.transport, row);
+            PackedRow packed = sum.pack(kept, &energies);
+            TransportLosses& losses = sets[set].losses[row];
+            losses.total += energies.total - energyOf(direct, row);
             losses.dropped += energies.dropped;
             losses.quantized += energies.quantized;
-        }
-        rows.vertices = baked.transport.vertices;
-        baked.transport = std::move(rows);
+            return packed;
+        };
+        sets[set].transport = rowsInParallel(direct.vertices, direct.terms, coefficients, addRow);
     }
 }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace relume {
 
@@ -245,7 +246,8 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
 
 std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const SparseTransport> from,
                                                                const Report& report) const {
-    constexpr uint32_t kBlock = 32, kBatch = 1024; // vertices per task and between reports
+    constexpr uint32_t kBlock = 8;                                              // vertices per task
+    const auto batch = uint32_t(256 * tbb::this_task_arena::max_concurrency()); // vertices between reports
     int mostTerms = 0;
     for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termCount(part));
     tbb::enumerable_thread_specific<Room> rooms(mostTerms);
@@ -260,8 +262,8 @@ std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const S
         const AssetPart& part = mAsset.parts[number];
         std::vector<SparseTransport>& all = gathered.emplace_back(rowsOfSets(part));
         const auto vertices = uint32_t(part.mesh.vertexCount());
-        for (uint32_t first = 0; first < vertices; first += kBatch) {
-            const uint32_t end = std::min(first + kBatch, vertices);
+        for (uint32_t first = 0; first < vertices; first += batch) {
+            const uint32_t end = std::min(first + batch, vertices);
             std::vector<std::vector<SparseTransport>> blocks((end - first + kBlock - 1) / kBlock,
                                                              rowsOfSets(part));
             tbb::parallel_for(size_t(0), blocks.size(), [&](size_t block) {
