@@ -43,8 +43,9 @@ def figure_2(setup: Setup) -> Section:
         chapter.say("The same of the factorization that weighs what light and pixels ask for "
                     "(--factorization environment), in equal-area maps.")
         chapter.items.append(pictures_of(weighed, results, f"{model}, terms alone, weighed"))
-        chapter.say("As it is relit in the paper's way, from one bake of rows of 96 coefficients. What this adds is "
-                    "lost to these: a single direction needs all of them.")
+        chapter.say("As it is relit from one bake in the paper's way, but with relume's choice of 512 coefficients of "
+                    "the light. What this adds comes from rows of 96 coefficients, which a single direction needs all "
+                    "of, the simplified occluder and interpolation.")
         chapter.items.append(pictures_of(relit, results, f"{model}, relit"))
         chapter.items.append(Table(
             "figure_2", "Relative RMSE over K",
@@ -162,6 +163,8 @@ def figure_4(setup: Setup) -> Section:
             "Where a larger S does worse: f grows steeply towards grazing angles, how near to the horizon the "
             "outermost centers of a map fall is a matter of chance, and at S = 64 the first terms of "
             "Ashikhmin-Shirley describe these.")
+        if bunnies:
+            chapter.say("Bunnies from bakes in the paper's way, lit by relume's choice of 512 coefficients.")
         chapter.items += [pictures_of(bunny, results, bunny.title) for bunny in bunnies]
 
     return Section("Figure 4: BRDFs factored", steps, write)
@@ -189,14 +192,15 @@ def figure_5(setup: Setup) -> Section:
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
             "Lucy in gray diffuse, in a single term of Ashikhmin-Shirley from polar maps, and in four terms from "
-            f"orthographic ones; under {light}, the paper's light not being known. The reference is of "
-            "Ashikhmin-Shirley.")
+            f"orthographic ones; under {light}, the paper's light not being known, in relume's choice of 512 "
+            "coefficients. Bakes are in the paper's way. The reference is of Ashikhmin-Shirley.")
         chapter.say(setup.scale.note)
         chapter.items.append(pictures_of(figure, results, str(model)))
         chapter.items.append(Table("figure_5", "Relative RMSE", ["maps", "RMSE (interval)"],
                                    [[image.title, str(error_of(figure, results, image.name))]
                                     for image in figure.images if image.is_compared]))
-        chapter.say("The polar map has the azimuth along x and the sine of the angle from the normal along y.")
+        chapter.say("In our reading, the polar map has the azimuth along x and the sine of the angle from the normal "
+                    "along y.")
 
     return Section(title, figure_steps(figure), write)
 
@@ -258,7 +262,8 @@ def scenes(setup: Setup) -> Section:
         chapter.say(
             "Each in the paper's way (its factorization, K = 4, rows of 96 coefficients, the light above its threshold "
             "of 1024), with relume's defaults for direct light without refinement (K = 8, of anisotropic materials "
-            "9, bases, 512 coefficients of the light), and the reference: exact BRDF, full mesh, light of 6 x 256² texels.")
+            "9, bases, 512 coefficients of the light), and the reference: exact BRDF, full mesh, light of 6 x 256² "
+            "texels.")
         chapter.say(setup.scale.note)
         rows, errors = [], []
         for figure, name, remark in figures:

@@ -13,10 +13,11 @@ namespace relume {
 
 namespace {
 
-// In triangles. The paper mentions a simplified occluder but no number.
+// In triangles. The paper's numbers have no unit (docs/paper.md).
 constexpr size_t kPaperOccluder = 5000;
 
-// Two bounces add two fifths to the time of a bake (docs/bounces.md).
+// Two bounces nearly double the time of a bake on two cores, and are most of what a picture lacks without
+// (docs/bounces.md).
 constexpr int kDefaultBounces = 2;
 
 BakeOptions paperOptions() {
