@@ -17,9 +17,29 @@ namespace relume {
 
 namespace {
 
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+// Values of up to eight terms in three channels, side by side, so that an instruction serves all terms.
+struct EightTerms {
+    using Values = Eigen::Array<float, 8, 1>;
 
-constexpr int kTogether = 16; // hits that are multiplied together; their rows fit in a core's cache
+    Values red = Values::Zero(), green = Values::Zero(), blue = Values::Zero();
+
+    void set(size_t term, vec3 value) {
+        red[Eigen::Index(term)] = value.x;
+        green[Eigen::Index(term)] = value.y;
+        blue[Eigen::Index(term)] = value.z;
+    }
+    vec3 get(size_t term) const {
+        return {red[Eigen::Index(term)], green[Eigen::Index(term)], blue[Eigen::Index(term)]};
+    }
+    void add(const EightTerms& light, vec3 value) {
+        red += light.red * value.x;
+        green += light.green * value.y;
+        blue += light.blue * value.z;
+    }
+};
+
+// Returns the number of EightTerms that hold so many terms.
+size_t groupsOf(int terms) { return (size_t(terms) + 7) / 8; }
 
 // The rays along which a vertex gathers bounced light: cosine-distributed directions in its frame, kSide²
 // strata of a square, mapped to the hemisphere and shifted differently for every vertex.
@@ -119,17 +139,11 @@ struct BounceGather::Hit {
 
 // A thread's buffers, reused from vertex to vertex.
 struct BounceGather::Room {
-    explicit Room(int mostTerms) : sum(kBounceCoefficients) {
-        for (int channel = 0; channel < 3; channel++) {
-            light[channel].setZero(mostTerms, kTogether);
-            outgoing[channel].setZero(kTogether, kBounceCoefficients);
-            total[channel].setZero(mostTerms, kBounceCoefficients);
-        }
-    }
+    explicit Room(int mostTerms)
+        : light(groupsOf(mostTerms)), total(light.size() * kBounceCoefficients), sum(kBounceCoefficients) {}
 
-    std::array<Matrix, 3> light;    // per term and hit: g, times the ray's weight
-    std::array<Matrix, 3> outgoing; // per hit: radiance that leaves it towards the vertex
-    std::array<Matrix, 3> total;    // per term
+    std::vector<EightTerms> light; // of a ray: g of each term, times the ray's weight
+    std::vector<EightTerms> total; // per eight terms and coefficient: bounced light
     RowSum sum;
 };
 
@@ -187,57 +201,41 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
     const Mesh& mesh = part.mesh;
     const TangentFrame frame = frameOf(mesh, vertex);
     const vec3 origin = mesh.positions[vertex] + mAsset.visibilityOffset * mesh.normals[vertex];
-    const int terms = termCount(part);
-    for (Matrix& total : room.total) total.topRows(terms).setZero();
-
-    int count = 0; // number of hits not yet added
+    const size_t groups = groupsOf(termCount(part));
+    std::fill_n(room.light.begin(), groups, EightTerms{});
+    std::fill_n(room.total.begin(), groups * kBounceCoefficients, EightTerms{});
     bool isAny = false;
-    const auto multiplyOut = [&] {
-        for (size_t channel = 0; channel < 3; channel++)
-            room.total[channel].topRows(terms).noalias() +=
-                room.light[channel].topLeftCorner(terms, count) * room.outgoing[channel].topRows(count);
-        count = 0;
-    };
     Hit hit;
     for (BounceRays rays(number, vertex); rays.next();) {
         const vec3 local = rays.direction();
         if (!find(origin, frame.toWorld(local), rays.choice(), hit)) continue;
         isAny = true;
-        int row = 0;
+        size_t row = 0;
         for (const MaterialSet& set : part.sets) {
             const MapPlace place = placeInMap(set.brdf.size, set.brdf.mapping, local);
             for (int term = 0; term < set.brdf.terms; term++, row++) {
                 const vec3 g = lookupMap(set.brdf.lightMap(term), place) * BounceRays::kWeight;
-                for (int channel = 0; channel < 3; channel++)
-                    room.light[size_t(channel)](row, count) = g[channel];
+                room.light[row / 8].set(row % 8, g);
             }
-        }
-        std::array<float*, 3> out;
-        for (size_t channel = 0; channel < 3; channel++) {
-            room.outgoing[channel].row(count).setZero();
-            out[channel] = room.outgoing[channel].row(count).data();
         }
         const SparseTransport& sources = from[hit.part];
         for (uint32_t term = 0; term < sources.terms; term++) {
             const size_t source = size_t(hit.vertex) * sources.terms + term;
             const vec3 step = hit.views[term] * sources.scales[source] * kCoefficientUnit;
-            for (uint64_t entry = sources.rowStarts[source]; entry < sources.rowStarts[source + 1]; entry++) {
-                const vec3 value = step * vec3(unpackCoefficient(sources.values[entry]));
-                for (size_t channel = 0; channel < 3; channel++)
-                    out[channel][sources.indices[entry]] += value[int(channel)];
+            for (size_t group = 0; group < groups; group++) {
+                const EightTerms light = room.light[group];
+                EightTerms* total = &room.total[group * kBounceCoefficients];
+                for (uint64_t i = sources.rowStarts[source]; i < sources.rowStarts[source + 1]; i++)
+                    total[sources.indices[i]].add(light, step * vec3(unpackCoefficient(sources.values[i])));
             }
         }
-        if (++count == kTogether) multiplyOut();
     }
-    if (count > 0) multiplyOut();
 
-    int row = 0;
+    size_t row = 0;
     for (SparseTransport& own : rows) {
         for (uint32_t term = 0; term < own.terms; term++, row++) {
-            if (isAny)
-                for (int i = 0; i < kBounceCoefficients; i++)
-                    room.sum.add(size_t(i),
-                                 {room.total[0](row, i), room.total[1](row, i), room.total[2](row, i)});
+            for (size_t i = 0; isAny && i < kBounceCoefficients; i++)
+                room.sum.add(i, room.total[row / 8 * kBounceCoefficients + i].get(row % 8));
             appendRow(own, room.sum.pack(kBounceKept));
         }
         own.vertices++;

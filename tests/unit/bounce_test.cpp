@@ -48,15 +48,18 @@ std::vector<vec3> denseRow(const SparseTransport& rows, size_t row) {
     return dense;
 }
 
-// Two terms and colors, so that terms and channels can be mistaken for each other.
-FactoredBrdf twoTerms() {
-    FactoredBrdf brdf = makeDiffuseFactors({0.8f, 0.5f, 0.3f});
-    brdf.terms = 2;
-    brdf.eigenvalues.push_back(brdf.eigenvalues[0]);
-    for (size_t i = 0; i < brdf.mapTexels(); i++) {
-        const float x = float(i % 8) / 8, y = float(i / 8) / 8;
-        brdf.lightMaps.push_back({x, 0.5f, y});
-        brdf.viewMaps.push_back(vec3(y, x, 0.25f) / kPi);
+// Ten terms, more than are summed side by side, and colors, so that terms and channels can be mistaken for
+// each other.
+FactoredBrdf tenTerms() {
+    FactoredBrdf brdf = makeDiffuseFactors({0.2f, 0.1f, 0.05f});
+    for (; brdf.terms < 10; brdf.terms++) {
+        const float term = float(brdf.terms) / 10;
+        brdf.eigenvalues.push_back(brdf.eigenvalues[0]);
+        for (size_t i = 0; i < brdf.mapTexels(); i++) {
+            const float x = float(i % 8) / 8, y = float(i / 8) / 8;
+            brdf.lightMaps.push_back({term * x, 0.5f, (1 - term) * y});
+            brdf.viewMaps.push_back(vec3(y, (1 - term) * x, term) / (8 * kPi));
+        }
     }
     return brdf;
 }
@@ -111,7 +114,7 @@ TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
     for (vec3& position : ground.positions) position.y -= 0.5f;
     Asset asset =
         makeTestAsset({makeDiffusePart(makeTorus(1, 0.4f, 24, 12), 0.5f), makeDiffusePart(ground, 0.5f)});
-    asset.parts[0].sets[0].brdf = twoTerms();
+    asset.parts[0].sets[0].brdf = tenTerms();
     const Appearance bound = defaultAppearance(asset);
     std::mt19937 random(21);
     const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random),
