@@ -38,6 +38,7 @@ std::vector<KeyHelp> keyHelp() {
         {"F5", "build the shaders anew"},
         {"F9", "start and stop a timing capture"},
         {"F11", "full screen"},
+        {"G", "a contact sheet: every material under every light that is read"},
         {"F12", "screenshot: .png as it is seen, .exr of linear radiance"},
         {"Ctrl + Z, Ctrl + Shift + Z", "undo and redo changes of light, material and picture"},
         {"Ctrl + S", "save the session: view, light and materials"},
@@ -160,6 +161,8 @@ Command Controls::takeKey(const InputEvent& event, SceneState& state) {
         return Command::None;
     case GLFW_KEY_W:
         return Command::ExplainVertex;
+    case GLFW_KEY_G:
+        return Command::Sheet;
     case GLFW_KEY_F5:
         return Command::ReloadShaders;
     case GLFW_KEY_F9:

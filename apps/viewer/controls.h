@@ -18,6 +18,7 @@ enum class Command {
     Redo,
     Screenshot,
     SaveSession,
+    Sheet, // of all materials and lights
     Record,
     Capture,
     ReloadShaders,

@@ -12,6 +12,8 @@
 #include "apps/viewer/user_folders.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
+#include "engine/import/image_file.h"
+#include "engine/render/contact_sheet.h"
 
 #include <algorithm>
 #include <chrono>
@@ -73,6 +75,7 @@ class Viewer : public ScriptTarget {
     void reloadShaders();
     void saveLight(const std::filesystem::path& file);
     void saveSession(const std::filesystem::path& file);
+    void makeSheet(const std::filesystem::path& file);
     void toggleCapture();
     void toggleRecording();
 
@@ -228,6 +231,8 @@ void Viewer::execute(Command command) {
         return;
     case Command::SaveSession:
         return saveSession(outputName(".session.json"));
+    case Command::Sheet:
+        return makeSheet(outputName("-sheet.png"));
     case Command::Record:
         return toggleRecording();
     case Command::Capture:
@@ -339,6 +344,31 @@ void Viewer::saveSession(const std::filesystem::path& file) {
         mNotice.tell(
             mFiles.saveSession(file, mView.drawn(mState), mView.groundStyle(mState), mWindow.size()));
     });
+}
+
+// Beside the frames. Lamps, strokes and a light file are part of the look, not of the lights to choose from.
+void Viewer::makeSheet(const std::filesystem::path& file) {
+    if (!hasView()) return;
+    if (model()->isSketch) return mNotice.tell("nothing is baked yet to make a sheet of");
+    std::vector<SheetColumn> columns;
+    LightState one = mState.light;
+    one.file.reset();
+    one.lamps.clear();
+    one.strokes.clear();
+    for (one.environment = 0; one.environment < one.environments.size(); one.environment++)
+        if (one.isReady()) columns.push_back({lightOf(one), glm::radians(one.rotation)});
+    mNotice.tell("a contact sheet is being drawn");
+    mWorker.post(
+        "drawing a contact sheet",
+        [this, file, model = mContent.shown(), columns = std::move(columns),
+         camera = mState.orbit->camera()]() -> Worker::Result {
+            const std::vector<SheetRow> rows = sheetRows(model->asset, model->file.stem().string());
+            ContactSheet sheet(columns, rows.size(), {});
+            sheet.add(mDevice, model->asset, rows, camera);
+            writePng(file, sheet.image());
+            return [this, file] { mNotice.tell(fmt::format("{} is written", file.string())); };
+        },
+        [this](const std::string& why) { mNotice.tell(why, true); });
 }
 
 void Viewer::toggleRecording() {

@@ -171,6 +171,7 @@ TEST_CASE("controls: keys") {
                                                 {GLFW_KEY_F9, Command::Capture},
                                                 {GLFW_KEY_F11, Command::FullScreen},
                                                 {GLFW_KEY_F12, Command::Screenshot},
+                                                {GLFW_KEY_G, Command::Sheet},
                                                 {GLFW_KEY_Q, Command::None},
                                                 {GLFW_KEY_Z, Command::None}};
     for (const auto& [code, command] : commands) {

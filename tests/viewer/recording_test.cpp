@@ -2,6 +2,7 @@
 #include "apps/viewer/outputs.h"
 #include "engine/base/error.h"
 #include "tests/support/viewer_session.h"
+#include "tests/support/window_image.h"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,31 @@ TEST_CASE("viewer: a recording has every frame, numbered, as large as the window
     CHECK(says(video, folder.filename().string() + "/frame_%04d.png"));
     CHECK(says(video, "-framerate 30"));
     CHECK(says(outcome.err, folder.filename().string() + ".mp4 is made of the images"));
+}
+
+TEST_CASE("viewer: G draws the contact sheet that `relume sheet` draws, beside the frames") {
+    Session& session = sharedSession();
+    const Outcome outcome =
+        session.replay({{{"wait", "settled"}}, {{"key", "G"}}, {{"wait", "settled"}}, {{"quit", true}}},
+                       "ring.relume room.exr");
+    CAPTURE(outcome.err);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    CHECK(isQuiet(outcome.err));
+    std::filesystem::path file;
+    for (const auto& entry : std::filesystem::directory_iterator(session.path("")))
+        if (entry.path().string().ends_with("-sheet.png")) file = entry;
+    REQUIRE_FALSE(file.empty());
+    CHECK(says(outcome.err, file.filename().string() + " is written"));
+    const Outcome sheet = session.relume("sheet ring.relume -e room.exr -o sheet.png");
+    REQUIRE_MESSAGE(sheet.exitCode == 0, sheet.err);
+    const Image drawn = windowImage(file), expected = windowImage(session.path("sheet.png"));
+    REQUIRE_EQ(drawn.height, expected.height); // both materials
+    REQUIRE_GT(drawn.width, expected.width);   // other lights stand before that of the file
+    const int left = drawn.width - expected.width;
+    size_t different = 0;
+    for (int y = 0; y < expected.height; y++)
+        for (int x = 0; x < expected.width; x++) different += drawn.at(left + x, y) != expected.at(x, y);
+    CHECK_EQ(different, 0u);
 }
 
 TEST_CASE("outputs: a light or session is written over nothing but .json") {
