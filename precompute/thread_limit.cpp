@@ -1,8 +1,10 @@
 #include "precompute/thread_limit.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 namespace relume {
 
@@ -18,5 +20,10 @@ ThreadLimit::ThreadLimit(int threads)
 }
 
 ThreadLimit::~ThreadLimit() = default;
+
+size_t allowedThreads() {
+    const size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::min(allowed, size_t(tbb::this_task_arena::max_concurrency()));
+}
 
 } // namespace relume

@@ -1,6 +1,7 @@
 // A limit on the processor cores that precomputation uses.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 namespace relume {
@@ -16,5 +17,8 @@ class ThreadLimit {
     struct Control;
     std::unique_ptr<Control> mControl;
 };
+
+// Returns the number of threads that TBB's work from here may take, as limits on it allow.
+size_t allowedThreads();
 
 } // namespace relume

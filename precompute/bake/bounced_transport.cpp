@@ -105,23 +105,28 @@ void logHeld(const BakePlan& plan, const BounceGather& gather) {
                 plan.asset.parts[part].name, share));
 }
 
-// Returns rows made portion by portion in parallel: make(row, sum) uses a RowSum of `coefficients`, which is
-// empty and must be left so.
+// Returns rows made in parallel: make(row, sum), called once for each row and concurrently, uses a RowSum of
+// `coefficients`, which is empty and must be left so.
 template <typename Make>
 SparseTransport rowsInParallel(uint32_t vertices, uint32_t terms, size_t coefficients, const Make& make) {
-    constexpr uint32_t kTogether = 8; // vertices per portion
-    std::vector<SparseTransport> portions((vertices + kTogether - 1) / kTogether, emptyRows(terms));
+    // Vertices of a task, and of a round, after which portions are joined: few of them exist twice.
+    constexpr uint32_t kTogether = 8, kRound = 4096;
     tbb::enumerable_thread_specific<RowSum> sums(coefficients);
-    const auto makePortion = [&](size_t number) {
-        const auto first = uint32_t(number) * kTogether, end = std::min(first + kTogether, vertices);
-        for (size_t row = size_t(first) * terms; row < size_t(end) * terms; row++)
-            appendRow(portions[number], make(row, sums.local()));
-        portions[number].vertices = end - first;
-    };
-    // Isolated: a thread that waits for the last portion must not start to store a whole block meanwhile.
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(size_t(0), portions.size(), makePortion); });
     SparseTransport rows = emptyRows(terms);
-    for (const SparseTransport& portion : portions) appendRows(rows, portion);
+    for (uint32_t begin = 0; begin < vertices; begin += kRound) {
+        const uint32_t end = std::min(begin + kRound, vertices);
+        std::vector<SparseTransport> portions((end - begin + kTogether - 1) / kTogether, emptyRows(terms));
+        const auto makePortion = [&](size_t number) {
+            const auto first = uint32_t(begin + number * kTogether), last = std::min(first + kTogether, end);
+            for (size_t row = size_t(first) * terms; row < size_t(last) * terms; row++)
+                appendRow(portions[number], make(row, sums.local()));
+            portions[number].vertices = last - first;
+        };
+        // Isolated: a thread that waits for the last portion must not begin other work, such as storing a
+        // block.
+        tbb::this_task_arena::isolate([&] { tbb::parallel_for(size_t(0), portions.size(), makePortion); });
+        for (const SparseTransport& portion : portions) appendRows(rows, portion);
+    }
     return rows;
 }
 

@@ -1,10 +1,10 @@
 #include "precompute/bake/storing_sink.h"
 
+#include "precompute/thread_limit.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 namespace relume {
 
@@ -18,11 +18,6 @@ uint64_t bytesOf(const BakedBlock& baked) {
                  set.transport.rows() * (sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses));
     for (const StoredChunk& chunk : baked.packedVisibility) bytes += chunk.bytes.size();
     return bytes;
-}
-
-size_t allowedThreads() {
-    const size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return std::min(allowed, size_t(tbb::this_task_arena::max_concurrency()));
 }
 
 } // namespace

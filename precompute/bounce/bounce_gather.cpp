@@ -3,6 +3,7 @@
 #include "engine/math/hashed_numbers.h"
 #include "engine/math/tangent_frame.h"
 #include "engine/render/appearance.h"
+#include "precompute/thread_limit.h"
 #include "precompute/transport/row_sum.h"
 
 #include <Eigen/Core>
@@ -11,15 +12,15 @@
 #include <cmath>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace relume {
 
 namespace {
 
-// Values of up to eight terms in three channels, side by side, so that an instruction serves all terms.
-struct EightTerms {
-    using Values = Eigen::Array<float, 8, 1>;
+// Values of up to kTerms terms in three channels, side by side, so that an instruction serves all terms.
+struct TermGroup {
+    static constexpr size_t kTerms = 8;
+    using Values = Eigen::Array<float, kTerms, 1>;
 
     Values red = Values::Zero(), green = Values::Zero(), blue = Values::Zero();
 
@@ -31,15 +32,14 @@ struct EightTerms {
     vec3 get(size_t term) const {
         return {red[Eigen::Index(term)], green[Eigen::Index(term)], blue[Eigen::Index(term)]};
     }
-    void add(const EightTerms& light, vec3 value) {
+    void add(const TermGroup& light, vec3 value) {
         red += light.red * value.x;
         green += light.green * value.y;
         blue += light.blue * value.z;
     }
 };
 
-// Returns the number of EightTerms that hold so many terms.
-size_t groupsOf(int terms) { return (size_t(terms) + 7) / 8; }
+size_t groupsFor(int terms) { return (size_t(terms) + TermGroup::kTerms - 1) / TermGroup::kTerms; }
 
 // The rays along which a vertex gathers bounced light: cosine-distributed directions in its frame, kSide²
 // strata of a square, mapped to the hemisphere and shifted differently for every vertex.
@@ -140,11 +140,11 @@ struct BounceGather::Hit {
 // A thread's buffers, reused from vertex to vertex.
 struct BounceGather::Room {
     explicit Room(int mostTerms)
-        : light(groupsOf(mostTerms)), total(light.size() * kBounceCoefficients), sum(kBounceCoefficients) {}
+        : light(groupsFor(mostTerms)), total(light.size() * kBounceCoefficients), sum(kBounceCoefficients) {}
 
-    std::vector<EightTerms> light; // of a ray: g of each term, times the ray's weight
-    std::vector<EightTerms> total; // per eight terms and coefficient: bounced light
-    RowSum sum;
+    std::vector<TermGroup> light; // of a ray: g of each term, times the ray's weight
+    std::vector<TermGroup> total; // per group and coefficient: bounced light
+    RowSum sum;                   // of what leaves a hit; then of a row
 };
 
 BounceGather::BounceGather(const Asset& asset, const Appearance& bound)
@@ -201,9 +201,9 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
     const Mesh& mesh = part.mesh;
     const TangentFrame frame = frameOf(mesh, vertex);
     const vec3 origin = mesh.positions[vertex] + mAsset.visibilityOffset * mesh.normals[vertex];
-    const size_t groups = groupsOf(termCount(part));
-    std::fill_n(room.light.begin(), groups, EightTerms{});
-    std::fill_n(room.total.begin(), groups * kBounceCoefficients, EightTerms{});
+    const size_t groups = groupsFor(termCount(part));
+    std::fill_n(room.light.begin(), groups, TermGroup{});
+    std::fill_n(room.total.begin(), groups * kBounceCoefficients, TermGroup{});
     bool isAny = false;
     Hit hit;
     for (BounceRays rays(number, vertex); rays.next();) {
@@ -215,27 +215,29 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
             const MapPlace place = placeInMap(set.brdf.size, set.brdf.mapping, local);
             for (int term = 0; term < set.brdf.terms; term++, row++) {
                 const vec3 g = lookupMap(set.brdf.lightMap(term), place) * BounceRays::kWeight;
-                room.light[row / 8].set(row % 8, g);
+                room.light[row / TermGroup::kTerms].set(row % TermGroup::kTerms, g);
             }
         }
         const SparseTransport& sources = from[hit.part];
         for (uint32_t term = 0; term < sources.terms; term++) {
             const size_t source = size_t(hit.vertex) * sources.terms + term;
             const vec3 step = hit.views[term] * sources.scales[source] * kCoefficientUnit;
-            for (size_t group = 0; group < groups; group++) {
-                const EightTerms light = room.light[group];
-                EightTerms* total = &room.total[group * kBounceCoefficients];
-                for (uint64_t i = sources.rowStarts[source]; i < sources.rowStarts[source + 1]; i++)
-                    total[sources.indices[i]].add(light, step * vec3(unpackCoefficient(sources.values[i])));
-            }
+            for (uint64_t i = sources.rowStarts[source]; i < sources.rowStarts[source + 1]; i++)
+                room.sum.add(sources.indices[i], step * vec3(unpackCoefficient(sources.values[i])));
         }
+        room.sum.drain([&](size_t coefficient, vec3 radiance) {
+            for (size_t group = 0; group < groups; group++)
+                room.total[group * kBounceCoefficients + coefficient].add(room.light[group], radiance);
+        });
     }
 
     size_t row = 0;
     for (SparseTransport& own : rows) {
         for (uint32_t term = 0; term < own.terms; term++, row++) {
-            for (size_t i = 0; isAny && i < kBounceCoefficients; i++)
-                room.sum.add(i, room.total[row / 8 * kBounceCoefficients + i].get(row % 8));
+            const TermGroup* total = &room.total[row / TermGroup::kTerms * kBounceCoefficients];
+            if (isAny)
+                for (size_t i = 0; i < kBounceCoefficients; i++)
+                    room.sum.add(i, total[i].get(row % TermGroup::kTerms));
             appendRow(own, room.sum.pack(kBounceKept));
         }
         own.vertices++;
@@ -244,8 +246,8 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
 
 std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const SparseTransport> from,
                                                                const Report& report) const {
-    constexpr uint32_t kBlock = 8;                                              // vertices per task
-    const auto batch = uint32_t(256 * tbb::this_task_arena::max_concurrency()); // vertices between reports
+    constexpr uint32_t kTogether = 8, kPerThread = 256; // vertices: of a task, and between reports
+    const auto batch = uint32_t(kPerThread * allowedThreads());
     int mostTerms = 0;
     for (const AssetPart& part : mAsset.parts) mostTerms = std::max(mostTerms, termCount(part));
     tbb::enumerable_thread_specific<Room> rooms(mostTerms);
@@ -262,15 +264,15 @@ std::vector<std::vector<SparseTransport>> BounceGather::gather(std::span<const S
         const auto vertices = uint32_t(part.mesh.vertexCount());
         for (uint32_t first = 0; first < vertices; first += batch) {
             const uint32_t end = std::min(first + batch, vertices);
-            std::vector<std::vector<SparseTransport>> blocks((end - first + kBlock - 1) / kBlock,
-                                                             rowsOfSets(part));
-            tbb::parallel_for(size_t(0), blocks.size(), [&](size_t block) {
-                const auto begin = uint32_t(first + block * kBlock);
-                for (uint32_t vertex = begin; vertex < std::min(begin + kBlock, end); vertex++)
-                    gatherVertex(number, vertex, from, rooms.local(), blocks[block]);
+            std::vector<std::vector<SparseTransport>> portions((end - first + kTogether - 1) / kTogether,
+                                                               rowsOfSets(part));
+            tbb::parallel_for(size_t(0), portions.size(), [&](size_t portion) {
+                const auto begin = uint32_t(first + portion * kTogether);
+                for (uint32_t vertex = begin; vertex < std::min(begin + kTogether, end); vertex++)
+                    gatherVertex(number, vertex, from, rooms.local(), portions[portion]);
             });
-            for (const std::vector<SparseTransport>& block : blocks)
-                for (size_t set = 0; set < all.size(); set++) appendRows(all[set], block[set]);
+            for (const std::vector<SparseTransport>& portion : portions)
+                for (size_t set = 0; set < all.size(); set++) appendRows(all[set], portion[set]);
             done += end - first;
             if (!report(done)) return {};
         }

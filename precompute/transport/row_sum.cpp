@@ -3,8 +3,6 @@
 #include "engine/base/check.h"
 
 #include <algorithm>
-#include <bit>
-#include <utility>
 
 namespace relume {
 
@@ -13,11 +11,10 @@ RowSum::RowSum(size_t coefficients) : mSums(coefficients, vec3(0)), mTouched((co
 PackedRow RowSum::pack(int kept, Energies* energies) {
     std::vector<uint16_t> indices; // ascending, so that ties are broken as among all coefficients
     std::vector<vec3> values;
-    for (size_t word = 0; word < mTouched.size(); word++)
-        for (; mTouched[word] != 0; mTouched[word] &= mTouched[word] - 1) {
-            indices.push_back(uint16_t(word * 64 + size_t(std::countr_zero(mTouched[word]))));
-            values.push_back(std::exchange(mSums[indices.back()], vec3(0)));
-        }
+    drain([&](size_t coefficient, vec3 value) {
+        indices.push_back(uint16_t(coefficient));
+        values.push_back(value);
+    });
     PackedRow row = packLargest(values, kept);
     if (energies) {
         *energies = {};

@@ -4,6 +4,9 @@
 #include "engine/transport/rows/sparse_transport.h"
 #include "precompute/transport/row_packing.h"
 
+#include <bit>
+#include <utility>
+
 namespace relume {
 
 // Accumulates one row at a time; pack() empties it.
@@ -24,6 +27,17 @@ class RowSum {
     }
     void add(const SparseTransport& rows, size_t row, float weight) {
         add(rows, row, weight, [](uint16_t index) { return index; });
+    }
+
+    // Calls take(coefficient, value) for each coefficient that something was added to, ascending, and empties
+    // the sum.
+    template <typename Take>
+    void drain(const Take& take) {
+        for (size_t word = 0; word < mTouched.size(); word++)
+            for (; mTouched[word] != 0; mTouched[word] &= mTouched[word] - 1) {
+                const size_t coefficient = word * 64 + size_t(std::countr_zero(mTouched[word]));
+                take(coefficient, std::exchange(mSums[coefficient], vec3(0)));
+            }
     }
 
     // Returns the sum's `kept` largest coefficients, packed by packLargest(). `energies`, if given, receives

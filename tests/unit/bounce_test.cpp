@@ -48,12 +48,11 @@ std::vector<vec3> denseRow(const SparseTransport& rows, size_t row) {
     return dense;
 }
 
-// Ten terms, more than are summed side by side, and colors, so that terms and channels can be mistaken for
-// each other.
-FactoredBrdf tenTerms() {
+// Terms and colors that can be mistaken for each other.
+FactoredBrdf coloredTerms(int count) {
     FactoredBrdf brdf = makeDiffuseFactors({0.2f, 0.1f, 0.05f});
-    for (; brdf.terms < 10; brdf.terms++) {
-        const float term = float(brdf.terms) / 10;
+    for (; brdf.terms < count; brdf.terms++) {
+        const float term = float(brdf.terms) / float(count);
         brdf.eigenvalues.push_back(brdf.eigenvalues[0]);
         for (size_t i = 0; i < brdf.mapTexels(); i++) {
             const float x = float(i % 8) / 8, y = float(i / 8) / 8;
@@ -114,7 +113,11 @@ TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
     for (vec3& position : ground.positions) position.y -= 0.5f;
     Asset asset =
         makeTestAsset({makeDiffusePart(makeTorus(1, 0.4f, 24, 12), 0.5f), makeDiffusePart(ground, 0.5f)});
-    asset.parts[0].sets[0].brdf = tenTerms();
+    // More terms than are summed side by side, of two sets.
+    MaterialSet second = asset.parts[0].sets[0];
+    asset.parts[0].sets[0].brdf = coloredTerms(3);
+    second.brdf = coloredTerms(9);
+    asset.parts[0].sets.push_back(second);
     const Appearance bound = defaultAppearance(asset);
     std::mt19937 random(21);
     const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random),
@@ -123,26 +126,31 @@ TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
     const auto bounced = gather.gather(from, [](uint64_t) { return true; });
     const RayTracer tracer(partMeshes(asset));
     double difference = 0, all = 0;
+    const auto compare = [&](size_t part, size_t set, uint32_t vertex, uint32_t term) {
+        const SparseTransport& rows = bounced[part][set];
+        const std::vector<vec3> found = denseRow(rows, size_t(vertex) * rows.terms + term),
+                                expected = bouncedVector(asset, bound, sourceGains(asset, bound), tracer,
+                                                         from, part, vertex, set, int(term), 64);
+        for (size_t i = 0; i < expected.size(); i++) {
+            difference += double(glm::dot(found[i] - expected[i], found[i] - expected[i]));
+            all += double(glm::dot(expected[i], expected[i]));
+        }
+    };
     for (size_t part = 0; part < 2; part++)
-        for (uint32_t vertex = 0; vertex < bounced[part][0].vertices; vertex += 7)
-            for (int term = 0; term < int(bounced[part][0].terms); term++) {
-                const std::vector<vec3> expected = bouncedVector(asset, bound, sourceGains(asset, bound),
-                                                                 tracer, from, part, vertex, 0, term, 64);
-                const std::vector<vec3> found =
-                    denseRow(bounced[part][0], size_t(vertex) * bounced[part][0].terms + size_t(term));
-                for (size_t i = 0; i < expected.size(); i++) {
-                    difference += double(glm::dot(found[i] - expected[i], found[i] - expected[i]));
-                    all += double(glm::dot(expected[i], expected[i]));
-                }
-            }
+        for (size_t set = 0; set < bounced[part].size(); set++)
+            for (uint32_t vertex = 0; vertex < bounced[part][set].vertices; vertex += 13)
+                for (uint32_t term = 0; term < bounced[part][set].terms; term++)
+                    compare(part, set, vertex, term);
     REQUIRE(all > 0);
     CHECK(std::sqrt(difference / all) < 0.03); // of 1,024 rays
 }
 
 TEST_CASE("bounce: the same rows from any number of threads, and none when stopped") {
-    const Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
+    Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
+    asset.parts[0].sets[0].brdf = coloredTerms(9);
     const BounceGather gather(asset, defaultAppearance(asset));
-    const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(1))};
+    std::mt19937 random(5);
+    const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random)};
     const auto keepOn = [](uint64_t) { return true; };
     const auto many = gather.gather(from, keepOn);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -150,6 +158,8 @@ TEST_CASE("bounce: the same rows from any number of threads, and none when stopp
     CHECK(many[0][0].values == single[0][0].values);
     CHECK(many[0][0].indices == single[0][0].indices);
     CHECK(many[0][0].scales == single[0][0].scales);
+    CHECK(many[0][0].rowStarts == single[0][0].rowStarts);
+    CHECK(many[0][0].vertices == asset.parts[0].mesh.vertexCount());
     CHECK(gather.gather(from, [](uint64_t) { return false; }).empty());
 }
 
