@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 namespace relume {
 
@@ -63,16 +64,27 @@ int samplesPerTexelSide(int environmentWidth, int cubeSize) {
 LightFootprints makeLightFootprints(int width, int height, int size) {
     RELUME_CHECK(width > 0 && width <= 65536 && height > 0 && height <= 65536 && size > 0);
     LightFootprints footprints{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
-    const int count = samplesPerTexelSide(width, size);
-    Accumulator weights(width, height);
-    for (int face = 0; face < kCubeFaces; face++)
+    const auto ofFace = [&](int face) {
+        LightFootprints own;
+        Accumulator weights(width, height);
         for (int y = 0; y < size; y++)
             for (int x = 0; x < size; x++) {
-                forEachSubCell(face, x, y, size, count,
+                forEachSubCell(face, x, y, size, samplesPerTexelSide(width, size),
                                [&](vec3 direction, float weight) { weights.add(direction, weight); });
-                weights.flush(footprints.pixels);
-                footprints.starts.push_back(uint32_t(footprints.pixels.size()));
+                weights.flush(own.pixels);
+                own.starts.push_back(uint32_t(own.pixels.size()));
             }
+        return own;
+    };
+    std::vector<std::future<LightFootprints>> faces;
+    for (int face = 0; face < kCubeFaces; face++)
+        faces.push_back(std::async(std::launch::async, ofFace, face));
+    for (std::future<LightFootprints>& face : faces) {
+        const LightFootprints own = face.get();
+        const auto before = uint32_t(footprints.pixels.size());
+        for (const uint32_t start : own.starts) footprints.starts.push_back(before + start);
+        footprints.pixels.insert(footprints.pixels.end(), own.pixels.begin(), own.pixels.end());
+    }
     return footprints;
 }
 
