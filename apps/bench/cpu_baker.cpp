@@ -2,13 +2,12 @@
 
 #include "engine/base/check.h"
 #include "engine/base/stopwatch.h"
+#include "precompute/thread_limit.h"
 
 #include <algorithm>
 #include <memory>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 namespace relume {
 
@@ -67,11 +66,6 @@ CpuBakeTimes& CpuBakeTimes::operator+=(const CpuBakeTimes& other) {
     return *this;
 }
 
-int CpuBaker::threads() {
-    const size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return std::min(tbb::this_task_arena::max_concurrency(), int(allowed));
-}
-
 CpuBaker::CpuBaker(const Asset& asset, const AssetPart& part, const BakeOptions& options)
     : mVisibility(asset.occluder, options.visibilitySize),
       mTransport(brdfsOf(part), options.faceSize, options.visibilitySize, options.transportSamples),
@@ -121,7 +115,7 @@ void CpuBaker::bake(std::span<const shared::BakePoint> points, std::span<SparseT
     };
     using Task = std::span<const shared::BakePoint>;
     using Result = std::shared_ptr<TaskResult>;
-    const auto tokens = size_t(4 * threads());
+    const auto tokens = 4 * allowedThreads();
     tbb::parallel_pipeline(tokens,
                            tbb::make_filter<void, Task>(tbb::filter_mode::serial_in_order, takeTask) &
                                tbb::make_filter<Task, Result>(tbb::filter_mode::parallel, bakeTask) &

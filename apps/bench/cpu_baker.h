@@ -29,7 +29,6 @@ class CpuBaker {
               TransportLosses& losses);
 
     const CpuBakeTimes& times() const { return mTimes; }
-    static int threads(); // that bake() uses
 
   private:
     CpuVisibility mVisibility;

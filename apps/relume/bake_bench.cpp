@@ -6,6 +6,7 @@
 #include "engine/transport/visibility_chunk.h"
 #include "precompute/bake/bake_plan.h"
 #include "precompute/bake/part_passes.h"
+#include "precompute/thread_limit.h"
 #include "precompute/visibility/raster_visibility.h"
 
 #include <algorithm>
@@ -142,7 +143,7 @@ SampleRun CpuPath::run() {
     for (const Part& part : mParts) after += part.baker.times();
     mRays = after.rays - before.rays;
     const auto addStage = [&](const char* name, double CpuBakeTimes::*stage) {
-        vk::addTime(run.stages, name, (after.*stage - before.*stage) / CpuBaker::threads());
+        vk::addTime(run.stages, name, (after.*stage - before.*stage) / double(allowedThreads()));
     };
     addStage("visibility", &CpuBakeTimes::visibility);
     addStage("transport", &CpuBakeTimes::transport);

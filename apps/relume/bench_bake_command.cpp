@@ -9,6 +9,7 @@
 #include "engine/base/progress.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/part_passes.h"
+#include "precompute/thread_limit.h"
 
 #include <fmt/format.h>
 #include <functional>
@@ -169,7 +170,7 @@ void run(Arguments& arguments) {
 
     const auto vertices = double(sample.sampled()), rays = double(cpuCounts.rays());
     const auto triangles = double(countDrawnTriangles(*device, sample, options));
-    const int threads = CpuBaker::threads();
+    const auto threads = int(allowedThreads());
     const double deviceBandwidth = deviceCopyBandwidth(*device), hostBandwidth = hostCopyBandwidth(threads);
     const BakeTraffic traffic(sample, options, rays / vertices, triangles / vertices);
     Json described;

@@ -39,6 +39,7 @@ struct TermGroup {
     }
 };
 
+// Returns the number of groups that hold so many terms.
 size_t groupsFor(int terms) { return (size_t(terms) + TermGroup::kTerms - 1) / TermGroup::kTerms; }
 
 // The rays along which a vertex gathers bounced light: cosine-distributed directions in its frame, kSide²
