@@ -64,12 +64,13 @@ int samplesPerTexelSide(int environmentWidth, int cubeSize) {
 LightFootprints makeLightFootprints(int width, int height, int size) {
     RELUME_CHECK(width > 0 && width <= 65536 && height > 0 && height <= 65536 && size > 0);
     LightFootprints footprints{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
+    const int count = samplesPerTexelSide(width, size);
     const auto ofFace = [&](int face) {
         LightFootprints own;
         Accumulator weights(width, height);
         for (int y = 0; y < size; y++)
             for (int x = 0; x < size; x++) {
-                forEachSubCell(face, x, y, size, samplesPerTexelSide(width, size),
+                forEachSubCell(face, x, y, size, count,
                                [&](vec3 direction, float weight) { weights.add(direction, weight); });
                 weights.flush(own.pixels);
                 own.starts.push_back(uint32_t(own.pixels.size()));
