@@ -1,5 +1,6 @@
 #include "engine/render/contact_sheet.h"
 
+#include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/render/background_pass.h"
 #include "engine/render/ground_fade.h"
@@ -20,9 +21,9 @@ Image whiteSheet(size_t columns, size_t rows, const SheetOptions& options) {
     const size_t wide = columns * size_t(options.width + kGap), high = rows * size_t(options.height + kGap);
     if (columns == 0 || rows == 0) throw Error("a sheet needs a bake and a light");
     if (wide * high > kMostPixels)
-        throw Error(
+        throw UsageError(
             fmt::format("a sheet of {} rows and {} columns has {} x {} pixels: expected at most {} in "
-                        "all; make its pictures smaller",
+                        "all; make the pictures smaller (relume sheet --size)",
                         rows, columns, wide, high, kMostPixels));
     Image sheet(int(wide) - kGap, int(high) - kGap);
     std::ranges::fill(sheet.pixels, vec4(1));
@@ -48,6 +49,7 @@ ContactSheet::ContactSheet(std::vector<SheetColumn> columns, size_t rows, const 
 
 int ContactSheet::add(const vk::Device& device, const Asset& asset, std::span<const SheetRow> rows,
                       const Camera& camera, const std::function<void()>& drawn) {
+    RELUME_CHECK_LE(int(mRows + rows.size()) * (mOptions.height + kGap), mImage.height + kGap);
     LightPass light(device, asset.faceSize);
     Relighter relighter(device, asset);
     ViewPass view(device, asset,

@@ -37,7 +37,8 @@ struct SheetOptions {
 
 class ContactSheet {
   public:
-    // A white sheet with room for `rows` rows. Throws Error if it has more than 2^26 pixels.
+    // A white sheet with room for `rows` rows. Throws UsageError if it has more than 2^26
+    // pixels.
     ContactSheet(std::vector<SheetColumn> columns, size_t rows, const SheetOptions& options);
 
     // Draws `rows` of one bake below those drawn before; each column is exposed for its first picture. Calls

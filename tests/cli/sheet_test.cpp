@@ -35,6 +35,9 @@ TEST_CASE("sheet: a row for each material, a column for each light") {
     CHECK(sizeOfPng(contents(folder.path() / "sheet.png")) == std::pair<uint32_t, uint32_t>(84, 98));
     for (const char* row : {"row 1: two", "row 2: two, gold", "row 3: one", "column 2: lamp.json"})
         CHECK_MESSAGE(says(sheet.err, row), sheet.err);
+    const Outcome large = runRelume(folder, "sheet one.relume --size 16000x16000 -o large.png");
+    CHECK_EQ(large.exitCode, 2);
+    CHECK_MESSAGE(says(large.err, "make the pictures smaller (relume sheet --size)"), large.err);
     REQUIRE_EQ(runRelume(folder, "sheet one.relume --size 40x30 -o sky.png").exitCode, 0);
     CHECK(sizeOfPng(contents(folder.path() / "sky.png")) == std::pair<uint32_t, uint32_t>(40, 30));
 }
