@@ -1,11 +1,14 @@
 #include "engine/light/light_footprint.h"
 
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/math/cubemap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <future>
+#include <ranges>
+#include <span>
 
 namespace relume {
 
@@ -53,6 +56,57 @@ class Accumulator {
     float mTotal = 0;
 };
 
+// Faces by their directions, of which front is +Z and right, where columns of the map are less, +X.
+constexpr int kRight = 0, kLeft = 1, kUp = 2, kDown = 3, kFront = 4, kBack = 5;
+
+// Returns the footprints of one face, by sampling.
+LightFootprints sampleFace(int face, int width, int height, int size) {
+    LightFootprints footprints{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
+    const int count = samplesPerTexelSide(width, size);
+    Accumulator weights(width, height);
+    for (int y = 0; y < size; y++)
+        for (int x = 0; x < size; x++) {
+            forEachSubCell(face, x, y, size, count,
+                           [&](vec3 direction, float weight) { weights.add(direction, weight); });
+            weights.flush(footprints.pixels);
+            footprints.starts.push_back(uint32_t(footprints.pixels.size()));
+        }
+    return footprints;
+}
+
+// Returns the footprints of a side face from those of another, so many quarter turns about +Y further. The
+// width is a multiple of four.
+LightFootprints turned(LightFootprints face, int quarters) {
+    const auto width = uint32_t(face.width), shift = width - width / 4 * uint32_t(quarters);
+    for (shared::FootprintPixel& pixel : face.pixels)
+        pixel.place = ((pixel.place & 0xffff) + shift) % width | (pixel.place & 0xffff0000);
+    for (size_t texel = 1; texel < face.starts.size(); texel++)
+        std::ranges::sort(face.pixels.begin() + face.starts[texel - 1],
+                          face.pixels.begin() + face.starts[texel], {}, &shared::FootprintPixel::place);
+    return face;
+}
+
+// Returns the footprints of one pole's face from those of the other's: rows of the face and of the map are
+// reversed.
+LightFootprints mirrored(const LightFootprints& face) {
+    LightFootprints mirror{
+        .width = face.width, .height = face.height, .size = face.size, .starts = {0}, .pixels = {}};
+    const auto lastRow = uint32_t(face.height - 1);
+    for (int y = face.size - 1; y >= 0; y--)
+        for (int x = 0; x < face.size; x++) {
+            const size_t texel = size_t(y * face.size + x), first = mirror.pixels.size();
+            for (uint32_t i = face.starts[texel]; i < face.starts[texel + 1]; i++) {
+                const shared::FootprintPixel& pixel = face.pixels[i];
+                mirror.pixels.push_back(
+                    {(pixel.place & 0xffff) | (lastRow - (pixel.place >> 16)) << 16, pixel.weight});
+            }
+            std::ranges::sort(mirror.pixels.begin() + std::ptrdiff_t(first), mirror.pixels.end(), {},
+                              &shared::FootprintPixel::place);
+            mirror.starts.push_back(uint32_t(mirror.pixels.size()));
+        }
+    return mirror;
+}
+
 } // namespace
 
 int samplesPerTexelSide(int environmentWidth, int cubeSize) {
@@ -63,32 +117,28 @@ int samplesPerTexelSide(int environmentWidth, int cubeSize) {
 
 LightFootprints makeLightFootprints(int width, int height, int size) {
     RELUME_CHECK(width > 0 && width <= 65536 && height > 0 && height <= 65536 && size > 0);
-    LightFootprints footprints{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
-    const int count = samplesPerTexelSide(width, size);
-    const auto ofFace = [&](int face) {
-        LightFootprints own;
-        Accumulator weights(width, height);
-        for (int y = 0; y < size; y++)
-            for (int x = 0; x < size; x++) {
-                forEachSubCell(face, x, y, size, count,
-                               [&](vec3 direction, float weight) { weights.add(direction, weight); });
-                weights.flush(own.pixels);
-                own.starts.push_back(uint32_t(own.pixels.size()));
-            }
-        return own;
+    // A map of 1024 x 512 keeps a thread busy for 0.1 s a face, while somebody waits for the first picture.
+    std::array<LightFootprints, kCubeFaces> faces;
+    const auto sample = [&](std::span<const int> some) {
+        parallelFor(some.size(),
+                    [&](size_t i) { faces[size_t(some[i])] = sampleFace(some[i], width, height, size); });
     };
-    // A thread per face: a map of 1024 x 512 keeps one busy for 0.3 s, while somebody waits for the first
-    // picture.
-    std::vector<std::future<LightFootprints>> faces;
-    for (int face = 0; face < kCubeFaces; face++)
-        faces.push_back(std::async(std::launch::async, ofFace, face));
-    for (std::future<LightFootprints>& face : faces) {
-        const LightFootprints own = face.get();
-        const auto before = uint32_t(footprints.pixels.size());
-        for (const uint32_t start : own.starts) footprints.starts.push_back(before + start);
-        footprints.pixels.insert(footprints.pixels.end(), own.pixels.begin(), own.pixels.end());
+    if (width % 4 == 0) {
+        sample(std::array{kUp, kFront});
+        faces[kDown] = mirrored(faces[kUp]);
+        faces[kRight] = turned(faces[kFront], 1);
+        faces[kBack] = turned(faces[kFront], 2);
+        faces[kLeft] = turned(faces[kFront], 3);
+    } else {
+        sample(std::array{kRight, kLeft, kUp, kDown, kFront, kBack});
     }
-    return footprints;
+    LightFootprints all{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
+    for (const LightFootprints& face : faces) {
+        const auto before = uint32_t(all.pixels.size());
+        for (const uint32_t start : face.starts | std::views::drop(1)) all.starts.push_back(before + start);
+        all.pixels.insert(all.pixels.end(), face.pixels.begin(), face.pixels.end());
+    }
+    return all;
 }
 
 ColumnShift columnShift(float rotation, int width) {

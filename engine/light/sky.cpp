@@ -1,6 +1,7 @@
 // The built-in sky. It does not model the atmosphere but shows glossy objects well: a bright soft sun, a
 // gradient, clouds that reflections move over, and a darker ground.
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/light/environment.h"
 
 #include <algorithm>
@@ -63,12 +64,14 @@ vec3 skyRadiance(vec3 d, vec3 sun) {
 
 Environment makeSky(int width) {
     RELUME_CHECK(width >= 2);
-    Environment sky{width, width / 2, {}};
+    Environment sky{width, width / 2, std::vector<vec3>(size_t(width) * size_t(width / 2))};
     const vec3 sun(std::sin(kSunLongitude) * std::cos(kSunElevation), std::sin(kSunElevation),
                    std::cos(kSunLongitude) * std::cos(kSunElevation));
-    for (int y = 0; y < sky.height; y++)
-        for (int x = 0; x < sky.width; x++)
-            sky.radiance.push_back(skyRadiance(sky.direction(float(x) + 0.5f, float(y) + 0.5f), sun));
+    parallelFor(size_t(sky.height), [&](size_t y) {
+        for (size_t x = 0; x < size_t(width); x++)
+            sky.radiance[y * size_t(width) + x] =
+                skyRadiance(sky.direction(float(x) + 0.5f, float(y) + 0.5f), sun);
+    });
     return sky;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/render/view_pass.h"
 
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
 #include "engine/render/map_texture.h"
 #include "engine/render/numbered_triangles.h"
 #include "engine/render/view_grid.h"
@@ -20,7 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <span>
 #include <utility>
 
@@ -183,6 +184,7 @@ void ViewPass::makePrograms() {
 }
 
 void ViewPass::makeShadePrograms(const Relighter& relighter) {
+    std::vector<std::pair<vk::Constants, Pixels>> missing;
     for (size_t p = 0; p < mParts.size(); p++)
         for (size_t s = 0; s < mParts[p].sets.size(); s++) {
             const ResidualSet* residual = residualOf(p, s, relighter);
@@ -190,6 +192,9 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
             const uint32_t estimate = estimateOf(residual, isShadow);
             const MaterialSet& source = mAsset.parts[p].sets[s];
             for (const uint32_t look : looksOf(mAsset.parts[p], source)) {
+                // An unshadowed asset is soon replaced, and its first image must not wait for programs that
+                // may not be needed.
+                if (mIsUnshadowed && (s != mParts[p].bound.set || look != mParts[p].look)) continue;
                 std::set<uint32_t> harmonics{mostHarmonics(residual)};
                 if (look == shared::kSingleLook && residual) {
                     harmonics.clear();
@@ -199,10 +204,19 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
                 }
                 for (const Pixels pixels : {Pixels::All, Pixels::Inner, Pixels::Edges})
                     for (const uint32_t count : harmonics)
-                        if ((pixels == Pixels::All) == (mSamples == 1))
-                            shadeProgram(mParts[p].sets[s], {look, true, estimate, count, pixels});
+                        if ((pixels == Pixels::All) == (mSamples == 1)) {
+                            const vk::Constants constants =
+                                constantsOf(mParts[p].sets[s], {look, true, estimate, count, pixels});
+                            if (mShadePrograms.try_emplace(constants).second)
+                                missing.emplace_back(constants, pixels);
+                        }
             }
         }
+    // A driver takes about a tenth of a second for each.
+    parallelFor(missing.size(), [&](size_t i) {
+        const auto& [constants, pixels] = missing[i];
+        mShadePrograms.at(constants) = makeShadeProgram(constants, pixels);
+    });
 }
 
 ViewPass::Part ViewPass::makePart(const AssetPart& source, uint32_t firstTriangleId) {
@@ -274,33 +288,38 @@ void ViewPass::setAppearance(const Appearance& appearance) {
     }
 }
 
-const vk::GraphicsProgram& ViewPass::shadeProgram(const Set& set, const Shading& shading) {
-    const bool isOfEdges = shading.pixels == Pixels::Edges;
-    const vk::Constants constants = {set.terms,
-                                     uint32_t(set.viewMaps.isGray),
-                                     shading.look,
-                                     uint32_t(shading.allTerms),
-                                     shading.estimate,
-                                     uint32_t(mSamples),
-                                     uint32_t(isOfEdges),
-                                     shading.harmonics,
-                                     uint32_t(set.hasTangents)};
-    vk::GraphicsProgram& program = mShadePrograms[constants];
-    if (program.pipeline()) return program;
-    const std::string name = fmt::format("view of {} terms", set.terms);
-    if (shading.pixels == Pixels::All) {
-        program = {mDevice,   view_shade_vert_spirv,      view_shade_frag_spirv,
-                   constants, shadeOptions(mDepthFormat), name};
-        return program;
-    }
+vk::Constants ViewPass::constantsOf(const Set& set, const Shading& shading) const {
+    return {set.terms,
+            uint32_t(set.viewMaps.isGray),
+            shading.look,
+            uint32_t(shading.allTerms),
+            shading.estimate,
+            uint32_t(mSamples),
+            uint32_t(shading.pixels == Pixels::Edges),
+            shading.harmonics,
+            uint32_t(set.hasTangents)};
+}
+
+vk::GraphicsProgram ViewPass::makeShadeProgram(const vk::Constants& constants, Pixels pixels) const {
+    const std::string name = fmt::format("view of {} terms", constants[0]);
+    if (pixels == Pixels::All)
+        return {mDevice,   view_shade_vert_spirv,      view_shade_frag_spirv,
+                constants, shadeOptions(mDepthFormat), name};
+    const bool isOfEdges = pixels == Pixels::Edges;
     vk::GraphicsOptions options = shadeOptions(mDepthFormat, isOfEdges ? kEdgeBit : 0xff);
     options.addsColor = isOfEdges;
-    program = {mDevice,
-               view_shade_vert_spirv,
-               view_shade_samples_frag_spirv,
-               constants,
-               options,
-               name + (isOfEdges ? ", edges" : "")};
+    return {mDevice,
+            view_shade_vert_spirv,
+            view_shade_samples_frag_spirv,
+            constants,
+            options,
+            name + (isOfEdges ? ", edges" : "")};
+}
+
+const vk::GraphicsProgram& ViewPass::shadeProgram(const Set& set, const Shading& shading) {
+    const vk::Constants constants = constantsOf(set, shading);
+    vk::GraphicsProgram& program = mShadePrograms[constants];
+    if (!program.pipeline()) program = makeShadeProgram(constants, shading.pixels);
     return program;
 }
 
@@ -529,9 +548,7 @@ void ViewPass::recordTriangleIds(vk::Commands& commands, const Frame& frame) con
 void ViewPass::record(vk::Commands& commands, const Camera& camera, const Relighter& relighter) {
     RELUME_CHECK_EQ(relighter.parts(), mParts.size());
     const Frame frame = frameOf(camera);
-    // An unshadowed asset is soon replaced: its first image must not wait for programs that may not be
-    // needed.
-    if (!mIsUnshadowed && !std::exchange(mHasShadePrograms, true)) makeShadePrograms(relighter);
+    if (!std::exchange(mHasShadePrograms, true)) makeShadePrograms(relighter);
     if (mInspect == Inspect::Off) recordSpheres(commands, frame, relighter);
     commands.barrier(Stage::Draw, Stage::Transfer); // an earlier frame may still be reading the layers
     for (const Part& part : mParts)

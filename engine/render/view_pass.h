@@ -149,8 +149,12 @@ class ViewPass {
     void inspect(vk::Commands& commands, const Frame& frame, const Part& part);
     // Returns none if the bounds are not seen.
     static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Bounds& bounds);
+    // Returns the constants of view_shade.frag.
+    vk::Constants constantsOf(const Set& set, const Shading& shading) const;
+    vk::GraphicsProgram makeShadeProgram(const vk::Constants& constants, Pixels pixels) const;
     const vk::GraphicsProgram& shadeProgram(const Set& set, const Shading& shading);
-    // Makes the programs of all sets and their looks early, so that no change of materials waits.
+    // Makes the programs of all sets and their looks early, so that no change of materials waits; for an
+    // unshadowed asset those of the bound materials.
     void makeShadePrograms(const Relighter& relighter);
 
     const vk::Device& mDevice;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <random>
 
 using namespace relume;
 
@@ -86,4 +87,31 @@ TEST_CASE("light cube: samples are finer than a quarter of a pixel, and never fe
     CHECK(samplesPerTexelSide(2, 64) == 2);
     CHECK(samplesPerTexelSide(512, 64) == 13);
     CHECK(samplesPerTexelSide(512, 32) == 26);
+}
+
+TEST_CASE("light footprints: on every face they sum what bilinear lookups do, row by row") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform;
+    for (int width : {10, 64}) { // 64: faces are made from one another
+        Environment map = black(width);
+        for (vec3& pixel : map.radiance) pixel = vec3(uniform(random));
+        const LightFootprints footprints = makeLightFootprints(map.width, map.height, 8);
+        const int count = samplesPerTexelSide(width, 8);
+        for (int texel = 0; texel < kCubeFaces * 64; texel++) {
+            float found = 0, expected = 0, weights = 0;
+            uint32_t before = 0;
+            for (uint32_t i = footprints.starts[size_t(texel)]; i < footprints.starts[size_t(texel) + 1];
+                 i++) {
+                const auto [place, weight] = footprints.pixels[i];
+                found += weight * map.radiance[size_t(place >> 16) * size_t(width) + (place & 0xffff)].x;
+                CHECK(place >= before);
+                before = place + 1;
+            }
+            forEachSubCell(texel / 64, texel % 8, texel / 8 % 8, 8, count, [&](vec3 direction, float weight) {
+                expected += weight * map.lookup(direction).x;
+                weights += weight;
+            });
+            CHECK(found == doctest::Approx(expected / weights).epsilon(1e-4));
+        }
+    }
 }
