@@ -10,7 +10,7 @@
 #include "precompute/bake/sketch.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 namespace relume {
@@ -34,8 +34,8 @@ Scene readInput(const std::filesystem::path& input) {
 
 Content::Content(const vk::Device& device, const std::string& deviceSelect, LightState& light, Tell tell,
                  std::function<void()> wake)
-    : mDevice(device), mDeviceSelect(deviceSelect), mLight(light), mTell(std::move(tell)),
-      mWorker(std::move(wake)) {
+    : mDevice(device), mDeviceSelect(deviceSelect), mLight(light), mTell(std::move(tell)), mModelWorker(wake),
+      mLightWorker(std::move(wake)) {
     using Kind = EnvironmentChoice::Kind;
     mLight.environments = {{.kind = Kind::BuiltIn, .name = "sky"}, {.kind = Kind::DaySky, .name = "day sky"}};
 }
@@ -82,7 +82,8 @@ void Content::remember(const std::filesystem::path& file) {
 }
 
 bool Content::poll() {
-    mWorker.apply();
+    mModelWorker.apply();
+    mLightWorker.apply();
     pollBake();
     readNextEnvironment();
     return std::exchange(mHasChanged, false);
@@ -92,7 +93,7 @@ bool Content::poll() {
 
 void Content::load(const std::filesystem::path& bake, OnError onError) {
     if (mBake && mBake->output() == bake) mMustReload = false;
-    mWorker.post(
+    mModelWorker.post(
         "reading " + bake.filename().string(),
         [this, bake]() -> Worker::Result {
             auto model = std::make_shared<Model>(mDevice, bake);
@@ -170,7 +171,7 @@ void Content::bake(const std::filesystem::path& input) {
 
 // Shows a sketch until there is a bake. Errors are only logged, since the bake reports them.
 void Content::sketch(const Bake& bake) {
-    mWorker.post(
+    mModelWorker.post(
         "reading " + bake.input.filename().string(),
         [this, bake]() -> Worker::Result {
             auto model =
@@ -208,7 +209,9 @@ void Content::pollBake() {
         bake->poll();
         return !bake->isRunning();
     });
-    if (!mBake && !mNextBakes.empty() && mStopping.empty()) {
+    // A bake takes all processor cores, so what is about to be seen comes first.
+    const bool isFree = !mBake && mStopping.empty() && mModelWorker.isIdle();
+    if (isFree && !mNextBakes.empty()) {
         const Bake next = mNextBakes.front();
         mNextBakes.pop_front();
         beginBake(next);
@@ -218,7 +221,7 @@ void Content::pollBake() {
     const BakeProgress before = mBake->progress();
     mMustReload |= mBake->poll();
     mHasChanged |= mBake->progress() != before;
-    if (mMustReload && mWorker.isIdle()) load(mBake->output());
+    if (mMustReload && mModelWorker.isIdle()) load(mBake->output());
     if (mBake->isRunning() || mMustReload) return;
     if (!mBake->failure().empty()) mTell(mBake->failure(), true);
     mBake.reset();
@@ -235,7 +238,7 @@ void Content::readNextEnvironment() {
     std::vector<EnvironmentChoice>& choices = mLight.environments;
     EnvironmentChoice& chosen = choices[mLight.environment];
     // The chosen one could not be read before; try again.
-    if (!mLight.isReady() && mWorker.isIdle()) chosen.isRead = false;
+    if (!mLight.isReady() && mLightWorker.isIdle()) chosen.isRead = false;
     if (wants(chosen)) {
         readEnvironment(mLight.environment);
     } else if (const auto next = std::ranges::find_if(choices, wants); next != choices.end() && isSettled())
@@ -245,7 +248,7 @@ void Content::readNextEnvironment() {
 void Content::readEnvironment(size_t number) {
     EnvironmentChoice& choice = mLight.environments[number];
     choice.isRead = true;
-    mWorker.post(
+    mLightWorker.post(
         "reading " + choice.name,
         [this, number, file = choice.file]() -> Worker::Result {
             Environment whole = file.empty() ? makeSky() : relume::readEnvironment(file);
@@ -264,7 +267,7 @@ void Content::readEnvironment(size_t number) {
 }
 
 void Content::openLight(const std::filesystem::path& file) {
-    mWorker.post(
+    mLightWorker.post(
         "reading " + file.filename().string(),
         [this, file]() -> Worker::Result {
             auto light = std::make_shared<MovingLight>(readLight(file));
@@ -280,7 +283,8 @@ void Content::openLight(const std::filesystem::path& file) {
 }
 
 Task Content::task() const {
-    if (!mBake) return {.title = !mNextBakes.empty() ? "waiting for the bake before" : mWorker.title()};
+    const std::string reading = mModelWorker.isIdle() ? mLightWorker.title() : mModelWorker.title();
+    if (!mBake) return {.title = !mNextBakes.empty() ? "waiting for the bake before" : reading};
     return {.title = "baking " + mBake->input().filename().string() + ": " + mBake->progress().stage,
             .fraction = mBake->progress().fraction,
             .secondsLeft = mBake->progress().secondsLeft,

@@ -51,7 +51,9 @@ class Content {
     Task task() const;
     bool isBaking() const { return mBake && mBake->isRunning(); }
     // Returns whether nothing is being read or baked, and the newest results are in use.
-    bool isSettled() const { return mWorker.isIdle() && !mBake && mNextBakes.empty(); }
+    bool isSettled() const {
+        return mModelWorker.isIdle() && mLightWorker.isIdle() && !mBake && mNextBakes.empty();
+    }
 
     // The files that were opened, newest first.
     void remember(const std::filesystem::path& file);
@@ -95,7 +97,7 @@ class Content {
     std::vector<std::filesystem::path> mRecent;
     std::map<std::filesystem::path, std::filesystem::path> mInputs; // per bake
     std::filesystem::path mBuiltIn;                                 // empty: not opened
-    Worker mWorker;                                                 // last: its work uses all of the above
+    Worker mModelWorker, mLightWorker;                              // last: their work uses all of the above
 };
 
 } // namespace relume
