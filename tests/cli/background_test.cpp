@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 using namespace relume::test;
@@ -19,9 +19,11 @@ const TemporaryFolder& bakes() {
     if (std::filesystem::exists(folder.path() / "a.relume")) return folder;
     const std::string options =
         " -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q -o ";
-    REQUIRE_EQ(
-        runRelume(folder, "bake sphere --ground --ground-tessellation 4" + options + "a.relume").exitCode, 0);
-    REQUIRE_EQ(runRelume(folder, "bake sphere" + options + "bare.relume").exitCode, 0);
+    REQUIRE_EQ(runRelume(folder, "bake " + ballIn(folder) + " --ground --ground-tessellation 4" + options +
+                                     "a.relume")
+                   .exitCode,
+               0);
+    REQUIRE_EQ(runRelume(folder, "bake " + ballIn(folder) + options + "bare.relume").exitCode, 0);
     Image map(32, 16); // red above, with green towards +Z, and blue below
     for (int y = 0; y < map.height; y++)
         for (int x = 0; x < map.width; x++)
@@ -169,8 +171,9 @@ TEST_CASE("cli: the ground ends around the object, in the reference too") {
 }
 
 TEST_CASE("cli: the ground's shadow darkens the background, as the reference's does") {
-    REQUIRE_EQ(runRelume(bakes(), "bake sphere --ground --ground-tessellation 64 -K 2 -N 256 --bounces 0 "
-                                  "--visibility-size 64 --face-size 32 --map-size 16 -q -o fine.relume")
+    REQUIRE_EQ(runRelume(bakes(), "bake " + ballIn(bakes()) +
+                                      " --ground --ground-tessellation 64 -K 2 -N 256 --bounces 0 "
+                                      "--visibility-size 64 --face-size 32 --map-size 16 -q -o fine.relume")
                    .exitCode,
                0);
     const std::string shadow = "--samples 1 --ground-style shadow --orbit 30,40,1.4";

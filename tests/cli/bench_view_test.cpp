@@ -8,9 +8,9 @@ using namespace relume::test;
 TEST_CASE("cli: bench view prints changes of view and of light of every bake") {
     const TemporaryFolder folder;
     const auto bake = [&](const std::string& terms, const std::string& layout, const std::string& file) {
-        const std::string scene =
-            "bake sphere --ground --ground-tessellation 4 -N 8 --bounces 0 --visibility-size 64 "
-            "--face-size 32 --map-size 16 -q -K ";
+        const std::string scene = "bake " + ballIn(folder) +
+                                  " --ground --ground-tessellation 4 -N 8 --bounces 0 --visibility-size 64 "
+                                  "--face-size 32 --map-size 16 -q -K ";
         REQUIRE_EQ(runRelume(folder, scene + terms + " --layout " + layout + " -o " + file).exitCode, 0);
     };
     bake("2", "rows", "two.relume");

@@ -10,9 +10,11 @@ using namespace relume::test;
 namespace {
 
 // A bake small enough for a test of a second.
-constexpr const char* kSmallBake =
-    "bake sphere --ground --ground-tessellation 4 -K 2 -N 32 --bounces 0 --visibility-size 64 "
-    "--face-size 32 --map-size 16 -q ";
+std::string smallBake(const TemporaryFolder& folder) {
+    return "bake " + ballIn(folder) +
+           " --ground --ground-tessellation 4 -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 "
+           "--map-size 16 -q ";
+}
 
 } // namespace
 
@@ -112,9 +114,9 @@ TEST_CASE("cli: bad input is 1, names the file, and leaves what was there alone"
     const Outcome empty = runRelume(folder, "info empty.relume");
     CHECK_EQ(empty.exitCode, 1);
     CHECK(says(empty.err, "empty.relume"));
-    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o nowhere/x.relume").exitCode, 1);
+    CHECK_EQ(runRelume(folder, smallBake(folder) + "-o nowhere/x.relume").exitCode, 1);
     std::filesystem::create_directory(folder.path() / "folder.relume");
-    const Outcome onFolder = runRelume(folder, std::string(kSmallBake) + "-o folder.relume");
+    const Outcome onFolder = runRelume(folder, smallBake(folder) + "-o folder.relume");
     CHECK_EQ(onFolder.exitCode, 1);
     CHECK(says(onFolder.err, "folder.relume"));
     std::ofstream(folder.path() / "scene.json")
@@ -127,11 +129,11 @@ TEST_CASE("cli: bad input is 1, names the file, and leaves what was there alone"
 TEST_CASE("cli: without a device the exit code is 4") {
     const TemporaryFolder folder;
     const std::string noDriver = "VK_DRIVER_FILES=/nonexistent.json VK_ICD_FILENAMES=/nonexistent.json";
-    const Outcome bake = runRelume(folder, std::string(kSmallBake) + "-o x.relume", noDriver);
+    const Outcome bake = runRelume(folder, smallBake(folder) + "-o x.relume", noDriver);
     CHECK_EQ(bake.exitCode, 4);
     CHECK(says(bake.err, "Vulkan"));
     CHECK_EQ(runRelume(folder, "devices", noDriver).exitCode, 4);
-    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o x.relume --device no-such-device").exitCode, 4);
+    CHECK_EQ(runRelume(folder, smallBake(folder) + "-o x.relume --device no-such-device").exitCode, 4);
 }
 
 TEST_CASE("cli: materials lists presets and models, as text and as JSON") {
@@ -177,7 +179,7 @@ TEST_CASE("cli: brdf measures terms, after each of them, and draws them") {
 TEST_CASE(
     "cli: materials of a bake are bound, blended by weights over their sum, and named when there are none") {
     const TemporaryFolder folder;
-    const std::string bake = std::string(kSmallBake) + R"(-m clay -m '{"name": "a=1", "model": "plastic"}' )";
+    const std::string bake = smallBake(folder) + R"(-m clay -m '{"name": "a=1", "model": "plastic"}' )";
     REQUIRE_EQ(runRelume(folder, bake + "-o set.relume").exitCode, 0);
     const auto draws = [&](const std::string& materials) {
         const Outcome drawn = runRelume(folder, "render " + materials + " set.relume -o x.exr --size 24x18");
@@ -204,7 +206,7 @@ TEST_CASE(
 
 TEST_CASE("cli: cameras and lights too small to be any are refused") {
     const TemporaryFolder folder;
-    REQUIRE_EQ(runRelume(folder, std::string(kSmallBake) + "-o a.relume").exitCode, 0);
+    REQUIRE_EQ(runRelume(folder, smallBake(folder) + "-o a.relume").exitCode, 0);
     for (const auto& [arguments, part] :
          {std::pair("--orbit 0,0,1e-30", "--orbit: expected a distance"),
           {"--sphere-light 0,0,1e-30", "--sphere-light: expected a radius of 0.0001"},
@@ -247,7 +249,7 @@ TEST_CASE("cli: a material that cannot be used is named before the work") {
          std::vector<std::pair<std::string, std::string>>{{"missing.binary", "missing.binary"},
                                                           {"cut.binary", "cut.binary"},
                                                           {"missing.json", "missing.json"}}) {
-        const Outcome outcome = runRelume(folder, kSmallBake + ("-o x.relume -m " + material));
+        const Outcome outcome = runRelume(folder, smallBake(folder) + ("-o x.relume -m " + material));
         CHECK_EQ(outcome.exitCode, 1);
         CHECK(says(outcome.err, part));
     }
@@ -262,16 +264,15 @@ TEST_CASE("cli: devices lists what a choice needs") {
     for (const char* key : {"index", "name", "type", "driver", "uuid", "largest_storage_buffer", "usable"})
         CHECK(devices[0].contains(key));
     const std::string name = devices[0]["name"], uuid = devices[0]["uuid"];
-    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o a.relume --device " + uuid).exitCode, 0);
-    CHECK_EQ(runRelume(folder, std::string(kSmallBake) + "-o b.relume --device '" + name + "'").exitCode, 0);
+    CHECK_EQ(runRelume(folder, smallBake(folder) + "-o a.relume --device " + uuid).exitCode, 0);
+    CHECK_EQ(runRelume(folder, smallBake(folder) + "-o b.relume --device '" + name + "'").exitCode, 0);
     CHECK_EQ(contents(folder.path() / "a.relume"), contents(folder.path() / "b.relume"));
 }
 
 TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, without a validation message") {
     const TemporaryFolder folder;
     const std::string validated = " --validation core,sync";
-    const Outcome bake =
-        runRelume(folder, std::string(kSmallBake) + "-o a.relume --timings t.json" + validated);
+    const Outcome bake = runRelume(folder, smallBake(folder) + "-o a.relume --timings t.json" + validated);
     CAPTURE(bake.err);
     REQUIRE_EQ(bake.exitCode, 0);
     CHECK(nlohmann::json::parse(contents(folder.path() / "t.json")).contains("stages"));

@@ -16,9 +16,9 @@ Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
 }
 
 void bakeSphere(const TemporaryFolder& folder) {
-    run(folder,
-        "bake sphere --ground --ground-tessellation 10 -m gold -K 2 -N 200 --bounces 0 --visibility-size 64 "
-        "--face-size 32 --map-size 16 --layout rows -q -o rows.relume");
+    run(folder, "bake " + ballIn(folder) +
+                    " --ground --ground-tessellation 10 -m gold -K 2 -N 200 --bounces 0 --visibility-size 64 "
+                    "--face-size 32 --map-size 16 --layout rows -q -o rows.relume");
 }
 
 } // namespace
@@ -84,8 +84,9 @@ TEST_CASE("bake: bases unless another layout is asked for, about as small and as
     const TemporaryFolder folder;
     const auto bake = [&](const std::string& options) {
         const Outcome outcome =
-            run(folder, "bake sphere --ground --ground-tessellation 60 -m gold -K 1 --face-size 32 "
-                        "--bounces 0 --visibility-size 64 --map-size 16 -q -o a.relume " +
+            run(folder, "bake " + ballIn(folder) +
+                            " --ground --ground-tessellation 60 -m gold -K 1 --face-size 32 "
+                            "--bounces 0 --visibility-size 64 --map-size 16 -q -o a.relume " +
                             options);
         CHECK(says(outcome.err, "bytes a vertex"));
         Json info = Json::parse(run(folder, "info a.relume --json").out);

@@ -26,8 +26,9 @@ double rms(const Json& errors, const char* source) { return errors["sources"][so
 
 TEST_CASE("errors: the sources sum to what is measured, in rows and bases") {
     const TemporaryFolder folder;
-    run(folder, "bake sphere --ground --ground-tessellation 10 -m ashikhmin-shirley -K 3 -N 48 "
-                "--bounces 0 --visibility-size 64 --map-size 24 --layout rows -q -o rows.relume");
+    run(folder, "bake " + ballIn(folder) +
+                    " --ground --ground-tessellation 10 -m ashikhmin-shirley -K 3 -N 48 "
+                    "--bounces 0 --visibility-size 64 --map-size 24 --layout rows -q -o rows.relume");
     run(folder, "convert rows.relume --layout bases --error 0.2 -q -o bases.relume");
     const Json rows = errorsOf(folder, "rows.relume"), bases = errorsOf(folder, "bases.relume");
     for (const Json& errors : {rows, bases}) {
@@ -57,8 +58,9 @@ TEST_CASE("errors: the sources sum to what is measured, in rows and bases") {
 
 TEST_CASE("errors: images and heat maps of every source are written") {
     const TemporaryFolder folder;
-    run(folder, "bake sphere -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
-                "-o a.relume");
+    run(folder, "bake " + ballIn(folder) +
+                    " -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
+                    "-o a.relume");
     run(folder, "errors a.relume --size 16x12 --images images");
     for (const char* name : {"drawn.exr", "reference.exr", "harmonics.exr", "total.png", "terms.png",
                              "interpolation.png", "visibility.png"})
@@ -67,8 +69,9 @@ TEST_CASE("errors: images and heat maps of every source are written") {
 
 TEST_CASE("errors: what it cannot look at is said") {
     const TemporaryFolder folder;
-    run(folder, "bake sphere -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
-                "-o a.relume");
+    run(folder, "bake " + ballIn(folder) +
+                    " -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
+                    "-o a.relume");
     const auto fails = [&](const std::string& arguments, int code, const std::string& what) {
         const Outcome outcome = runRelume(folder, arguments, "LP_NUM_THREADS=0");
         CAPTURE(outcome.err);

@@ -3,7 +3,7 @@
 #include "tests/support/run_relume.h"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 using namespace relume::test;
@@ -22,8 +22,9 @@ void prepare(const TemporaryFolder& folder, const std::string& layout) {
         writeExr(folder.path() / fmt::format("map_{}.exr", i), map);
     }
     folder.write("light.json", kLight);
-    REQUIRE_EQ(runRelume(folder, "bake sphere -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 "
-                                 "--map-size 16 -q -o rows.relume")
+    REQUIRE_EQ(runRelume(folder, "bake " + ballIn(folder) +
+                                     " -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 "
+                                     "--map-size 16 -q -o rows.relume")
                    .exitCode,
                0);
     REQUIRE_EQ(runRelume(folder, "convert rows.relume -o a.relume --layout " + layout).exitCode, 0);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <csignal>
 #include <doctest/doctest.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <thread>
 #include <unistd.h>
 
@@ -18,8 +18,9 @@ namespace {
 const TemporaryFolder& folder() {
     static const TemporaryFolder folder;
     if (!std::filesystem::exists(folder.path() / "a.relume"))
-        REQUIRE_EQ(runRelume(folder, "bake sphere --ground --ground-tessellation 4 -K 2 -N 32 --bounces 0 "
-                                     "--visibility-size 64 --face-size 32 --map-size 16 -q -o a.relume")
+        REQUIRE_EQ(runRelume(folder, "bake " + ballIn(folder) +
+                                         " --ground --ground-tessellation 4 -K 2 -N 32 --bounces 0 "
+                                         "--visibility-size 64 --face-size 32 --map-size 16 -q -o a.relume")
                        .exitCode,
                    0);
     return folder;

@@ -24,8 +24,9 @@ TEST_CASE("sheet: a row for each material, a column for each light") {
     const TemporaryFolder folder;
     const std::string small =
         " -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q -o ";
-    REQUIRE_EQ(runRelume(folder, "bake sphere -m clay -m gold" + small + "two.relume").exitCode, 0);
-    REQUIRE_EQ(runRelume(folder, "bake sphere -m chrome" + small + "one.relume").exitCode, 0);
+    REQUIRE_EQ(
+        runRelume(folder, "bake " + ballIn(folder) + " -m clay -m gold" + small + "two.relume").exitCode, 0);
+    REQUIRE_EQ(runRelume(folder, "bake " + ballIn(folder) + " -m chrome" + small + "one.relume").exitCode, 0);
     folder.write("sun.json", R"({"distant": [{"azimuth": 30, "elevation": 40, "irradiance": [3, 3, 3]}]})");
     folder.write("lamp.json",
                  R"({"lamps": [{"azimuth": 30, "elevation": 40, "radius": 5, "radiance": [90, 80, 70]}]})");

@@ -13,9 +13,9 @@ constexpr const char* kRender =
 
 void bake(const TemporaryFolder& folder) {
     REQUIRE_EQ(
-        runRelume(folder,
-                  "bake sphere -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
-                  "-o a.relume")
+        runRelume(folder, "bake " + ballIn(folder) +
+                              " -K 2 -N 32 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
+                              "-o a.relume")
             .exitCode,
         0);
 }

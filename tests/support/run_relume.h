@@ -1,6 +1,8 @@
 // Runs `relume` in a folder of a test's own.
 #pragma once
 
+#include "engine/import/builtin_mesh.h"
+#include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cstdlib>
@@ -36,6 +38,14 @@ inline Outcome runProgram(const TemporaryFolder& folder, const std::string& prog
 inline Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
                          const std::string& environment = "") {
     return runProgram(folder, RELUME_PROGRAM, arguments, environment);
+}
+
+// Writes a ball of 642 vertices to the folder and returns the words with which `relume bake` takes it as it
+// is.
+inline std::string ballIn(const TemporaryFolder& folder) {
+    if (!std::filesystem::exists(folder.path() / "ball.obj"))
+        folder.write("ball.obj", sampleObj(makeSphere(3)));
+    return "ball.obj --refine off";
 }
 
 inline bool says(const std::string& text, const std::string& part) {
