@@ -6,7 +6,7 @@
 #include "precompute/bake/bake_options.h"
 #include "precompute/bake/bake_plan.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume::python {
 

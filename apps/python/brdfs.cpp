@@ -4,8 +4,9 @@
 #include "precompute/brdf/factorization.h"
 #include "precompute/brdf/factorization_error.h"
 #include "precompute/brdf/material_json.h"
+#include "precompute/brdf/tabulation.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume::python {

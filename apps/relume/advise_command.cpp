@@ -9,7 +9,7 @@
 #include "precompute/error/advice.h"
 #include "precompute/error/study_json.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

@@ -4,7 +4,8 @@
 #include "precompute/refine/refinement_record.h"
 
 #include <cstdio>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace relume {

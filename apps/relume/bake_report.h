@@ -5,7 +5,7 @@
 #include "precompute/bake_observer.h"
 
 #include <chrono>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 namespace relume {

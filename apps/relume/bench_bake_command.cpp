@@ -11,9 +11,10 @@
 #include "precompute/bake/part_passes.h"
 #include "precompute/thread_limit.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

@@ -6,7 +6,8 @@
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 namespace relume {

@@ -7,7 +7,7 @@
 #include "engine/base/progress.h"
 #include "precompute/layout/conversion.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <tbb/info.h>
 

@@ -7,8 +7,9 @@
 #include "engine/base/file.h"
 #include "engine/import/environment_file.h"
 #include "engine/import/image_file.h"
+#include "precompute/brdf/tabulation.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <spdlog/spdlog.h>
 

@@ -2,10 +2,11 @@
 
 #include "engine/base/stopwatch.h"
 #include "precompute/brdf/factorization_error.h"
+#include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/light/light_cube.h"
+#include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization.h"
 
 #include <nlohmann/json.hpp>

@@ -13,7 +13,7 @@
 #include "precompute/layout/layout_scale.h"
 #include "precompute/residual/residuals.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <spdlog/spdlog.h>
 

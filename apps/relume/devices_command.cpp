@@ -2,7 +2,7 @@
 #include "engine/base/error.h"
 #include "engine/vk/device.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 

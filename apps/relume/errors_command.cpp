@@ -9,7 +9,7 @@
 #include "precompute/error/heat_maps.h"
 #include "precompute/error/study_json.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

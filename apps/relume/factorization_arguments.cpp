@@ -2,7 +2,7 @@
 
 #include "engine/base/error.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

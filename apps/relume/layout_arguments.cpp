@@ -3,7 +3,7 @@
 #include "apps/relume/options.h"
 #include "engine/base/error.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {

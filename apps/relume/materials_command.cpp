@@ -3,7 +3,7 @@
 #include "precompute/brdf/material_json.h"
 #include "precompute/brdf/model_list.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 

@@ -9,7 +9,7 @@
 #include "precompute/bake_observer.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <optional>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>

@@ -16,7 +16,7 @@
 
 #include <algorithm>
 #include <deque>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <functional>
 #include <future>
 #include <spdlog/spdlog.h>

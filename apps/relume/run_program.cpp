@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <iostream>
 #include <malloc.h>
 #include <spdlog/pattern_formatter.h>

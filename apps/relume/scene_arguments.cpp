@@ -8,7 +8,8 @@
 #include "precompute/brdf/material_list.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace relume {

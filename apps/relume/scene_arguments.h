@@ -9,7 +9,7 @@
 #include "precompute/bake/bake_options.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 namespace relume {

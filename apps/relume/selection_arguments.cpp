@@ -2,7 +2,7 @@
 
 #include "engine/light/light_vector.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

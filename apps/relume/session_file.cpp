@@ -4,7 +4,8 @@
 #include "engine/import/session_file.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

@@ -6,7 +6,7 @@
 #include "engine/import/image_file.h"
 #include "engine/render/contact_sheet.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 namespace relume {

@@ -6,7 +6,7 @@
 #include "precompute/twins/verification.h"
 #include "precompute/twins/visibility_comparison.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

@@ -4,7 +4,8 @@
 #include "apps/viewer/outputs.h"
 #include "engine/base/error.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

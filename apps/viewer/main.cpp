@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 

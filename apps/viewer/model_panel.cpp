@@ -3,7 +3,7 @@
 #include "apps/viewer/panels.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -10,7 +10,8 @@
 
 #include <chrono>
 #include <ctime>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 #include <utility>
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <imgui.h>
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include "apps/viewer/controls.h"
 #include "apps/viewer/panel_items.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

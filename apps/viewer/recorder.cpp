@@ -3,7 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/import/image_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

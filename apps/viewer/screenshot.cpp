@@ -1,7 +1,8 @@
 #include "apps/viewer/screenshot.h"
 
 #include <array>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

@@ -6,7 +6,7 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <map>
 #include <set>
 

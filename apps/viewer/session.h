@@ -5,7 +5,7 @@
 #include "apps/viewer/scene_state.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace relume {
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/ranges.h>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

@@ -3,7 +3,7 @@
 
 #include "apps/viewer/scene_state.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace relume {
 

@@ -6,7 +6,7 @@
 #include "shaders/frame_shaders.h"
 
 #include <cstdlib>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 
 #ifdef RELUME_GLSLANG

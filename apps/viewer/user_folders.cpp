@@ -3,7 +3,7 @@
 #include "engine/base/error.h"
 
 #include <cstdlib>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -4,7 +4,7 @@
 #include "engine/base/error.h"
 
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 namespace relume {

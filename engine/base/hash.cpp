@@ -1,6 +1,6 @@
 #include "engine/base/hash.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <new>
 #include <xxhash.h>
 

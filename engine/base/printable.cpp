@@ -1,7 +1,7 @@
 #include "engine/base/printable.h"
 
 #include <cstdint>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

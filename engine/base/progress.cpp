@@ -3,7 +3,7 @@
 #include "engine/base/printable.h"
 
 #include <cstdio>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 namespace relume {

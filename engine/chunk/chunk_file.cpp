@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <zstd.h>
 

@@ -4,7 +4,7 @@
 #include "engine/import/json_object.h"
 #include "engine/transport/asset_meta.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

@@ -6,7 +6,7 @@
 #include "engine/light/environment.h"
 
 #include <OpenEXR/ImfEnvmap.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "engine/base/error.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <map>
 #include <string_view>
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 namespace {

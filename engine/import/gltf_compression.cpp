@@ -3,7 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/import/gltf_json.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <iterator>
 #include <meshoptimizer.h>
 #include <span>

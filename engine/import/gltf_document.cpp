@@ -9,7 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <map>
 #include <string_view>
 #include <utility>

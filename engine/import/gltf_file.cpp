@@ -9,7 +9,7 @@
 #include "engine/import/texture_file.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <set>
 
 namespace relume {

@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

@@ -2,7 +2,7 @@
 // errors; keys that nobody asks for are left alone, as the specification wants it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

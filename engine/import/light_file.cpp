@@ -7,7 +7,8 @@
 #include "engine/light/sun_position.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 

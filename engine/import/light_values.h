@@ -3,7 +3,7 @@
 
 #include "engine/import/environment_files.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace relume {
 

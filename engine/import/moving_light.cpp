@@ -5,6 +5,8 @@
 #include "engine/import/light_track.h"
 #include "engine/import/light_values.h"
 
+#include <nlohmann/json.hpp>
+
 namespace relume {
 
 struct MovingLight::Description {

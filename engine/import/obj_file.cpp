@@ -7,7 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sstream>
 #include <string_view>
 #include <tiny_obj_loader.h>

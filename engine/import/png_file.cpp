@@ -3,7 +3,7 @@
 
 #include <csetjmp>
 #include <cstdio>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <new>
 #include <png.h>
 

@@ -3,7 +3,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <numeric>
 
 namespace relume {

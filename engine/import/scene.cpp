@@ -10,7 +10,7 @@
 #include "engine/import/mesh_formats.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 namespace {

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 namespace relume {
 namespace {

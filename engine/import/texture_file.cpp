@@ -5,7 +5,7 @@
 #include "engine/import/texture_check.h"
 #include "engine/scene/texture.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <stb_image.h>
 

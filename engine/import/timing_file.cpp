@@ -3,7 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <utility>
 

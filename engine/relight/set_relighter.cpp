@@ -4,7 +4,7 @@
 #include "engine/vk/upload.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

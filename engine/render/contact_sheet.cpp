@@ -8,7 +8,7 @@
 #include "engine/render/view_pass.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -14,7 +14,7 @@
 #include "shaders/unshadowed_tuples_comp.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

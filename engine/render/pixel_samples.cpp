@@ -4,7 +4,7 @@
 #include "shaders/shared/render.h"
 
 #include <bit>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -8,7 +8,7 @@
 #include "engine/transport/visibility_chunk.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

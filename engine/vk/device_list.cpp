@@ -4,7 +4,7 @@
 #include "engine/vk/result.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume::vk {
 

@@ -2,7 +2,7 @@
 
 #include "engine/vk/result.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 namespace relume::vk {

@@ -1,6 +1,6 @@
 #include "engine/vk/result.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <string_view>
 #include <vulkan/vulkan.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "engine/base/error.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <spirv_cross/spirv_cross_c.h>
 

@@ -3,7 +3,7 @@
 #include "engine/vk/result.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 namespace relume::vk {

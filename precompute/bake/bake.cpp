@@ -12,7 +12,7 @@
 #include "precompute/bake/stored_blocks.h"
 #include "precompute/bake/storing_sink.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

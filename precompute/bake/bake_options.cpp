@@ -6,7 +6,7 @@
 #include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <initializer_list>
 
 namespace relume {

@@ -22,7 +22,7 @@
 #include "precompute/visibility/occluder.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>

@@ -5,7 +5,7 @@
 #include "precompute/layout/conversion.h"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 

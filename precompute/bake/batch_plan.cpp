@@ -5,7 +5,7 @@
 #include "precompute/visibility/visibility.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -10,7 +10,7 @@
 #include "precompute/visibility/visibility.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <map>
 #include <numeric>
 #include <tbb/enumerable_thread_specific.h>

@@ -6,7 +6,7 @@
 #include "precompute/bake/shard_difference.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

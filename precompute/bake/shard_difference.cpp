@@ -4,7 +4,7 @@
 #include "engine/transport/asset_arrays.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <set>
 

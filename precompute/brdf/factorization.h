@@ -2,13 +2,15 @@
 #pragma once
 
 #include "engine/scene/factored_brdf.h"
-#include "precompute/brdf/tabulation.h"
 
 #include <optional>
 #include <span>
 #include <string_view>
 
 namespace relume {
+
+struct BrdfTable; // tabulation.h
+enum class TexelValue;
 
 enum class Factorization {
     // Eigenpairs of the tabulated f, unweighted (the paper, section 3 and appendix).

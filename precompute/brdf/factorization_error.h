@@ -3,12 +3,14 @@
 
 #include "engine/light/light_cube.h"
 #include "engine/scene/factored_brdf.h"
-#include "precompute/brdf/tabulation.h"
 
 #include <span>
 #include <vector>
 
 namespace relume {
+
+class Brdf;       // brdf.h
+struct BrdfTable; // tabulation.h
 
 // Returns, after each term, ‖M - M̃‖ / ‖M‖ (Frobenius, mean over channels) at the texel centers, unweighted.
 // `layer` is that of the table.

@@ -2,9 +2,10 @@
 
 #include "engine/base/log.h"
 #include "precompute/brdf/factorization_error.h"
+#include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

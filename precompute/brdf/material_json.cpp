@@ -6,7 +6,7 @@
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/model_list.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

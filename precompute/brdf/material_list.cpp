@@ -4,7 +4,7 @@
 #include "precompute/brdf/material_json.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

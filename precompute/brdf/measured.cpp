@@ -6,7 +6,7 @@
 #include "precompute/brdf/cornell.h"
 #include "precompute/brdf/merl.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 namespace relume {

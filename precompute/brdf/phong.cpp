@@ -1,7 +1,7 @@
 #include "precompute/brdf/models.h"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

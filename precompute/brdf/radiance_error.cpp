@@ -1,5 +1,6 @@
 #include "engine/base/check.h"
 #include "engine/math/cubemap.h"
+#include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization_error.h"
 #include "precompute/brdf/random_directions.h"
 

@@ -1,6 +1,6 @@
 #include "precompute/error/study_json.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace relume {

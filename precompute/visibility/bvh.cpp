@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <embree3/rtcore.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
 

@@ -4,7 +4,7 @@
 #include "precompute/visibility/flat_mesh.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <meshoptimizer.h>
 
 namespace relume {

@@ -11,7 +11,7 @@
 #include "shaders/visibility_vert.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <meshoptimizer.h>
 
 namespace relume {

@@ -6,7 +6,7 @@
 #include "shaders/visibility_trace_comp.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -4,7 +4,7 @@
 #include "precompute/visibility/raster_visibility.h"
 #include "precompute/visibility/traced_visibility.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

@@ -7,6 +7,7 @@
 #include "engine/render/view_grid.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization.h"
+#include "precompute/brdf/tabulation.h"
 #include "precompute/residual/residuals.h"
 #include "precompute/residual/sphere_kernel.h"
 #include "precompute/twins/lit_sphere_twin.h"

@@ -9,6 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numeric>

@@ -10,6 +10,7 @@
 #include "precompute/bake/sketch.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/factorization.h"
+#include "precompute/brdf/tabulation.h"
 #include "precompute/reference/reference_image.h"
 #include "precompute/residual/residuals.h"
 #include "tests/support/test_device.h"

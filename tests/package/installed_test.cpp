@@ -7,7 +7,7 @@
 
 #include <cstring>
 #include <doctest/doctest.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 using namespace relume::test;

@@ -3,7 +3,7 @@
 
 #include "engine/transport/asset.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume::test {
 

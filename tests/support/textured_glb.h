@@ -5,7 +5,7 @@
 #include "tests/support/mesh_samples.h"
 #include "tests/support/texture_samples.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume::test {
 

@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <unistd.h>

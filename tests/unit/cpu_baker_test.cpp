@@ -7,6 +7,7 @@
 #include "precompute/twins/transport_twin.h"
 #include "precompute/twins/vertex_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

@@ -2,6 +2,7 @@
 #include "engine/light/light.h"
 #include "precompute/brdf/factorization.h"
 #include "precompute/brdf/factorization_error.h"
+#include "precompute/brdf/tabulation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "precompute/brdf/factorization.h"
 #include "precompute/brdf/factorization_error.h"
+#include "precompute/brdf/tabulation.h"
 #include "tests/support/singular_values.h"
 
 #include <algorithm>

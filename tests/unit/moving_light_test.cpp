@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 using relume::test::TemporaryFolder;

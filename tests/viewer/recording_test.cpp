@@ -4,7 +4,7 @@
 #include "tests/support/viewer_session.h"
 #include "tests/support/window_image.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 using namespace relume::test;

@@ -4,6 +4,7 @@
 #include "engine/base/error.h"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace relume;
 using nlohmann::json;

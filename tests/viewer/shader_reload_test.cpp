@@ -1,7 +1,7 @@
 // Shaders built anew while the window is open.
 #include "tests/support/viewer_session.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace relume;
 using namespace relume::test;

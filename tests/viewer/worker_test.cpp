@@ -9,7 +9,7 @@
 
 #include <atomic>
 #include <doctest/doctest.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <future>
 
 using namespace relume;

@@ -5,7 +5,7 @@
 #include "engine/scene/factored_brdf.h"
 
 #include <bit>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 

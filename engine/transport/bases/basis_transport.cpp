@@ -3,7 +3,7 @@
 #include "engine/chunk/block_chunk.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace relume {
 
