@@ -16,7 +16,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct AdviseArguments {
     SceneArguments scene;
     StudiedLightArguments light;
     DeviceArguments device;
@@ -51,7 +51,7 @@ void print(const Advice& advice) {
     if (advice.refined) print("refined", *advice.refined);
 }
 
-void run(Arguments& arguments) {
+void run(AdviseArguments& arguments) {
     const StudiedLight light = arguments.light.studied();
     AdviceRequest request{arguments.scene.load(false), {}, arguments.error};
     request.options.bounces = presetOptions(BakePreset::Default).bounces;
@@ -87,7 +87,7 @@ void addAdviseCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand(
         "advise",
         "Find the least that a bake must be for images of an error, for a mesh, material and light");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<AdviseArguments>();
     arguments->scene.add(*command);
     command
         ->add_option("--error", arguments->error,

@@ -7,7 +7,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct BakeCommandArguments {
     SceneArguments scene;
     BakeArguments bake;
     BakeJob job;
@@ -15,7 +15,7 @@ struct Arguments {
     bool preview = false;
 };
 
-void run(Arguments& arguments) {
+void run(BakeCommandArguments& arguments) {
     arguments.bake.resolve();
     BakeOptions& options = arguments.bake.options;
     BakeJob& job = arguments.job;
@@ -39,7 +39,7 @@ void run(Arguments& arguments) {
 
 void addBakeCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("bake", "Bake a mesh or scene into a .relume file");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BakeCommandArguments>();
     arguments->scene.add(*command);
     arguments->bake.add(*command);
     arguments->job.add(*command);

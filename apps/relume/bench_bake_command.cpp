@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct BenchBakeArguments {
     SceneArguments scene;
     BakeArguments bake;
     DeviceArguments device;
@@ -121,7 +121,7 @@ runPaths(const std::vector<std::pair<std::string, std::unique_ptr<BakePath>>>& p
     return series;
 }
 
-void print(const Json& result) {
+void printBenchBake(const Json& result) {
     const auto number = [](const Json& value) { return value.get<double>(); };
     fmt::print("{}, {} threads; {} of {} vertices\n", result["device"].get<std::string>(),
                result["threads"].dump(), result["vertices"].dump(), result["scene"]["vertices"].dump());
@@ -150,7 +150,7 @@ void print(const Json& result) {
     }
 }
 
-void run(Arguments& arguments) {
+void run(BenchBakeArguments& arguments) {
     arguments.bake.resolve();
     const BakeOptions& options = arguments.bake.options;
     Scene scene = arguments.scene.load(arguments.bake.options.refinement.has_value());
@@ -209,7 +209,7 @@ void run(Arguments& arguments) {
     if (arguments.json)
         fmt::print("{}\n", result.dump(2));
     else
-        print(result);
+        printBenchBake(result);
     DeviceArguments::expectNoMessages(*device);
 }
 
@@ -218,7 +218,7 @@ void run(Arguments& arguments) {
 void addBenchBakeCommand(CLI::App& bench) {
     CLI::App* command = bench.add_subcommand(
         "bake", "Bake a sample of vertices on the CPU and in each of the device's ways, in alternation");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BenchBakeArguments>();
     arguments->scene.add(*command);
     arguments->bake.add(*command, false);
     arguments->device.add(*command);

@@ -14,7 +14,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct BenchArguments {
     SceneArguments scene;
     BakeArguments bake;
     LightArguments light;
@@ -56,7 +56,7 @@ uint64_t peakHostMemory() {
     return uint64_t(usage.ru_maxrss) * 1024;
 }
 
-void print(const nlohmann::ordered_json& result) {
+void printBench(const nlohmann::ordered_json& result) {
     fmt::print("{}, {} vertices\n", result["device"].get<std::string>(), result["bake"]["vertices"].dump());
     fmt::print("bake              {:8.3f} ms per vertex, {:.1f} s\n",
                result["bake"]["ms_per_vertex"].get<double>(), result["bake"]["seconds"].get<double>());
@@ -72,7 +72,7 @@ void print(const nlohmann::ordered_json& result) {
                double(result["host_memory_bytes"].get<uint64_t>()) / (1 << 20));
 }
 
-void run(Arguments& arguments) {
+void run(BenchArguments& arguments) {
     arguments.bake.resolve();
     Scene scene = arguments.scene.load(arguments.bake.options.refinement.has_value());
     const std::unique_ptr<vk::Device> device = arguments.device.open();
@@ -110,7 +110,7 @@ void run(Arguments& arguments) {
     if (arguments.json)
         fmt::print("{}\n", result.dump(2));
     else
-        print(result);
+        printBench(result);
     DeviceArguments::expectNoMessages(*device);
 }
 
@@ -126,7 +126,7 @@ void expectNoOptions(const CLI::App& command, const char* subcommand) {
 void addBenchCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("bench", "Time bake, light change and view change, stage by stage");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BenchArguments>();
     arguments->scene.add(*command);
     arguments->bake.add(*command);
     arguments->light.add(*command);

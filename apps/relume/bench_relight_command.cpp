@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct BenchRelightArguments {
     std::string file;
     LightArguments light;
     DeviceArguments device;
@@ -30,7 +30,7 @@ struct Arguments {
     bool json = false;
 };
 
-RelightBenchInput makeInput(const Asset& source, const Arguments& arguments) {
+RelightBenchInput makeInput(const Asset& source, const BenchRelightArguments& arguments) {
     RelightBenchInput input{&source, {}};
     for (size_t i = 0; i < kLayoutFacts.size(); i++) {
         const auto layout = TransportLayout(i);
@@ -73,7 +73,7 @@ Json describe(const Asset& asset, const LayoutSeries& own, const RelightSeries& 
             {"ms_by_light_coefficients", msByCount}};
 }
 
-void print(const Json& result) {
+void printBenchRelight(const Json& result) {
     const auto number = [](const Json& value) { return value.get<double>(); };
     fmt::print("{}, {} vertices, {} light coefficients, {:.1f} GB/s copied\n\n",
                result["device"].get<std::string>(), result["vertices"].dump(),
@@ -102,7 +102,7 @@ void print(const Json& result) {
                result["lamp_coefficients"].dump(), result["lamp_changes"].dump());
 }
 
-void run(const Arguments& arguments) {
+void run(const BenchRelightArguments& arguments) {
     const Asset source = readAsset(arguments.file);
     const std::unique_ptr<vk::Device> device = arguments.device.open();
     const RelightBenchInput input = makeInput(source, arguments);
@@ -130,7 +130,7 @@ void run(const Arguments& arguments) {
     if (arguments.json)
         fmt::print("{}\n", result.dump(2));
     else
-        print(result);
+        printBenchRelight(result);
     DeviceArguments::expectNoMessages(*device);
 }
 
@@ -140,7 +140,7 @@ void addBenchRelightCommand(CLI::App& bench) {
     CLI::App* command =
         bench.add_subcommand("relight", "Relight a bake from every layout, on the device and the CPU, in "
                                         "alternation");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BenchRelightArguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume); best of many coefficients a row")
         ->required();
     command->add_option("-N,--coefficients", arguments->coefficients, "Most coefficients of a row, in rows")

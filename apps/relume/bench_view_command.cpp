@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct BenchViewArguments {
     std::vector<std::string> files;
     CameraArguments camera;
     LightArguments light;
@@ -64,7 +64,7 @@ std::string termsOfParts(const Json& file) {
     return fmt::format("{}", fmt::join(terms, "+"));
 }
 
-void print(const Json& result) {
+void printBenchView(const Json& result) {
     fmt::print("{}, {} x {} pixels\n\n", result["device"].get<std::string>(), result["width"].dump(),
                result["height"].dump());
     fmt::print("{:>6}{:>10}{:>10}{:>8}{:>10}{:>10}{:>7}{:>12}{:>11}{:>7}\n", "K", "vertices", "triangles",
@@ -87,7 +87,7 @@ void print(const Json& result) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run(const BenchViewArguments& arguments) {
     std::vector<Asset> assets;
     for (const std::string& file : arguments.files) assets.push_back(readAsset(file));
     const std::unique_ptr<vk::Device> device = arguments.device.open();
@@ -118,7 +118,7 @@ void run(const Arguments& arguments) {
     if (arguments.json)
         fmt::print("{}\n", result.dump(2));
     else
-        print(result);
+        printBenchView(result);
     DeviceArguments::expectNoMessages(*device);
 }
 
@@ -126,7 +126,7 @@ void run(const Arguments& arguments) {
 
 void addBenchViewCommand(CLI::App& bench) {
     CLI::App* command = bench.add_subcommand("view", "Turn a camera about bakes, and the light over them");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BenchViewArguments>();
     arguments->camera.width = 1280;
     arguments->camera.height = 720;
     command->add_option("FILE", arguments->files, "Bakes (.relume), drawn in alternation")->required();

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kLightSize = 64; // side of the cube under which radiance errors are measured
 
-struct Arguments {
+struct BrdfArguments {
     std::string material;
     int size = 48;
     FactorizationArguments factorization;
@@ -36,7 +36,7 @@ void checkOutput(const std::filesystem::path& maps) {
 
 constexpr FactorizationOptions kStudied{.terms = 16};
 
-void run(Arguments& arguments) {
+void run(BrdfArguments& arguments) {
     arguments.factorization.resolve(kStudied);
     checkOutput(arguments.maps);
     CommandFiles files;
@@ -65,7 +65,7 @@ void run(Arguments& arguments) {
 void addBrdfCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("brdf", "Factor a BRDF as a bake does, and say how far its terms are from it");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BrdfArguments>();
     command->add_option("MATERIAL", arguments->material, "Preset, model, JSON object, or file of either")
         ->required();
     arguments->factorization.add(*command, kStudied);

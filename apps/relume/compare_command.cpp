@@ -14,12 +14,12 @@ namespace relume {
 
 void addCompareCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("compare", "Measure how an image differs from a reference");
-    struct Arguments {
+    struct CompareArguments {
         std::string image, reference;
         bool json = false;
         double threshold = std::numeric_limits<double>::infinity();
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<CompareArguments>();
     command->add_option("IMAGE", arguments->image, "Linear image (.exr, .hdr)")->required();
     command->add_option("REFERENCE", arguments->reference, "What it is held against (.exr, .hdr)")
         ->required();

@@ -21,21 +21,21 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
     std::filesystem::path input, output;
     LayoutArguments layout;
     std::optional<int> coefficients;
     bool quiet = false;
 };
 
-LayoutOptions optionsOf(const Arguments& arguments) {
+LayoutOptions optionsOf(const ConvertArguments& arguments) {
     const LayoutOptions options = arguments.layout.resolve();
     if (isCompressed(options.layout) && arguments.coefficients)
         throw UsageError("--coefficients: shortens rows; bases have --budget and --error");
     return options;
 }
 
-void checkOutput(const Arguments& arguments) {
+void checkOutput(const ConvertArguments& arguments) {
     expectExtension("--output", arguments.output, ".relume");
     CommandFiles files;
     files.addInput(arguments.input);
@@ -44,7 +44,7 @@ void checkOutput(const Arguments& arguments) {
     expectWritable(arguments.output);
 }
 
-Conversion convert(Asset& asset, const LayoutOptions& options, const Arguments& arguments) {
+Conversion convert(Asset& asset, const LayoutOptions& options, const ConvertArguments& arguments) {
     std::unique_ptr<Progress> progress; // made once the amount of work is known
     const auto report = [&](uint64_t done, uint64_t total) {
         if (caughtInterrupt() != 0) throw BakeStopped("stopped");
@@ -66,7 +66,7 @@ Asset readInput(const std::filesystem::path& path, std::vector<std::byte> bytes)
     return asset;
 }
 
-void run(const Arguments& arguments) {
+void run(const ConvertArguments& arguments) {
     const LayoutOptions options = optionsOf(arguments);
     checkOutput(arguments);
     catchInterrupts();
@@ -103,7 +103,7 @@ void run(const Arguments& arguments) {
 
 void addConvertCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("convert", "Keep a bake's transport in another layout");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("FILE", arguments->input, "Bake (.relume)")->required();
     command->add_option("-o,--output", arguments->output, "Bake to write (.relume)")
         ->type_name("FILE")

@@ -16,7 +16,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct ErrorsArguments {
     std::string file;
     CameraArguments camera;
     StudiedLightArguments light;
@@ -61,7 +61,7 @@ void print(const ErrorStudy& study) {
                kLowOrder * kLowOrder, study.lowOrder->error, study.lowOrder->termsError);
 }
 
-void run(const Arguments& arguments) {
+void run(const ErrorsArguments& arguments) {
     constexpr uint64_t kMostPixels = 1u << 18; // hours, since a pixel takes tens of milliseconds
     const auto pixels = uint64_t(arguments.camera.width) * uint64_t(arguments.camera.height);
     if (pixels > kMostPixels)
@@ -105,7 +105,7 @@ void run(const Arguments& arguments) {
 void addErrorsCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("errors", "Take an image's error apart: what every approximation costs");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ErrorsArguments>();
     arguments->camera.width = 120, arguments->camera.height = 90;
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     arguments->appearance.add(*command);

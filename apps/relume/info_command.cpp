@@ -96,11 +96,11 @@ static uint64_t storedTransport(const ChunkFile& file) {
 
 void addInfoCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "Say what a bake holds and how it was made");
-    struct Arguments {
+    struct InfoArguments {
         std::string file;
         bool json = false;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<InfoArguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] {

@@ -18,13 +18,13 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::filesystem::path output;
     bool quiet = false;
 };
 
-void checkOutput(const Arguments& arguments) {
+void checkOutput(const MergeArguments& arguments) {
     expectExtension("--output", arguments.output, ".relume");
     CommandFiles files;
     for (const std::filesystem::path& part : arguments.parts) files.addInput(part);
@@ -60,7 +60,7 @@ uint64_t basesBytes(const std::vector<ShardFile>& shards) {
     return bytes;
 }
 
-uint64_t merge(const Arguments& arguments) {
+uint64_t merge(const MergeArguments& arguments) {
     // Every byte is read twice: checked before anything is written, then copied. Bases' columns are counted
     // in between.
     constexpr uint64_t kMegabyte = 1000000;
@@ -89,7 +89,7 @@ uint64_t merge(const Arguments& arguments) {
     return vertices;
 }
 
-void run(const Arguments& arguments) {
+void run(const MergeArguments& arguments) {
     checkOutput(arguments);
     allowOpenFiles();
     catchInterrupts();
@@ -109,7 +109,7 @@ void run(const Arguments& arguments) {
 void addMergeCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("merge", "Join the parts that `relume bake --shard` made into one bake");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<MergeArguments>();
     command->add_option("PART", arguments->parts, "All parts of a bake, in any order (.relume)")->required();
     command->add_option("-o,--output", arguments->output, "Bake to write (.relume)")
         ->type_name("FILE")

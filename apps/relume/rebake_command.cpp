@@ -14,7 +14,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct RebakeArguments {
     std::string input;
     std::vector<std::string> materials;
     bool separate = false;
@@ -47,7 +47,7 @@ size_t partPrefix(const std::string& text, const Asset& asset) {
 
 // Returns the materials per part, as rebakeToFile() takes them: those that name the part; else, except for a
 // ground, those that name none.
-std::vector<std::string> materialsFor(const Asset& asset, const Arguments& arguments) {
+std::vector<std::string> materialsFor(const Asset& asset, const RebakeArguments& arguments) {
     std::vector<std::vector<std::string>> own(asset.parts.size());
     std::vector<std::string> others;
     for (const std::string& text : arguments.materials) {
@@ -78,7 +78,7 @@ std::vector<std::string> materialsFor(const Asset& asset, const Arguments& argum
     return joined;
 }
 
-BakeOptions optionsFor(const Asset& asset, Arguments& arguments) {
+BakeOptions optionsFor(const Asset& asset, RebakeArguments& arguments) {
     BakeOptions options = optionsOf(asset);
     arguments.factorization.resolve(options.factorization, options.mapping);
     options.factorization = arguments.factorization.options;
@@ -95,7 +95,7 @@ BakeOptions optionsFor(const Asset& asset, Arguments& arguments) {
     return options;
 }
 
-void run(Arguments& arguments) {
+void run(RebakeArguments& arguments) {
     BakeJob& job = arguments.job;
     job.prepare();
     CommandFiles files;
@@ -130,7 +130,7 @@ void run(Arguments& arguments) {
 void addRebakeCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("rebake", "Bake other materials from the visibility that a bake kept");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RebakeArguments>();
     command->add_option("FILE", arguments->input, "Bake made with --keep-visibility (.relume)")->required();
     command
         ->add_option(

@@ -18,7 +18,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct ReferenceArguments {
     std::string file;
     CameraArguments camera;
     LightArguments light;
@@ -99,7 +99,7 @@ class Sampling {
     ProgressiveReference mReference;
 };
 
-void run(const Arguments& arguments) {
+void run(const ReferenceArguments& arguments) {
     arguments.image.check();
     CommandFiles files;
     files.addInput(arguments.file);
@@ -173,7 +173,7 @@ void run(const Arguments& arguments) {
 void addReferenceCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("reference", "Ray-trace the image that `render` should give, with Embree");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ReferenceArguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     arguments->image.add(*command);
     arguments->appearance.add(*command);

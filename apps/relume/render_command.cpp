@@ -26,7 +26,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct RenderArguments {
     std::string file;
     std::filesystem::path session;
     CameraArguments camera;
@@ -54,7 +54,7 @@ struct Arguments {
 };
 
 // Returns image.png itself, or image_0001.png and so on for several frames.
-std::filesystem::path framePath(const Arguments& arguments, int frame) {
+std::filesystem::path framePath(const RenderArguments& arguments, int frame) {
     if (arguments.frames == 1) return arguments.image.output;
     std::filesystem::path path = arguments.image.output;
     const std::string name =
@@ -62,7 +62,7 @@ std::filesystem::path framePath(const Arguments& arguments, int frame) {
     return path.replace_filename(name);
 }
 
-void checkFiles(const Arguments& arguments, const MovingLight& light) {
+void checkFiles(const RenderArguments& arguments, const MovingLight& light) {
     CommandFiles files;
     files.addInput(arguments.file);
     files.addInput(arguments.session);
@@ -150,7 +150,7 @@ void warnOfSmallLamps(const Light& light, const Asset& asset) {
             asset.layout ? asset.layout->error : kDefaultLayoutError);
 }
 
-void run(const Arguments& arguments) {
+void run(const RenderArguments& arguments) {
     arguments.image.check();
     std::optional<vk::TimingCapture> timings;
     if (!arguments.timings.empty()) {
@@ -250,7 +250,7 @@ void addRelightMode(CLI::App& command, RelightMode& mode) {
 
 void addRenderCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("render", "Relight and draw a bake into images");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RenderArguments>();
     command->add_option("FILE,--bake", arguments->file, "Bake (.relume)");
     command
         ->add_option("--session", arguments->session,

@@ -13,7 +13,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct SheetArguments {
     std::vector<std::string> files, lights;
     std::filesystem::path output;
     CameraArguments camera;
@@ -22,7 +22,7 @@ struct Arguments {
     int samples = kDefaultSamples;
 };
 
-void checkFiles(const Arguments& arguments) {
+void checkFiles(const SheetArguments& arguments) {
     if (arguments.output.extension() != ".png")
         throw UsageError(
             fmt::format("--output: expected a name ending in .png, found {}", arguments.output.string()));
@@ -34,7 +34,7 @@ void checkFiles(const Arguments& arguments) {
     expectWritable(arguments.output);
 }
 
-void run(const Arguments& arguments) {
+void run(const SheetArguments& arguments) {
     checkFiles(arguments);
     std::vector<SheetColumn> columns;
     for (const std::string& file : arguments.lights) columns.push_back({stillLight(file, true)});
@@ -73,7 +73,7 @@ void run(const Arguments& arguments) {
 void addSheetCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("sheet", "Draw a contact sheet: every material of bakes under several lights");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SheetArguments>();
     arguments->lights = {""};
     arguments->camera.width = 320, arguments->camera.height = 240;
     command->add_option("FILE", arguments->files, "Bakes (.relume): a row for each material of each")

@@ -13,7 +13,7 @@ namespace relume {
 
 namespace {
 
-struct Arguments {
+struct VerifyArguments {
     std::string file;
     std::filesystem::path visibilityImage;
     LightArguments light;
@@ -22,7 +22,7 @@ struct Arguments {
     bool json = false;
 };
 
-void run(const Arguments& arguments) {
+void run(const VerifyArguments& arguments) {
     if (!arguments.visibilityImage.empty()) {
         expectExtension("--visibility-image", arguments.visibilityImage, ".png");
         expectWritable(arguments.visibilityImage);
@@ -91,7 +91,7 @@ void run(const Arguments& arguments) {
 void addVerifyCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("verify", "Hold a bake against the CPU and Embree, stage by stage");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<VerifyArguments>();
     command->add_option("FILE", arguments->file, "Bake (.relume)")->required();
     command->add_option("--samples", arguments->samples, "Vertices to recompute")
         ->type_name("COUNT")
