@@ -117,7 +117,7 @@ int samplesPerTexelSide(int environmentWidth, int cubeSize) {
 
 LightFootprints makeLightFootprints(int width, int height, int size) {
     RELUME_CHECK(width > 0 && width <= 65536 && height > 0 && height <= 65536 && size > 0);
-    // A map of 1024 x 512 keeps a thread busy for 0.1 s a face, while somebody waits for the first picture.
+    // A map of 512 x 256 keeps a thread busy for 0.06 s a face, while somebody waits for the first picture.
     std::array<LightFootprints, kCubeFaces> faces;
     const auto sample = [&](std::span<const int> some) {
         parallelFor(some.size(),
