@@ -150,12 +150,14 @@ void Content::close(size_t model) {
 void Content::bake(const std::filesystem::path& input) {
     const Bake bake{input, bakePath(input)};
     mInputs[bake.output] = wholePath(input);
-    if (mBake && mBake->output() == bake.output) return;
+    const auto isSame = [&](const Bake& other) { return other.output == bake.output; };
+    // It is not begun again while it runs, or is the next and its sketch is being read.
+    if (mBake ? mBake->output() == bake.output : !mNextBakes.empty() && isSame(mNextBakes.front())) return;
     if (mBake) { // to be resumed later
         mNextBakes.push_back({mBake->input(), mBake->output()});
         cancelBake();
     }
-    std::erase_if(mNextBakes, [&](const Bake& other) { return other.output == bake.output; });
+    std::erase_if(mNextBakes, isSame);
     std::error_code failure;
     const bool isThere = std::filesystem::exists(bake.output, failure);
     if (!isThere || std::filesystem::exists(bake.output.string() + ".checkpoint", failure))
@@ -165,6 +167,7 @@ void Content::bake(const std::filesystem::path& input) {
         mTell(why + "; it is baked again", false);
         std::error_code ignored;
         std::filesystem::remove(bake.output, ignored);
+        std::erase_if(mNextBakes, [&](const Bake& other) { return other.output == bake.output; });
         mNextBakes.push_front(bake);
     });
 }
@@ -283,8 +286,8 @@ void Content::openLight(const std::filesystem::path& file) {
 }
 
 Task Content::task() const {
-    const std::string reading = mModelWorker.isIdle() ? mLightWorker.title() : mModelWorker.title();
-    if (!mBake) return {.title = !mNextBakes.empty() ? "waiting for the bake before" : reading};
+    if (!mBake && !mModelWorker.isIdle()) return {.title = mModelWorker.title()};
+    if (!mBake) return {.title = !mNextBakes.empty() ? "waiting for the bake before" : mLightWorker.title()};
     return {.title = "baking " + mBake->input().filename().string() + ": " + mBake->progress().stage,
             .fraction = mBake->progress().fraction,
             .secondsLeft = mBake->progress().secondsLeft,

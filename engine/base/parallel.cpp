@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -29,6 +30,7 @@ void parallelFor(size_t count, const std::function<void(size_t)>& work) {
         try {
             while (threads.size() + 1 < most) threads.emplace_back(run);
         } catch (const std::system_error&) { // no more threads
+        } catch (const std::bad_alloc&) {    // nor memory for them
         }
         run();
     }

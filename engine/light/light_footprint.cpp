@@ -56,8 +56,8 @@ class Accumulator {
     float mTotal = 0;
 };
 
-// Faces by their directions, of which front is +Z and right, where columns of the map are less, +X.
-constexpr int kRight = 0, kLeft = 1, kUp = 2, kDown = 3, kFront = 4, kBack = 5;
+// Faces by the axes that they look along.
+constexpr int kPlusX = 0, kMinusX = 1, kPlusY = 2, kMinusY = 3, kPlusZ = 4, kMinusZ = 5;
 
 // Returns the footprints of one face, by sampling.
 LightFootprints sampleFace(int face, int width, int height, int size) {
@@ -124,13 +124,13 @@ LightFootprints makeLightFootprints(int width, int height, int size) {
                     [&](size_t i) { faces[size_t(some[i])] = sampleFace(some[i], width, height, size); });
     };
     if (width % 4 == 0) {
-        sample(std::array{kUp, kFront});
-        faces[kDown] = mirrored(faces[kUp]);
-        faces[kRight] = turned(faces[kFront], 1);
-        faces[kBack] = turned(faces[kFront], 2);
-        faces[kLeft] = turned(faces[kFront], 3);
+        sample(std::array{kPlusY, kPlusZ});
+        faces[kMinusY] = mirrored(faces[kPlusY]);
+        faces[kPlusX] = turned(faces[kPlusZ], 1);
+        faces[kMinusZ] = turned(faces[kPlusZ], 2);
+        faces[kMinusX] = turned(faces[kPlusZ], 3);
     } else {
-        sample(std::array{kRight, kLeft, kUp, kDown, kFront, kBack});
+        sample(std::array{kPlusX, kMinusX, kPlusY, kMinusY, kPlusZ, kMinusZ});
     }
     LightFootprints all{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
     for (const LightFootprints& face : faces) {
