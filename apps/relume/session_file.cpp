@@ -11,21 +11,21 @@ namespace relume {
 
 namespace {
 
-using Json = nlohmann::json;
+std::string textOf(const nlohmann::json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
 
-std::string textOf(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
-std::vector<std::string> resultsOf(const Json& value) {
+std::vector<std::string> resultsOf(const nlohmann::json& value) {
     if (!value.is_array()) return {textOf(value)};
     std::vector<std::string> results;
-    for (const Json& each : value) results.push_back(textOf(each));
+    for (const nlohmann::json& each : value) results.push_back(textOf(each));
     return results;
 }
 
 } // namespace
 
 void applySession(const std::filesystem::path& file, CLI::App& command) {
-    const Json session = readSessionFile(file);
+    const nlohmann::json session = readSessionFile(file);
     const auto isGiven = [](const CLI::Option* option) { return option->count() > 0; };
     const CLI::Option* const background = command.get_option("--background");
     const CLI::Option* const blur = command.get_option("--background-blur");
