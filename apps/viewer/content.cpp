@@ -212,7 +212,7 @@ void Content::pollBake() {
         bake->poll();
         return !bake->isRunning();
     });
-    // A bake takes all processor cores, so what is about to be seen comes first.
+    // A bake takes all processor cores, so it waits until its mesh has been read to be shown.
     const bool isFree = !mBake && mStopping.empty() && mModelWorker.isIdle();
     if (isFree && !mNextBakes.empty()) {
         const Bake next = mNextBakes.front();

@@ -91,8 +91,8 @@ class Content {
     std::shared_ptr<Model> mShown;
     std::unique_ptr<BakeProcess> mBake;
     std::vector<std::unique_ptr<BakeProcess>> mStopping; // asked to end
-    std::deque<Bake> mNextBakes;                         // wait for those to end, then run one by one
-    bool mMustReload = false; // the running bake has written its file since that was read
+    std::deque<Bake> mNextBakes; // wait for those and for reading, then run one by one
+    bool mMustReload = false;    // the running bake has written its file since that was read
     bool mHasChanged = false;
     std::vector<std::filesystem::path> mRecent;
     std::map<std::filesystem::path, std::filesystem::path> mInputs; // per bake

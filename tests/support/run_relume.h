@@ -40,8 +40,8 @@ inline Outcome runRelume(const TemporaryFolder& folder, const std::string& argum
     return runProgram(folder, RELUME_PROGRAM, arguments, environment);
 }
 
-// Writes a ball of 642 vertices to the folder and returns the words with which `relume bake` takes it as it
-// is.
+// Writes a ball of 642 vertices to the folder and returns the arguments with which `relume bake` takes it
+// unrefined.
 inline std::string ballIn(const TemporaryFolder& folder) {
     if (!std::filesystem::exists(folder.path() / "ball.obj"))
         folder.write("ball.obj", sampleObj(makeSphere(3)));
