@@ -12,6 +12,7 @@
 #include "precompute/bake/tangents.h"
 #include "precompute/bake/transport_pass.h"
 #include "precompute/bake/vertex_order.h"
+#include "precompute/bounce/bounce_gather_pass.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_factory.h"
 #include "precompute/layout/conversion.h"
@@ -165,7 +166,10 @@ std::string identityOf(const BakePlan& plan) {
                                    visibilityKernels(VisibilityMethod::Traced), TransportPass::kernels()})
         for (const auto kernel : kernels) hash.add(kernel);
     hash.add(std::span(&kLayoutEncoderVersion, 1));
-    if (plan.asset.bounces > 0) hash.add(std::span(&kBouncesVersion, 1));
+    if (plan.asset.bounces > 0) {
+        hash.add(std::span(&kBouncesVersion, 1));
+        for (const auto kernel : BounceGatherPass::kernels()) hash.add(kernel);
+    }
     forEachArray(
         plan.asset, [&](ChunkTag, uint32_t, const auto& elements) { hash.add(std::span(elements)); },
         [](uint32_t, const MaterialSet&) {});

@@ -5,7 +5,7 @@
 #include "engine/base/stopwatch.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/vertex_rows.h"
-#include "precompute/bounce/bounce_gather.h"
+#include "precompute/bounce/bounce_gather_pass.h"
 #include "precompute/transport/row_sum.h"
 #include "precompute/visibility/visibility.h"
 
@@ -46,21 +46,6 @@ BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
     return sources;
 }
 
-// Returns the coefficients of rows of a larger cube that exist at kBounceFaceSize.
-SparseTransport coarseRows(const SparseTransport& rows, int faceSize) {
-    SparseTransport coarse{rows.vertices, rows.terms, {0}, {}, {}, {}};
-    for (size_t row = 0; row < rows.rows(); row++) {
-        for (uint64_t entry = rows.rowStarts[row]; entry < rows.rowStarts[row + 1]; entry++)
-            if (const auto index = bounceCoefficient(rows.indices[entry], faceSize)) {
-                coarse.indices.push_back(*index);
-                coarse.values.push_back(rows.values[entry]);
-            }
-        coarse.scales.push_back(rows.scales[row] * float(faceSize) / kBounceFaceSize);
-        coarse.rowStarts.push_back(coarse.entries());
-    }
-    return coarse;
-}
-
 // Returns, per part, the direct transport of its bound set.
 std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& plan, const Appearance& bound,
                                          const BakeLimits& limits, BakeObserver& observer, BakeTimes& times) {
@@ -75,7 +60,7 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
     BakePlan sources = planOfSources(plan, bound);
     std::swap(sources.asset.occluder, plan.asset.occluder); // large: never two copies
     const TakeRows take = [&](uint32_t part, std::span<const BakedRows> sets) {
-        appendRows(rows[part], coarseRows(sets[0].transport, kSourceFaceSize));
+        appendRows(rows[part], bounceRows(sets[0].transport, kSourceFaceSize));
     };
     bakeVertices(device, sources, vertices, limits, take, observer, times);
     std::swap(sources.asset.occluder, plan.asset.occluder);
@@ -94,9 +79,9 @@ void expectMemory(const BakePlan& plan, const Appearance& bound) {
 }
 
 // Logs parts whose factors reflect more light than they receive.
-void logHeld(const BakePlan& plan, const BounceGather& gather) {
+void logHeld(const BakePlan& plan, const BounceHits& hits) {
     std::map<size_t, float> shares; // by part, the largest over its layers
-    for (const BounceGather::HeldLayer& held : gather.heldLayers())
+    for (const BounceHits::HeldLayer& held : hits.heldLayers())
         shares[held.part] = std::max(shares[held.part], held.share);
     for (const auto& [part, share] : shares)
         log(LogLevel::Info,
@@ -137,6 +122,19 @@ SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
         sum.add(b, row, 1);
         return sum.pack(kSourceKept);
     });
+}
+
+// Returns whether the device gathers light, which on the host's own cores takes longer than the host does.
+// Sources may be too large for it.
+bool gathersOnDevice(const vk::Device& device, std::span<const SparseTransport> sources) {
+    if (device.info().isSoftware) return false;
+    uint64_t entries = 0;
+    for (const SparseTransport& part : sources) entries += uint64_t(part.rows()) * kSourceKept;
+    if (BounceGatherPass::canGatherFrom(device, entries)) return true;
+    log(LogLevel::Warning, fmt::format("bounced light: {:.1f} GB of transport do not fit a buffer of {}; the "
+                                       "host gathers it instead, which takes longer",
+                                       double(entries) * sizeof(uint32_t) * 1e-9, device.name()));
+    return false;
 }
 
 } // namespace
@@ -197,8 +195,10 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
     StageObserver stage(observer, BakeStage::Bounces);
     std::vector<SparseTransport> direct = bakeSources(device, plan, bound, limits, stage, times);
     const Stopwatch watch;
-    const BounceGather gather(plan.asset, bound);
-    logHeld(plan, gather);
+    const BounceHits hits(plan.asset, bound);
+    logHeld(plan, hits);
+    std::optional<BounceGatherPass> onDevice;
+    if (gathersOnDevice(device, direct)) onDevice.emplace(device, hits);
     std::vector<std::vector<SparseTransport>> bounced;
     const int bounces = plan.options.bounces;
     const uint64_t all = plan.vertices();
@@ -211,7 +211,7 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
         bounced.clear();
         const Stopwatch bounceWatch;
         observer.stage(BakeStage::Bounces, "");
-        bounced = gather.gather(from, [&](uint64_t done) {
+        const auto report = [&](uint64_t done) {
             const double perSecond = double(done) / std::max(bounceWatch.seconds(), 1e-9);
             const auto left = double(all - done + all * uint64_t(bounces - 1 - bounce));
             observer.progress({.vertices = all,
@@ -220,11 +220,14 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
                                .verticesPerSecond = perSecond,
                                .secondsLeft = left / perSecond});
             return !observer.wantsStop();
-        });
+        };
+        bounced = onDevice ? onDevice->gather(from, report) : BounceGather(hits).gather(from, report);
         if (bounced.empty()) throw BakeStopped("stopped");
         if (lastSources && bounce == bounces - 1) *lastSources = std::move(from);
     }
-    times.bounces += watch.seconds();
+    const vk::PassTimes onDeviceTimes = onDevice ? onDevice->times() : vk::PassTimes();
+    for (const auto& [name, seconds] : onDeviceTimes) vk::addTime(times.device, name, seconds);
+    times.bounces += watch.seconds() - vk::secondsOf(onDeviceTimes);
     return std::make_shared<const BouncedTransport>(std::move(bounced));
 }
 

@@ -2,10 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/vk/upload.h"
-#include "shaders/compact_comp.h"
-#include "shaders/quantize_comp.h"
-#include "shaders/row_starts_comp.h"
-#include "shaders/select_comp.h"
+#include "shaders/shared/bake.h"
 #include "shaders/transport_comp.h"
 #include "shaders/transport_portable_comp.h"
 
@@ -17,12 +14,6 @@
 namespace relume {
 
 namespace {
-
-// Returns the number of blocks of a row, as laid out in shaders/lib/haar_block.glsl.
-uint64_t rowBlocks(uint64_t faceSize) {
-    const uint64_t fine = faceSize / 4, coarse = faceSize / 16;
-    return 6 * (fine * fine + coarse * coarse + 1);
-}
 
 // Makes a table for lookups of one fetch per channel: texel ((y · (S + 1) + x) · K + term) · 3 + channel
 // holds the four values that a lookup between the map's texels x - 1 and x, y - 1 and y needs. Borders are
@@ -52,10 +43,6 @@ vk::Buffer makeCorners(const vk::Device& device, const FactoredBrdf& brdf) {
 
 } // namespace
 
-uint64_t TransportPass::rowBytes(const BakeOptions& options) {
-    return rowBlocks(uint64_t(options.faceSize)) * 16 * sizeof(vec3);
-}
-
 TransportTuning TransportTuning::of(const vk::Device& device) {
     if (!device.info().isSoftware) return {64, ~0ull};
     // A workgroup of one subgroup avoids switching between subgroups. Rows that are read soon after they were
@@ -65,62 +52,43 @@ TransportTuning TransportTuning::of(const vk::Device& device) {
 }
 
 uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
-    const auto entries = uint64_t(options.coefficients);
     // Coefficients and block summaries; selected indices, values, and entries read back.
     return uint64_t(terms) *
-           (rowBytes(options) + rowBlocks(uint64_t(options.faceSize)) * sizeof(vec2) + 16 * entries);
+           (PackingPass::coefficientBytes(options.faceSize) + PackingPass::summaryBytes(options.faceSize) +
+            16 * uint64_t(options.coefficients));
 }
 
 uint32_t TransportPass::largestBatch(const vk::Device& device, const BakeOptions& options) {
-    return uint32_t(device.largestStorageBuffer() / rowBytes(options));
+    return uint32_t(device.largestStorageBuffer() / PackingPass::coefficientBytes(options.faceSize));
 }
 
 TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf, const BakeOptions& options,
-                             uint32_t capacity, const TransportTuning& tuning)
-    : mFaceSize(uint32_t(options.faceSize)), mKept(uint32_t(options.coefficients)) {
-    using enum vk::BufferUse;
+                             uint32_t capacity, const TransportTuning& tuning) {
     const uint32_t largestBatch = TransportPass::largestBatch(device, options);
     RELUME_CHECK_LE(capacity, largestBatch);
     const auto terms = uint32_t(brdf.terms);
     const uint32_t termsTogether = std::min(terms, largestBatch / capacity);
     for (uint32_t term = 0; term < terms; term += termsTogether) {
         const uint32_t count = std::min(termsTogether, terms - term);
-        const uint64_t rows = uint64_t(capacity) * count;
-        mGroups.push_back({term,
-                           count,
-                           {device, rows * 4, Readback, "row counts"},
-                           {device, rows * 4, Readback, "row scales"},
-                           {device, rows * sizeof(shared::RowStatistics), Readback, "row statistics"},
-                           {device, rows * mKept * 8, Readback, "row entries"}});
+        mGroups.push_back({term, count, {device, uint64_t(capacity) * count, options.coefficients}});
     }
-    const uint64_t rows = uint64_t(capacity) * termsTogether;
-    mTogether = uint32_t(
-        std::clamp<uint64_t>(tuning.coefficientBytes / (termsTogether * rowBytes(options)), 1, capacity));
-    const uint64_t rowsTogether = uint64_t(mTogether) * termsTogether;
-    mCoefficients = {device, rowsTogether * rowBytes(options), Device, "coefficients"};
-    mSelected = {device, rows * mKept * 4, Device, "selected indices"};
-    mSelectedCounts = {device, rows * 4, Device, "selected counts"};
-    mValues = {device, rows * mKept * 4, Device, "packed values"};
-    mStarts = {device, rows * 4, Device, "row starts"};
-
-    mSummaries = {device, rowsTogether * rowBlocks(mFaceSize) * sizeof(vec2), Device, "block summaries"};
-
+    const uint64_t pointBytes = termsTogether * PackingPass::coefficientBytes(options.faceSize);
+    mTogether = uint32_t(std::clamp<uint64_t>(tuning.coefficientBytes / pointBytes, 1, capacity));
+    mPacking.emplace(device, options.faceSize, options.coefficients, uint64_t(capacity) * termsTogether,
+                     uint64_t(mTogether) * termsTogether, tuning.lanes);
     mCorners = makeCorners(device, brdf);
     const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
     mTransport = {device,
                   transport_comp_spirv,
-                  {mFaceSize, uint32_t(options.visibilitySize), samplesPerSide, uint32_t(brdf.size),
-                   uint32_t(brdf.mapping), terms, tuning.lanes},
+                  {uint32_t(options.faceSize), uint32_t(options.visibilitySize), samplesPerSide,
+                   uint32_t(brdf.size), uint32_t(brdf.mapping), terms, tuning.lanes},
                   "transport"};
-    mSelect = {device, select_comp_spirv, {mFaceSize, tuning.lanes}, "select"};
-    mQuantize = {device, quantize_comp_spirv, {mFaceSize}, "quantize"};
-    mRowStarts = {device, row_starts_comp_spirv, {}, "row starts"};
-    mCompact = {device, compact_comp_spirv, {}, "compact"};
 }
 
 std::vector<std::span<const uint32_t>> TransportPass::kernels() {
-    return {transport_comp_spirv, transport_portable_comp_spirv, select_comp_spirv,
-            quantize_comp_spirv,  row_starts_comp_spirv,         compact_comp_spirv};
+    std::vector<std::span<const uint32_t>> all = PackingPass::kernels();
+    all.insert(all.begin(), {transport_comp_spirv, transport_portable_comp_spirv});
+    return all;
 }
 
 void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uint32_t count,
@@ -132,42 +100,19 @@ void TransportPass::record(vk::Commands& commands, const vk::Buffer& points, uin
 void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points,
                                 uint32_t count, const vk::Buffer& bits) const {
     using enum vk::Stage;
-    const auto groupPerRow = [&](const vk::ComputeProgram& program, uint32_t rowCount) {
-        return uvec3(rowCount * program.groupSize()[0], 1, 1);
-    };
     for (uint32_t first = 0; first < count; first += mTogether) {
-        const uint32_t pointCount = std::min(mTogether, count - first), rowCount = pointCount * group.terms;
-        const shared::RowsPush rows{rowCount, mKept, first * group.terms};
+        const uint32_t pointCount = std::min(mTogether, count - first);
         commands.barrier(Compute, Compute);
         commands.pass("transport", [&] {
             commands.dispatch(mTransport,
                               {points, bits, vk::Binding::texelsOf(mCorners, VK_FORMAT_R32G32B32A32_SFLOAT),
-                               mCoefficients, mSummaries},
+                               mPacking->coefficients(), mPacking->summaries()},
                               shared::TransportPush{group.firstTerm, group.terms, first},
                               {6 * mTransport.groupSize()[0], pointCount, 1});
         });
-        commands.barrier(Compute, Compute);
-        commands.pass("select", [&] {
-            commands.dispatch(mSelect,
-                              {mCoefficients, mSummaries, mSelected, mSelectedCounts, group.statistics}, rows,
-                              groupPerRow(mSelect, rowCount));
-        });
-        commands.barrier(Compute, Compute);
-        commands.pass("quantize", [&] {
-            commands.dispatch(mQuantize,
-                              {mCoefficients, mSelected, mSelectedCounts, mValues, group.counts, group.scales,
-                               group.statistics},
-                              rows, groupPerRow(mQuantize, rowCount));
-        });
+        mPacking->recordSelection(commands, group.rows, pointCount * group.terms, first * group.terms);
     }
-    const shared::RowsPush rows{count * group.terms, mKept, 0};
-    commands.barrier(Compute, Compute);
-    commands.pass("compact", [&] {
-        commands.dispatch(mRowStarts, {group.counts, mStarts}, rows, {mRowStarts.groupSize()[0], 1, 1});
-        commands.barrier(Compute, Compute);
-        commands.dispatch(mCompact, {mSelected, mSelectedCounts, mValues, mStarts, group.entries}, rows,
-                          groupPerRow(mCompact, rows.rows));
-    });
+    mPacking->recordCompaction(commands, group.rows, count * group.terms);
 }
 
 void TransportPass::collect(uint32_t count, SparseTransport& transport,
@@ -177,19 +122,8 @@ void TransportPass::collect(uint32_t count, SparseTransport& transport,
     for (uint32_t point = 0; point < count; point++)
         for (size_t g = 0; g < mGroups.size(); g++) {
             const TermGroup& group = mGroups[g];
-            const auto entries = group.entries.map<glm::u32vec2>();
-            for (uint32_t row = point * group.terms; row < (point + 1) * group.terms; row++) {
-                const uint32_t rowEntries = group.counts.map<uint32_t>()[row];
-                for (const glm::u32vec2& entry : entries.subspan(next[g], rowEntries)) {
-                    transport.indices.push_back(uint16_t(entry.x));
-                    transport.values.push_back(entry.y);
-                }
-                next[g] += rowEntries;
-                transport.rowStarts.push_back(transport.values.size());
-                transport.scales.push_back(group.scales.map<float>()[row]);
-                const shared::RowStatistics& sums = group.statistics.map<shared::RowStatistics>()[row];
-                losses.push_back({sums.total, sums.dropped, sums.quantized});
-            }
+            for (uint32_t row = point * group.terms; row < (point + 1) * group.terms; row++)
+                group.rows.append(row, next[g], transport, losses);
         }
 }
 

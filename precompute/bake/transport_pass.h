@@ -5,24 +5,11 @@
 #include "engine/transport/rows/sparse_transport.h"
 #include "engine/vk/commands.h"
 #include "precompute/bake/bake_options.h"
-#include "shaders/shared/bake.h"
+#include "precompute/transport/packing_pass.h"
+
+#include <optional>
 
 namespace relume {
-
-// The losses of one or more rows, as sums of squares.
-struct TransportLosses {
-    double total = 0;     // of all coefficients
-    double dropped = 0;   // lost by keeping only N
-    double quantized = 0; // lost by quantization
-    double layout = 0;    // lost by the layout, weighted and normalized as in ClusterMatrix
-
-    void add(const TransportLosses& other) {
-        total += other.total;
-        dropped += other.dropped;
-        quantized += other.quantized;
-        layout += other.layout;
-    }
-};
 
 // Tuning of the kernels for a device. Does not change rows; losses may differ by rounding.
 struct TransportTuning {
@@ -56,9 +43,7 @@ class TransportPass {
     // Returns, for parity tests, the coefficients of the last term group and the last points processed
     // together. Rows are laid out as in shaders/lib/haar_block.glsl (haarSlot()); blocks that no light
     // reaches keep their old content.
-    const vk::Buffer& coefficients() const { return mCoefficients; }
-
-    static uint64_t rowBytes(const BakeOptions& options); // of the coefficients of one row
+    const vk::Buffer& coefficients() const { return mPacking->coefficients(); }
 
     // Returns the device and host-visible bytes per point of a batch; and how many points fit a storage
     // buffer.
@@ -66,19 +51,19 @@ class TransportPass {
     static uint32_t largestBatch(const vk::Device& device, const BakeOptions& options);
 
   private:
-    // Terms that are processed together, and the buffers that receive their results.
+    // Terms that are processed together, and their rows, ordered by point, then term.
     struct TermGroup {
         uint32_t firstTerm, terms;
-        vk::Buffer counts, scales, statistics, entries; // mapped
+        PackedRows rows;
     };
     void recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points, uint32_t count,
                      const vk::Buffer& bits) const;
 
-    uint32_t mFaceSize, mKept, mTogether;
+    uint32_t mTogether; // points
     vk::Buffer mCorners;
     std::vector<TermGroup> mGroups;
-    vk::Buffer mCoefficients, mSelected, mSelectedCounts, mValues, mStarts, mSummaries;
-    vk::ComputeProgram mTransport, mSelect, mQuantize, mRowStarts, mCompact;
+    std::optional<PackingPass> mPacking;
+    vk::ComputeProgram mTransport;
 };
 
 } // namespace relume

@@ -9,11 +9,8 @@
 // ones.
 #pragma once
 
-#include "engine/render/appearance.h"
 #include "engine/transport/rows/sparse_transport.h"
-#include "precompute/visibility/ray_tracer.h"
-
-#include <functional>
+#include "precompute/bounce/bounce_hits.h"
 
 namespace relume {
 
@@ -29,54 +26,33 @@ std::optional<uint16_t> bounceCoefficient(uint16_t coefficient, int size);
 // Returns the index in a cube of `size` texels per side of a coefficient of kBounceFaceSize.
 uint16_t coefficientOfBounce(uint16_t coefficient, int size);
 
-// Returns, per channel, the share of uniform light that a layer's terms reflect (their mean albedo). At most
-// 1 for an energy-conserving BRDF, but factors may exceed it.
-vec3 reflectedShare(const FactoredBrdf& brdf, int layer);
+// Returns the coefficients of rows of a larger cube that exist at kBounceFaceSize.
+SparseTransport bounceRows(const SparseTransport& rows, int faceSize);
 
-// Returns the factor for a layer's view maps where it lights others: 1, or what reduces a larger share to 1,
-// so that bounces converge.
-vec3 sourceGain(vec3 reflectedShare);
+// Returns rows of no vertices for each set of a part.
+std::vector<SparseTransport> emptyBouncedRows(const AssetPart& part);
 
-// Returns the gains of the layers that `bound` binds, per part and bound layer.
-std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound);
+// Called with the number of vertices done; returns whether to go on.
+using BounceReport = std::function<bool(uint64_t vertices)>;
 
-// Gathers bounced light for all vertices of an asset.
+// Gathers bounced light for all vertices of an asset, on the CPU. Device twin: BounceGatherPass.
 class BounceGather {
   public:
-    // Every part lights others with the materials bound in `bound`, times their sourceGains(). Keeps a
-    // reference to `asset`, whose transport it does not use. Throws Error if Embree fails.
-    BounceGather(const Asset& asset, const Appearance& bound);
-
-    // A layer whose gain is below 1.
-    struct HeldLayer {
-        size_t part;
-        int layer;   // of the bound set
-        float share; // reflected share without the gain, largest over channels
-    };
-    const std::vector<HeldLayer>& heldLayers() const { return mHeld; }
-
-    // Called with the number of vertices done; returns whether to go on.
-    using Report = std::function<bool(uint64_t vertices)>;
+    // Keeps a reference to `hits`.
+    explicit BounceGather(const BounceHits& hits) : mHits(hits) {}
 
     // Gathers rows per part and set, from the rows of the bound sets, `from`, one per part; all are
     // coefficients of kBounceFaceSize. The result does not depend on the number of threads. Returns nothing
     // if stopped.
     std::vector<std::vector<SparseTransport>> gather(std::span<const SparseTransport> from,
-                                                     const Report& report) const;
+                                                     const BounceReport& report) const;
 
   private:
-    struct Hit;
     struct Room;
     void gatherVertex(size_t part, uint32_t vertex, std::span<const SparseTransport> from, Room& room,
                       std::span<SparseTransport> rows) const;
-    bool find(vec3 origin, vec3 direction, float choice, Hit& hit) const;
 
-    const Asset& mAsset;
-    Appearance mBound;
-    std::vector<std::vector<vec3>> mGains;        // per part and bound layer
-    std::vector<std::vector<BoundLayer>> mLayers; // per part: the layers that light others
-    std::vector<HeldLayer> mHeld;
-    RayTracer mTracer; // one mesh per part
+    const BounceHits& mHits;
 };
 
 } // namespace relume

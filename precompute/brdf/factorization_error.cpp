@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace relume {
 
@@ -34,17 +35,37 @@ ChannelMaps mapsOf(const BrdfTable& table, const FactoredBrdf& factored, int lay
     return maps;
 }
 
-// Returns ‖target - Σ left_k right_kᵀ‖² after each term. Uses products with the factors, without forming the
-// sum.
-VectorXd squaredResiduals(const MatrixXf& target, const ChannelMaps& maps) {
+// ‖target‖², and ‖target - Σ left_k right_kᵀ‖² after each term.
+struct Residuals {
+    double total = 0;
+    VectorXd terms;
+};
+
+// Uses products with the factors, without forming the sum. columns(first, count) returns a range of the
+// target's columns; it is called once for each, in parallel.
+template <typename Columns>
+Residuals residualsOf(const ChannelMaps& maps, const Columns& columns) {
+    constexpr Index kTogether = 128; // columns; a sum's rounding must not depend on the number of threads
     const MatrixXd left = maps.light.cast<double>(), right = maps.view.cast<double>();
+    const Index ranges = (right.rows() + kTogether - 1) / kTogether;
+    VectorXd totals(ranges);
+    MatrixXd products(left.cols(), ranges);
+    tbb::parallel_for(Index(0), ranges, [&](Index range) {
+        const Index first = range * kTogether, count = std::min(kTogether, right.rows() - first);
+        const MatrixXf target = columns(first, count);
+        totals[range] = target.cast<double>().squaredNorm();
+        products.col(range) =
+            left.cwiseProduct((target * maps.view.middleRows(first, count)).template cast<double>())
+                .colwise()
+                .sum();
+    });
     const MatrixXd grams = (left.transpose() * left).cwiseProduct(right.transpose() * right);
-    const VectorXd products = left.cwiseProduct((target * maps.view).cast<double>()).colwise().sum();
-    VectorXd residuals(left.cols());
-    double residual = target.cast<double>().squaredNorm();
+    const VectorXd product = products.rowwise().sum();
+    Residuals residuals{totals.sum(), VectorXd(left.cols())};
+    double residual = residuals.total;
     for (Index k = 0; k < left.cols(); k++) {
-        residual += grams(k, k) + 2 * grams.col(k).head(k).sum() - 2 * products[k];
-        residuals[k] = std::max(residual, 0.0);
+        residual += grams(k, k) + 2 * grams.col(k).head(k).sum() - 2 * product[k];
+        residuals.terms[k] = std::max(residual, 0.0);
     }
     return residuals;
 }
@@ -61,13 +82,16 @@ std::vector<float> expectedErrorsOf(const BrdfTable& table, const MatrixXf& ligh
     VectorXd residuals = VectorXd::Zero(factored.terms);
     double total = 0;
     for (int c = 0; c < 3; c++) {
-        const MatrixXf seen = table.channels[size_t(c)] * views.asDiagonal();
-        const MatrixXf target = lights.triangularView<Eigen::Upper>() * seen;
         ChannelMaps maps = mapsOf(table, factored, layer, c);
         maps.light = (lights.triangularView<Eigen::Upper>() * maps.light).eval();
         maps.view = (views.asDiagonal() * maps.view).eval();
-        residuals += squaredResiduals(target, maps);
-        total += target.cast<double>().squaredNorm();
+        const Residuals channel = residualsOf(maps, [&](Index first, Index count) -> MatrixXf {
+            const MatrixXf seen =
+                table.channels[size_t(c)].middleCols(first, count) * views.segment(first, count).asDiagonal();
+            return lights.triangularView<Eigen::Upper>() * seen;
+        });
+        residuals += channel.terms;
+        total += channel.total;
     }
     return relative(residuals, total);
 }
@@ -77,9 +101,11 @@ std::vector<float> expectedErrorsOf(const BrdfTable& table, const MatrixXf& ligh
 std::vector<float> frobeniusResiduals(const BrdfTable& table, const FactoredBrdf& factored, int layer) {
     std::vector<float> mean(size_t(factored.terms), 0);
     for (int c = 0; c < 3; c++) {
-        const MatrixXf& target = table.channels[size_t(c)];
-        const std::vector<float> errors = relative(
-            squaredResiduals(target, mapsOf(table, factored, layer, c)), target.cast<double>().squaredNorm());
+        const Residuals residuals =
+            residualsOf(mapsOf(table, factored, layer, c), [&](Index first, Index count) -> MatrixXf {
+                return table.channels[size_t(c)].middleCols(first, count);
+            });
+        const std::vector<float> errors = relative(residuals.terms, residuals.total);
         for (size_t k = 0; k < mean.size(); k++) mean[k] += errors[k] / 3;
     }
     return mean;

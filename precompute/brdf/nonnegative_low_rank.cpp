@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tbb/parallel_for.h>
 
 namespace relume {
 
@@ -53,6 +54,17 @@ void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
     }
 }
 
+// Calls make(first, count) for ranges of up to kTogether of `size` rows, in parallel. The ranges do not
+// depend on the number of threads, since sums of other ranges are rounded otherwise.
+template <typename Make>
+void forRanges(Index size, const Make& make) {
+    constexpr Index kTogether = 128;
+    tbb::parallel_for(Index(0), (size + kTogether - 1) / kTogether, [&](Index range) {
+        const Index first = range * kTogether;
+        make(first, std::min(kTogether, size - first));
+    });
+}
+
 // Normalizes columns and sorts terms by the sizes of their products.
 void normalize(LowRank& factors) {
     const Index terms = factors.left.cols();
@@ -99,9 +111,17 @@ LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
         MatrixXf product = MatrixXf::Zero(factors.left.rows(), terms),
                  rightGram = MatrixXf::Zero(terms, terms);
         for (size_t j = 0; j < blocks.size(); j++) {
-            sweep(factors.right[j], blocks[j].transpose() * factors.left, leftGram);
-            product.noalias() += blocks[j] * factors.right[j];
-            rightGram.noalias() += factors.right[j].transpose() * factors.right[j];
+            MatrixXf& right = factors.right[j];
+            MatrixXf rightProduct(right.rows(), terms);
+            forRanges(right.rows(), [&](Index first, Index size) {
+                rightProduct.middleRows(first, size).noalias() =
+                    blocks[j].middleCols(first, size).transpose() * factors.left;
+            });
+            sweep(right, rightProduct, leftGram);
+            forRanges(product.rows(), [&](Index first, Index size) {
+                product.middleRows(first, size).noalias() += blocks[j].middleRows(first, size) * right;
+            });
+            rightGram.noalias() += right.transpose() * right;
         }
         sweep(factors.left, product, rightGram);
     }

@@ -68,7 +68,7 @@ class DeviceStages {
         const TransportPass transport(device, set.brdf, options, batch, tuning);
         const vk::Buffer bits(device, batch * bitBytes, vk::BufferUse::Device, "visibility bits");
         const vk::Buffer bitsBack(device, batch * bitBytes, vk::BufferUse::Readback, "visibility bits back");
-        const uint64_t pointBytes = mTerms * TransportPass::rowBytes(options);
+        const uint64_t pointBytes = mTerms * PackingPass::coefficientBytes(options.faceSize);
         const vk::Buffer coefficientsBack(device, batch * pointBytes, vk::BufferUse::Readback,
                                           "coefficients back");
         vk::Commands commands(device, "verify");
@@ -94,7 +94,7 @@ class DeviceStages {
                 for (size_t texel = 0; texel < cube.size(); texel++)
                     cube[texel] = words[texel / 32] >> texel % 32 & 1;
                 for (uint32_t term = 0; term < mTerms; term++) {
-                    const size_t rowSlots = TransportPass::rowBytes(options) / sizeof(vec3);
+                    const size_t rowSlots = PackingPass::coefficientBytes(options.faceSize) / sizeof(vec3);
                     const auto slots =
                         coefficientsBack.map<vec3>().subspan((point * mTerms + term) * rowSlots, rowSlots);
                     std::vector<vec3>& row = mCoefficients.emplace_back();

@@ -82,6 +82,19 @@ struct RowStatistics {
 };
 RELUME_SHARED_SIZE(RowStatistics, 12)
 
+// A surface that lights a vertex, for bounce_gather.comp.
+struct SourceHit {
+    uint firstRow, rows; // of the sources
+    float unit;          // radiance of a step
+};
+RELUME_SHARED_SIZE(SourceHit, 12)
+
+struct BounceGatherPush {
+    uint terms;       // of the rows that are made, per vertex
+    uint sourceTerms; // steps per hit
+};
+RELUME_SHARED_SIZE(BounceGatherPush, 8)
+
 RELUME_SHARED_END
 
 #endif

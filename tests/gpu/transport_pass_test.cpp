@@ -218,7 +218,7 @@ TEST_CASE("transport pass: any tuning gives the same rows") {
     options.visibilitySize = 128;
     const FactoredBrdf brdf = makeMaps(3, 16, DiskMapping::EqualArea);
     const Samples samples = makeSamples(5, 128);
-    const uint64_t pointBytes = 3 * TransportPass::rowBytes(options);
+    const uint64_t pointBytes = 3 * PackingPass::coefficientBytes(options.faceSize);
     const auto bake = [&](const TransportTuning& tuning) {
         return bakeSamples(device, {device, brdf, options, 5, tuning}, samples, 5);
     };

@@ -1,12 +1,9 @@
 // Tests one bounce of light against a closed form and against its twin.
-#include "engine/import/builtin_mesh.h"
 #include "engine/math/haar.h"
-#include "precompute/bounce/bounce_gather.h"
 #include "precompute/reference/bound_asset.h"
-#include "precompute/transport/row_sum.h"
 #include "precompute/twins/bounce_twin.h"
+#include "tests/support/bounce_scene.h"
 #include "tests/support/bowl.h"
-#include "tests/support/diffuse_asset.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -30,44 +27,12 @@ SparseTransport constantRows(const AssetPart& part, vec3 value, size_t coefficie
     return rows;
 }
 
-SparseTransport randomRows(const AssetPart& part, std::mt19937& random) {
-    SparseTransport rows = emptyRows(uint32_t(part.sets[0].brdf.terms));
-    RowSum sum(kBounceCoefficients);
-    std::uniform_real_distribution<float> amount(0.5f, 1);
-    for (size_t row = 0; row < part.mesh.vertexCount() * rows.terms; row++) {
-        for (int i = 0; i < 8; i++) sum.add(size_t(i), {amount(random), amount(random), amount(random)});
-        appendRow(rows, sum.pack(8));
-    }
-    rows.vertices = uint32_t(part.mesh.vertexCount());
-    return rows;
-}
-
-std::vector<vec3> denseRow(const SparseTransport& rows, size_t row) {
-    std::vector<vec3> dense(kBounceCoefficients, vec3(0));
-    rows.dequantizeRow(row, dense);
-    return dense;
-}
-
-// Terms and colors that can be mistaken for each other.
-FactoredBrdf coloredTerms(int count) {
-    FactoredBrdf brdf = makeDiffuseFactors({0.2f, 0.1f, 0.05f});
-    for (; brdf.terms < count; brdf.terms++) {
-        const float term = float(brdf.terms) / float(count);
-        brdf.eigenvalues.push_back(brdf.eigenvalues[0]);
-        for (size_t i = 0; i < brdf.mapTexels(); i++) {
-            const float x = float(i % 8) / 8, y = float(i / 8) / 8;
-            brdf.lightMaps.push_back({term * x, 0.5f, (1 - term) * y});
-            brdf.viewMaps.push_back(vec3(y, (1 - term) * x, term) / (8 * kPi));
-        }
-    }
-    return brdf;
-}
-
 } // namespace
 
 TEST_CASE("bounce: a bowl sees itself with half of its directions") {
     Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
-    const BounceGather gather(asset, defaultAppearance(asset));
+    const BounceHits hits(asset, defaultAppearance(asset));
+    const BounceGather gather(hits);
     const vec3 value(3, 2, 1);
     const std::vector<SparseTransport> from = {constantRows(asset.parts[0], value, 17)};
     const auto bounced = gather.gather(from, [](uint64_t) { return true; });
@@ -93,13 +58,15 @@ TEST_CASE("bounce: factors that reflect more than they receive light others as i
     CHECK(glm::length(reflectedShare(brdf, 0) - vec3(1)) < 1e-3f);
     const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(1))};
     const auto keepOn = [](uint64_t) { return true; };
-    const BounceGather gather(asset, defaultAppearance(asset));
-    CHECK(gather.heldLayers().empty());
+    const BounceHits hits(asset, defaultAppearance(asset));
+    const BounceGather gather(hits);
+    CHECK(hits.heldLayers().empty());
     const auto bounced = gather.gather(from, keepOn);
     for (vec3& value : brdf.viewMaps) value *= vec3(1.5f, 1, 0.5f);
-    const BounceGather held(asset, defaultAppearance(asset));
-    REQUIRE(held.heldLayers().size() == 1);
-    CHECK(held.heldLayers()[0].share == doctest::Approx(1.5));
+    const BounceHits heldHits(asset, defaultAppearance(asset));
+    const BounceGather held(heldHits);
+    REQUIRE(heldHits.heldLayers().size() == 1);
+    CHECK(heldHits.heldLayers()[0].share == doctest::Approx(1.5));
     const auto less = held.gather(from, keepOn);
     const SparseTransport &all = bounced[0][0], &found = less[0][0];
     for (size_t row = 0; row < all.rows(); row++) {
@@ -109,20 +76,13 @@ TEST_CASE("bounce: factors that reflect more than they receive light others as i
 }
 
 TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
-    Mesh ground = makePlane(4, 4);
-    for (vec3& position : ground.positions) position.y -= 0.5f;
-    Asset asset =
-        makeTestAsset({makeDiffusePart(makeTorus(1, 0.4f, 24, 12), 0.5f), makeDiffusePart(ground, 0.5f)});
-    // More terms than are summed side by side, of two sets.
-    MaterialSet second = asset.parts[0].sets[0];
-    asset.parts[0].sets[0].brdf = coloredTerms(3);
-    second.brdf = coloredTerms(9);
-    asset.parts[0].sets.push_back(second);
+    const Asset asset = makeBounceScene();
     const Appearance bound = defaultAppearance(asset);
     std::mt19937 random(21);
     const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random),
                                                randomRows(asset.parts[1], random)};
-    const BounceGather gather(asset, bound);
+    const BounceHits hits(asset, bound);
+    const BounceGather gather(hits);
     const auto bounced = gather.gather(from, [](uint64_t) { return true; });
     const RayTracer tracer(partMeshes(asset));
     double difference = 0, all = 0;
@@ -148,7 +108,8 @@ TEST_CASE("bounce: rows are those of the twin, in every term and channel") {
 TEST_CASE("bounce: the same rows from any number of threads, and none when stopped") {
     Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f)});
     asset.parts[0].sets[0].brdf = coloredTerms(9);
-    const BounceGather gather(asset, defaultAppearance(asset));
+    const BounceHits hits(asset, defaultAppearance(asset));
+    const BounceGather gather(hits);
     std::mt19937 random(5);
     const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random)};
     const auto keepOn = [](uint64_t) { return true; };
@@ -167,7 +128,8 @@ TEST_CASE("bounce: surfaces are black from behind") {
     // A lid that shows its back to the bowl, and hides half of it from itself no more than before.
     Mesh lid = makeQuad({-2, 0.2f, -2}, {0, 0, 4}, {4, 0, 0}); // normals up
     Asset asset = makeTestAsset({makeDiffusePart(makeBowl(), 0.6f), makeDiffusePart(lid, 0.9f)});
-    const BounceGather gather(asset, defaultAppearance(asset));
+    const BounceHits hits(asset, defaultAppearance(asset));
+    const BounceGather gather(hits);
     const std::vector<SparseTransport> from = {constantRows(asset.parts[0], vec3(0)),
                                                constantRows(asset.parts[1], vec3(1))};
     const auto bounced = gather.gather(from, [](uint64_t) { return true; });
