@@ -16,7 +16,7 @@ struct BakeTimes {
     double total = 0; // wall clock
     double factorization = 0;
     double occluder = 0;  // merging and simplifying the occluder
-    double bounces = 0;   // gathering bounced light on the host
+    double bounces = 0;   // gathering bounced light, without the device's passes
     double previews = 0;  // making and writing previews
     vk::PassTimes device; // device time by pass
     uint32_t batch = 0;   // largest number of points per submission
