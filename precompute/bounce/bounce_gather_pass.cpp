@@ -13,10 +13,10 @@ namespace relume {
 
 namespace {
 
-constexpr int kPackedFaceSize = 32; // the smallest that the kernels pack
-constexpr uint64_t kBatchBytes = uint64_t(256) << 20;
+constexpr int kPackedFaceSize = 32;                   // the smallest that the kernels pack
+constexpr uint64_t kBatchBytes = uint64_t(256) << 20; // of coefficients and hits
 constexpr uint32_t kMostVertices = 256;
-constexpr uint32_t kMostTogether = 12; // terms that a lane can hold
+constexpr uint32_t kMostTogether = 12; // terms for which a lane has registers
 
 // Returns the work-group size, which divides kBounceCoefficients.
 uint32_t lanesFor(const vk::Device& device) {
@@ -78,7 +78,7 @@ BounceGatherPass::Sources::Sources(const vk::Device& device, std::span<const Spa
     values = vk::upload<uint32_t>(device, allValues, "source values");
 }
 
-// What the vertices of a batch hit, for the device.
+// A batch's hits, which the host finds and the device reads.
 struct BounceGatherPass::HitBuffers {
     HitBuffers(const vk::Device& device, uint32_t vertices, uint32_t terms, uint32_t mostSourceTerms)
         : starts(device, (vertices + 1) * sizeof(uint32_t), "hit starts"),

@@ -18,7 +18,7 @@ class BounceGatherPass {
     // Returns whether rows of so many entries at most can be gathered from on this device.
     static bool canGatherFrom(const vk::Device& device, uint64_t entries);
 
-    // As BounceGather::gather(). Throws OutOfMemory.
+    // Does what BounceGather::gather() does. Throws OutOfMemory.
     std::vector<std::vector<SparseTransport>> gather(std::span<const SparseTransport> from,
                                                      const BounceReport& report);
 

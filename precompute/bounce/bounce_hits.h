@@ -1,4 +1,4 @@
-// The surfaces that a vertex sees along its rays, which light it by reflection.
+// Finds the surfaces that a vertex sees along its rays and that light it by reflection.
 #pragma once
 
 #include "engine/render/appearance.h"
@@ -23,12 +23,12 @@ vec3 sourceGain(vec3 reflectedShare);
 // Returns the gains of the layers that `bound` binds, per part and bound layer.
 std::vector<std::vector<vec3>> sourceGains(const Asset& asset, const Appearance& bound);
 
-// What a ray of a vertex hits.
+// A surface that a ray of a vertex hits.
 struct BounceHit {
     uint32_t part, vertex; // the vertex whose rows represent the surface
     vec3 direction;        // of the ray, in the frame of the vertex that sent it; unit length
-    std::array<vec3, kMostTerms>
-        views; // per term of the part's bound set: view maps towards the ray's origin
+    // The view maps, in 1/sr, towards the ray's origin: per term of the part's bound set.
+    std::array<vec3, kMostTerms> views;
 };
 
 // Finds hits for all vertices of an asset. Thread-safe.

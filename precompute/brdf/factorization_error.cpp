@@ -35,14 +35,14 @@ ChannelMaps mapsOf(const BrdfTable& table, const FactoredBrdf& factored, int lay
     return maps;
 }
 
-// ‖target‖², and ‖target - Σ left_k right_kᵀ‖² after each term.
+// The squared error of a factorization of `target`.
 struct Residuals {
-    double total = 0;
-    VectorXd terms;
+    double total = 0; // ‖target‖²
+    VectorXd terms;   // ‖target - Σ left_k right_kᵀ‖² after each term
 };
 
-// Uses products with the factors, without forming the sum. columns(first, count) returns a range of the
-// target's columns; it is called once for each, in parallel.
+// Returns the residuals by products with the factors, without forming their sum. columns(first, count)
+// returns a range of the target's columns; it is called once for each range, in parallel.
 template <typename Columns>
 Residuals residualsOf(const ChannelMaps& maps, const Columns& columns) {
     constexpr Index kTogether = 128; // columns; a sum's rounding must not depend on the number of threads

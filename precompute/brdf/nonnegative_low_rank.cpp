@@ -55,7 +55,7 @@ void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
 }
 
 // Calls make(first, count) for ranges of up to kTogether of `size` rows, in parallel. The ranges do not
-// depend on the number of threads, since sums of other ranges are rounded otherwise.
+// depend on the number of threads, since products of other ranges may be rounded differently.
 template <typename Make>
 void forRanges(Index size, const Make& make) {
     constexpr Index kTogether = 128;

@@ -21,8 +21,9 @@ struct TransportLosses {
     }
 };
 
-// Packed rows on the device, mapped, in the order of their coefficients.
+// Packed rows in mapped buffers, which the device writes and the host reads.
 struct PackedRows {
+    // Has room for `rows` rows of `kept` entries. Throws OutOfMemory.
     PackedRows(const vk::Device& device, uint64_t rows, int kept);
 
     // Appends row number `row` to `transport`, without counting its vertex, and its losses to `losses`.
@@ -33,10 +34,12 @@ struct PackedRows {
     vk::Buffer counts, scales, statistics, entries;
 };
 
+// Packs the rows in coefficients() into PackedRows. CPU twins are in precompute/twins/transport_twin.h.
 class PackingPass {
   public:
-    // For rows of `faceSize` texels along a side of a cube's face, of which `kept` coefficients are kept, at
-    // most `rows` in a submission and `rowsTogether` at a time. `lanes` is a power of two, at most 64.
+    // A row covers a cube of `faceSize` texels along a side of a face, and `kept` of its coefficients are
+    // kept. A submission has at most `rows` rows, `rowsTogether` of them at a time. `lanes` is a power of
+    // two, at most 64. Throws OutOfMemory.
     PackingPass(const vk::Device& device, int faceSize, int kept, uint64_t rows, uint64_t rowsTogether,
                 uint32_t lanes);
 

@@ -11,6 +11,7 @@
 
 namespace relume::test {
 
+// Returns a BRDF of `count` terms, whose maps differ by term, channel and direction.
 inline FactoredBrdf coloredTerms(int count) {
     FactoredBrdf brdf = makeDiffuseFactors({0.2f, 0.1f, 0.05f});
     for (; brdf.terms < count; brdf.terms++) {
@@ -25,7 +26,7 @@ inline FactoredBrdf coloredTerms(int count) {
     return brdf;
 }
 
-// Rows of random positive values in the first `coefficients` coefficients.
+// Returns rows of random positive values in the first `coefficients` coefficients.
 inline SparseTransport randomRows(const AssetPart& part, std::mt19937& random, int coefficients = 8) {
     SparseTransport rows = emptyRows(uint32_t(part.sets[0].brdf.terms));
     RowSum sum(kBounceCoefficients);
@@ -39,8 +40,8 @@ inline SparseTransport randomRows(const AssetPart& part, std::mt19937& random, i
     return rows;
 }
 
-// A torus of around · across vertices on a ground. The torus has two sets, of more terms than are summed
-// side by side.
+// Returns a torus of around · across vertices on a ground. The torus has two sets, of more terms than are
+// summed side by side.
 inline Asset makeBounceScene(int around = 24, int across = 12) {
     Mesh ground = makePlane(4, 4);
     for (vec3& position : ground.positions) position.y -= 0.5f;
@@ -53,6 +54,7 @@ inline Asset makeBounceScene(int around = 24, int across = 12) {
     return asset;
 }
 
+// Returns all coefficients of a row.
 inline std::vector<vec3> denseRow(const SparseTransport& rows, size_t row) {
     std::vector<vec3> dense(kBounceCoefficients, vec3(0));
     rows.dequantizeRow(row, dense);
