@@ -13,6 +13,8 @@ namespace relume {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct VerifyArguments {
     std::string file;
     std::filesystem::path visibilityImage;
@@ -43,7 +45,6 @@ void run(const VerifyArguments& arguments) {
                                 device->name()));
     if (!arguments.visibilityImage.empty()) writePng(arguments.visibilityImage, ways->picture);
     if (arguments.json) {
-        using Json = nlohmann::ordered_json;
         const Json json = {{"samples", found.samples},
                            {"visibility_mismatch", found.visibilityMismatch},
                            {"raster_traced_difference", ways ? Json(ways->share()) : Json()},

@@ -13,7 +13,7 @@ constexpr std::array kToneNames = {"none", "aces", "agx"};
 // Returns the double with the shortest text that is read as this float.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
-nlohmann::json listOf(vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+nlohmann::json shortestList(vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 
 // Quotes text for a shell.
 std::string quoted(const std::string& text) {
@@ -42,8 +42,8 @@ bool needsLightFile(const LightState& light) {
 nlohmann::ordered_json renderOptions(const SceneState& state, GroundStyle ground, Drawn drawn) {
     const LightState& light = state.light;
     const Camera camera = state.orbit->camera();
-    nlohmann::ordered_json options{{"eye", listOf(camera.eye)},
-                                   {"target", listOf(camera.target)},
+    nlohmann::ordered_json options{{"eye", shortestList(camera.eye)},
+                                   {"target", shortestList(camera.target)},
                                    {"fov", shortest(state.fovDegrees)},
                                    {"rotate", shortest(light.rotation)}};
     if (light.selection.threshold)

@@ -9,7 +9,7 @@
 
 namespace relume {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -17,18 +17,18 @@ constexpr size_t kLargestDepth = 8; // of nested arrays and objects
 
 // Returns parsed JSON if the text is JSON of small depth, else the text itself. Printing recurses, so depth
 // is limited.
-Json jsonOrText(const std::string& text) {
+OrderedJson jsonOrText(const std::string& text) {
     if (isJsonDeeper(text, kLargestDepth)) return text;
-    const Json json = Json::parse(text, nullptr, false);
-    return json.is_discarded() ? Json(text) : json;
+    const OrderedJson json = OrderedJson::parse(text, nullptr, false);
+    return json.is_discarded() ? OrderedJson(text) : json;
 }
 
 double ratio(uint64_t numerator, uint64_t denominator) {
     return denominator == 0 ? 0.0 : double(numerator) / double(denominator);
 }
 
-Json describeSet(const MaterialSet& set) {
-    Json eigenvalues = Json::array(), materials = Json::array();
+OrderedJson describeSet(const MaterialSet& set) {
+    OrderedJson eigenvalues = OrderedJson::array(), materials = OrderedJson::array();
     for (const auto& channels : set.brdf.eigenvalues) eigenvalues.push_back(channels);
     for (const AssetMaterial& material : set.materials)
         materials.push_back({{"name", material.name},
@@ -44,8 +44,8 @@ Json describeSet(const MaterialSet& set) {
             {"bytes_per_vertex", ratio(bytesOf(set.transport), verticesOf(set.transport))}};
 }
 
-Json describePart(const AssetPart& part) {
-    Json json = {
+OrderedJson describePart(const AssetPart& part) {
+    OrderedJson json = {
         {"name", part.name}, {"vertices", part.mesh.vertexCount()}, {"triangles", part.mesh.triangleCount()}};
     if (part.baseColor) json["base_color"] = {part.baseColor->width, part.baseColor->height};
     if (part.materialMap) json["material_map"] = {part.materialMap->width, part.materialMap->height};
@@ -57,7 +57,7 @@ Json describePart(const AssetPart& part) {
         json["emission"] = {detail.emission.x, detail.emission.y, detail.emission.z};
     if (detail.emissionMap) json["emission_map"] = {detail.emissionMap->width, detail.emissionMap->height};
     if (!part.mesh.tangents.empty()) json["tangents"] = true;
-    json["sets"] = Json::array();
+    json["sets"] = OrderedJson::array();
     for (const MaterialSet& set : part.sets) json["sets"].push_back(describeSet(set));
     return json;
 }
@@ -83,13 +83,13 @@ std::string describeLayout(const BasisTransport&) {
 }
 
 // Returns the value of an option that the bake recorded, or null.
-Json optionOf(const Asset& asset, const char* key) {
-    const Json options = jsonOrText(asset.provenance.options);
-    return options.is_object() && options.contains(key) ? options[key] : Json();
+OrderedJson optionOf(const Asset& asset, const char* key) {
+    const OrderedJson options = jsonOrText(asset.provenance.options);
+    return options.is_object() && options.contains(key) ? options[key] : OrderedJson();
 }
 
 // Describes interpolation between vertices by the record of refinement, which may be null.
-std::string describeInterpolation(const Json& record) {
+std::string describeInterpolation(const OrderedJson& record) {
     const auto number = [&](const char* key) {
         return record.is_object() && record.contains(key) && record[key].is_number()
                    ? record[key].get<double>()
@@ -105,12 +105,12 @@ std::string describeInterpolation(const Json& record) {
 }
 
 std::string describeVisibility(const Asset& asset) {
-    const Json triangles = optionOf(asset, "occluder_triangles");
+    const OrderedJson triangles = optionOf(asset, "occluder_triangles");
     const std::string occluder =
         !triangles.is_number() ? "an unknown occluder"
         : triangles > 0 ? fmt::format("a model simplified to {} triangles", asset.occluder.triangleCount())
                         : "all triangles";
-    const Json method = optionOf(asset, "visibility");
+    const OrderedJson method = optionOf(asset, "visibility");
     return fmt::format("visibility: {}, in 6 x {}² directions, taken {:g} above each vertex, of {}",
                        method == "raster"   ? "drawn"
                        : method == "traced" ? "traced"
@@ -120,7 +120,7 @@ std::string describeVisibility(const Asset& asset) {
 
 // Describes the factorization and which values of f the terms of all sets were computed from.
 std::string describeTerms(const Asset& asset) {
-    const Json method = optionOf(asset, "factorization");
+    const OrderedJson method = optionOf(asset, "factorization");
     if (!method.is_string()) return "BRDF terms: of an unknown factorization";
     const auto name = method.get<std::string>();
     const bool hasCenters = name == "paper" || name == "normalized";
@@ -128,9 +128,9 @@ std::string describeTerms(const Asset& asset) {
                        hasCenters ? "at the maps' texel centers" : "averaged over the maps' texels");
 }
 
-Json describeApproximations(const Asset& asset) {
+OrderedJson describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
-    Json list = Json::array();
+    OrderedJson list = OrderedJson::array();
     list.push_back(
         fmt::format("light: infinitely far away, {}, even over each of 6 x {}² texels",
                     asset.bounces == 0 ? std::string("direct alone")
@@ -178,15 +178,15 @@ Json describeApproximations(const Asset& asset) {
     return list;
 }
 
-Json describeLayout(const LayoutRecord& layout) {
-    Json json = Json::object();
+OrderedJson describeLayout(const LayoutRecord& layout) {
+    OrderedJson json = OrderedJson::object();
     if (layout.wantedBytes) json["wanted_bytes_per_vertex"] = *layout.wantedBytes;
     if (layout.wantedError) json["wanted_error"] = *layout.wantedError;
     json["error"] = layout.error;
     return json;
 }
 
-Json describeTotal(const Asset& asset) {
+OrderedJson describeTotal(const Asset& asset) {
     uint64_t vertices = 0, triangles = 0, bytes = 0;
     for (const AssetPart& part : asset.parts) {
         vertices += part.mesh.vertexCount();
@@ -202,35 +202,35 @@ Json describeTotal(const Asset& asset) {
 } // namespace
 
 std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t visibilityBytes) {
-    const Json total = describeTotal(asset);
-    Json parts = Json::array();
+    const OrderedJson total = describeTotal(asset);
+    OrderedJson parts = OrderedJson::array();
     for (const AssetPart& part : asset.parts) parts.push_back(describePart(part));
-    Json info = {{"format_version", kAssetFormatVersion},
-                 {"file_bytes", fileBytes},
-                 {"face_size", asset.faceSize},
-                 {"visibility_size", asset.visibilitySize},
-                 {"coefficients", asset.coefficients},
-                 {"transport_samples", asset.transportSamples},
-                 {"visibility_offset", asset.visibilityOffset},
-                 {"truncation_error", asset.truncationError},
-                 {"quantization_error", asset.quantizationError},
-                 {"layout_error", asset.layout ? describeLayout(*asset.layout) : Json()},
-                 {"approximations", describeApproximations(asset)},
-                 {"occluder_triangles", asset.occluder.triangleCount()},
-                 {"total", total},
-                 {"kept_visibility",
-                  {{"bytes", visibilityBytes},
-                   {"bytes_per_vertex", ratio(visibilityBytes, total["vertices"].get<uint64_t>())}}},
-                 {"parts", parts},
-                 {"provenance",
-                  {{"program", asset.provenance.program},
-                   {"device", asset.provenance.device},
-                   {"options", jsonOrText(asset.provenance.options)},
-                   {"inputs", jsonOrText(asset.provenance.inputs)}}}};
-    if (const Json refinement = optionOf(asset, "refinement"); !refinement.is_null())
+    OrderedJson info = {{"format_version", kAssetFormatVersion},
+                        {"file_bytes", fileBytes},
+                        {"face_size", asset.faceSize},
+                        {"visibility_size", asset.visibilitySize},
+                        {"coefficients", asset.coefficients},
+                        {"transport_samples", asset.transportSamples},
+                        {"visibility_offset", asset.visibilityOffset},
+                        {"truncation_error", asset.truncationError},
+                        {"quantization_error", asset.quantizationError},
+                        {"layout_error", asset.layout ? describeLayout(*asset.layout) : OrderedJson()},
+                        {"approximations", describeApproximations(asset)},
+                        {"occluder_triangles", asset.occluder.triangleCount()},
+                        {"total", total},
+                        {"kept_visibility",
+                         {{"bytes", visibilityBytes},
+                          {"bytes_per_vertex", ratio(visibilityBytes, total["vertices"].get<uint64_t>())}}},
+                        {"parts", parts},
+                        {"provenance",
+                         {{"program", asset.provenance.program},
+                          {"device", asset.provenance.device},
+                          {"options", jsonOrText(asset.provenance.options)},
+                          {"inputs", jsonOrText(asset.provenance.inputs)}}}};
+    if (const OrderedJson refinement = optionOf(asset, "refinement"); !refinement.is_null())
         info["refinement"] = refinement;
     if (asset.provenance.bakedShare) info["preview"] = {{"baked_share", *asset.provenance.bakedShare}};
-    return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return info.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 } // namespace relume

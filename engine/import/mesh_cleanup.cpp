@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t kUnused = 0xffffffff;
 
 // Keeps squares of lengths and products of four within single precision.
-constexpr float kLargestCoordinate = 1e9f, kSmallestExtent = 1e-9f;
+constexpr float kSmallestExtent = 1e-9f;
 
 template <typename Vector>
 bool isFinite(const Vector& v) {

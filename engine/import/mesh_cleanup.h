@@ -10,6 +10,8 @@ namespace relume {
 // Limits beyond any mesh that could be baked, for small files that unfold to many instances.
 constexpr size_t kMostMeshVertices = size_t(1) << 28, kMostMeshTriangles = size_t(1) << 28;
 
+constexpr float kLargestCoordinate = 1e9f; // of positions, in the units of the file
+
 // Cleans up a mesh of unchecked positions, triangles, normals of any length, uvs and colors. Checks indices
 // and finiteness; welds vertices that are equal in position and every attribute; drops degenerate triangles
 // and then unreferenced vertices, counting both in the log; keeps the order of the rest. Normals become unit

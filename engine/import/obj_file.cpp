@@ -15,7 +15,7 @@
 namespace relume {
 namespace {
 
-constexpr size_t kMostCorners = 255;
+constexpr size_t kMostObjCorners = 255;
 
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
@@ -76,11 +76,11 @@ void checkLine(std::string_view keyword, std::string_view rest, const Counts& co
                     fmt::format("{}: line {}: expected a corner v, v/t, v//n or v/t/n of numbers from 1 on, "
                                 "or from -1 back to the first; found \"{}\": export the mesh again",
                                 name, number, word.substr(0, 40)));
-        if (corners > kMostCorners)
+        if (corners > kMostObjCorners)
             throw Error(
                 fmt::format("{}: line {}: a face has {} corners, expected at most {}: triangulate the mesh "
                             "before export",
-                            name, number, corners, kMostCorners));
+                            name, number, corners, kMostObjCorners));
     } else if (keyword == "vt") {
         // The second coordinate is optional and defaults to 0.
         const std::string_view u = takeWord(rest), v = takeWord(rest);

@@ -18,21 +18,21 @@ namespace relume {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr uint32_t kOldVersion = 2;
-constexpr size_t kLargestDepth = 8; // of nested arrays and objects
+constexpr size_t kMostNesting = 8; // of nested arrays and objects
 
 // Reads typed members of a JSON object; errors name the object.
-class Reader {
+class OldReader {
   public:
-    Reader(const Json& object, std::string where) : mObject(object), mWhere(std::move(where)) {
+    OldReader(const OrderedJson& object, std::string where) : mObject(object), mWhere(std::move(where)) {
         if (!object.is_object())
             throw Error(fmt::format("{}: expected an object, found {}", mWhere, object.type_name()));
     }
 
     uint64_t whole(const char* key, uint64_t low, uint64_t high) const {
-        const Json& value = member(key);
+        const OrderedJson& value = member(key);
         if (!value.is_number_unsigned() || value.get<uint64_t>() < low || value.get<uint64_t>() > high)
             throw Error(
                 fmt::format("{}: \"{}\": expected a whole number of {} to {}", mWhere, key, low, high));
@@ -44,7 +44,7 @@ class Reader {
     }
 
     double number(const char* key) const {
-        const Json& value = member(key);
+        const OrderedJson& value = member(key);
         if (!value.is_number() ||
             !(std::abs(value.get<double>()) <= double(std::numeric_limits<float>::max())))
             throw Error(fmt::format("{}: \"{}\": expected a number", mWhere, key));
@@ -53,23 +53,23 @@ class Reader {
     float real(const char* key) const { return float(number(key)); }
 
     std::string text(const char* key) const {
-        const Json& value = member(key);
+        const OrderedJson& value = member(key);
         if (!value.is_string()) throw Error(fmt::format("{}: \"{}\": expected text", mWhere, key));
         return value.get<std::string>();
     }
 
     bool boolean(const char* key) const {
-        const Json& value = member(key);
+        const OrderedJson& value = member(key);
         if (!value.is_boolean()) throw Error(fmt::format("{}: \"{}\": expected true or false", mWhere, key));
         return value.get<bool>();
     }
 
     bool has(const char* key) const { return mObject.contains(key); }
 
-    Reader object(const char* key) const { return {member(key), fmt::format("{}: \"{}\"", mWhere, key)}; }
+    OldReader object(const char* key) const { return {member(key), fmt::format("{}: \"{}\"", mWhere, key)}; }
 
-    const Json& array(const char* key) const {
-        const Json& value = member(key);
+    const OrderedJson& array(const char* key) const {
+        const OrderedJson& value = member(key);
         if (!value.is_array()) throw Error(fmt::format("{}: \"{}\": expected an array", mWhere, key));
         return value;
     }
@@ -77,17 +77,17 @@ class Reader {
     const std::string& where() const { return mWhere; }
 
   private:
-    const Json& member(const char* key) const {
+    const OrderedJson& member(const char* key) const {
         const auto found = mObject.find(key);
         if (found == mObject.end()) throw Error(fmt::format("{}: expected a member \"{}\"", mWhere, key));
         return *found;
     }
 
-    const Json& mObject;
+    const OrderedJson& mObject;
     std::string mWhere;
 };
 
-LayoutRecord readLayout(const Reader& in) {
+LayoutRecord readLayout(const OldReader& in) {
     LayoutRecord layout;
     if (in.has("wantedBytes")) layout.wantedBytes = in.number("wantedBytes");
     if (in.has("wantedError")) layout.wantedError = in.number("wantedError");
@@ -95,18 +95,18 @@ LayoutRecord readLayout(const Reader& in) {
     return layout;
 }
 
-void readKinds(const Reader&, SparseTransport&) {}
+void readKinds(const OldReader&, SparseTransport&) {}
 
-void readKinds(const Reader& in, BasisTransport& bases) {
-    const Json& kinds = in.array("kinds");
+void readKinds(const OldReader& in, BasisTransport& bases) {
+    const OrderedJson& kinds = in.array("kinds");
     for (size_t i = 0; i < kinds.size() && i <= 3 * kMostTerms; i++) {
-        const Reader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
+        const OldReader kind(kinds[i], fmt::format("{}: kind {}", in.where(), i));
         bases.kinds.push_back({uint32_t(kind.integer("term", 0, kMostTerms - 1)),
                                {kind.real("red"), kind.real("green"), kind.real("blue")}});
     }
 }
 
-void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
+void readSet(const OldReader& in, uint64_t vertices, AssetMeta& meta) {
     MaterialSet set;
     set.brdf.terms = in.integer("terms", 1, kMostTerms);
     set.brdf.layers = in.integer("layers", 1, kLargestLayers);
@@ -119,9 +119,9 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     set.transport =
         emptyTransport(readLayoutName(layout, in.where()), uint32_t(vertices), uint32_t(set.brdf.terms));
     std::visit([&](auto& own) { readKinds(in, own); }, set.transport);
-    const Json& materials = in.array("materials");
+    const OrderedJson& materials = in.array("materials");
     for (size_t i = 0; i < materials.size(); i++) {
-        const Reader material(materials[i], fmt::format("{}: material {}", in.where(), i));
+        const OldReader material(materials[i], fmt::format("{}: material {}", in.where(), i));
         set.materials.push_back({material.text("name"), material.text("description"),
                                  material.integer("layer", 0, kLargestLayers), material.boolean("base")});
     }
@@ -129,7 +129,7 @@ void readSet(const Reader& in, uint64_t vertices, AssetMeta& meta) {
     meta.asset.parts.back().sets.push_back(std::move(set));
 }
 
-Texture textureOf(const Reader& in) {
+Texture textureOf(const OldReader& in) {
     Texture texture;
     texture.width = in.integer("width", 1, kLongestTextureSide);
     texture.height = in.integer("height", 1, kLongestTextureSide);
@@ -137,7 +137,7 @@ Texture textureOf(const Reader& in) {
     return texture;
 }
 
-void readPart(const Reader& in, AssetMeta& meta) {
+void readPart(const OldReader& in, AssetMeta& meta) {
     AssetPart& part = meta.asset.parts.emplace_back();
     AssetPartSizes sizes;
     part.name = in.text("name");
@@ -150,24 +150,24 @@ void readPart(const Reader& in, AssetMeta& meta) {
     if (in.has("baseColor")) part.baseColor = textureOf(in.object("baseColor"));
     if (in.has("materialMap")) part.materialMap = textureOf(in.object("materialMap"));
     meta.sizes.parts.push_back(sizes);
-    const Json& sets = in.array("sets");
+    const OrderedJson& sets = in.array("sets");
     for (size_t i = 0; i < sets.size(); i++)
         readSet({sets[i], fmt::format("{}: set {}", in.where(), i)}, sizes.vertices, meta);
 }
 
-Json parseBounded(std::string_view text, const std::string& where) {
-    if (isJsonDeeper(text, kLargestDepth)) throw Error(fmt::format("{}: nested too deep", where));
+OrderedJson parseBounded(std::string_view text, const std::string& where) {
+    if (isJsonDeeper(text, kMostNesting)) throw Error(fmt::format("{}: nested too deep", where));
     try {
-        return Json::parse(text);
-    } catch (const Json::exception& failure) {
+        return OrderedJson::parse(text);
+    } catch (const OrderedJson::exception& failure) {
         throw Error(fmt::format("{}: is not JSON: {}", where, failure.what()));
     }
 }
 
 AssetMeta decodeOldMeta(std::string_view text, const std::string& name) {
     const std::string where = name + ": chunk META";
-    const Json json = parseBounded(text, where);
-    const Reader in(json, where);
+    const OrderedJson json = parseBounded(text, where);
+    const OldReader in(json, where);
     AssetMeta meta;
     meta.asset.faceSize = in.integer("faceSize", kSmallestFace, kLargestFace);
     meta.asset.visibilitySize = in.integer("visibilitySize", kSmallestVisibility, kLargestVisibility);
@@ -177,13 +177,13 @@ AssetMeta decodeOldMeta(std::string_view text, const std::string& name) {
     meta.asset.quantizationError = in.real("quantisationError");
     meta.asset.truncationError = in.real("truncationError");
     if (in.has("layout")) meta.asset.layout = readLayout(in.object("layout"));
-    const Reader occluder = in.object("occluder");
+    const OldReader occluder = in.object("occluder");
     meta.sizes.occluderVertices = occluder.whole("vertices", 0, kMostMetaCount);
     meta.sizes.occluderTriangles = occluder.whole("triangles", 0, kMostMetaCount);
-    const Json& parts = in.array("parts");
+    const OrderedJson& parts = in.array("parts");
     for (size_t i = 0; i < parts.size(); i++)
         readPart({parts[i], fmt::format("{}: part {}", where, i)}, meta);
-    const Reader provenance = in.object("provenance");
+    const OldReader provenance = in.object("provenance");
     meta.asset.provenance = {provenance.text("program"), provenance.text("device"),
                              provenance.text("options"), provenance.text("inputs")};
     if (in.has("visibilityKey")) {

@@ -18,7 +18,7 @@
 namespace relume {
 namespace {
 
-constexpr size_t kMostCorners = 1 << 16;
+constexpr size_t kMostPlyCorners = 1 << 16;
 
 // Takes values from the data one by one.
 class Values {
@@ -189,10 +189,10 @@ class BodyReader {
     double takeProperty(const PlyProperty& property) {
         if (!property.countType) return mValues.take(*property.type);
         const double count = mValues.take(*property.countType);
-        if (!(count >= 0 && count <= kMostCorners))
+        if (!(count >= 0 && count <= kMostPlyCorners))
             throw Error(
                 fmt::format("{}: a list \"{}\" claims {} items, expected 0 to {}: the file is corrupt", mName,
-                            property.name, count, kMostCorners));
+                            property.name, count, kMostPlyCorners));
         mItems.clear();
         for (size_t i = 0; i < size_t(count); i++) mItems.push_back(mValues.take(*property.type));
         return 0;

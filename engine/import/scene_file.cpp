@@ -1,6 +1,7 @@
 // Reads the JSON of docs/scene_format.md.
 #include "engine/base/error.h"
 #include "engine/import/json_object.h"
+#include "engine/import/mesh_cleanup.h"
 #include "engine/import/scene.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr float kLargestCoordinate = 1e9f; // as in mesh files
 constexpr const char* kMaterial = "a preset's name or an object {\"model\": …}";
 
 // Returns a preset's name, or an object as JSON text; none if not given.

@@ -11,13 +11,13 @@ namespace relume {
 namespace {
 
 using Json = nlohmann::json;
-using Keys = std::initializer_list<const char*>;
+using Names = std::initializer_list<const char*>;
 
-constexpr Keys kFiles = {"bake", "model", "environment"},
-               kTexts = {"size", "residual", "tone", "background", "ground-style"},
-               kVectors = {"eye", "target"},
-               kNumbers = {"fov",     "rotate", "coefficients", "threshold",      "time",
-                           "samples", "terms",  "exposure",     "background-blur"};
+constexpr Names kFiles = {"bake", "model", "environment"},
+                kTexts = {"size", "residual", "tone", "background", "ground-style"},
+                kVectors = {"eye", "target"},
+                kNumbers = {"fov",     "rotate", "coefficients", "threshold",      "time",
+                            "samples", "terms",  "exposure",     "background-blur"};
 constexpr float kLargest = 1e6f; // as for camera options
 
 // Replaces a relative file name, if present, by its absolute path.
@@ -28,7 +28,7 @@ void place(Json& object, const char* key, const std::filesystem::path& folder) {
 }
 
 void checkTypes(const JsonObject& session) {
-    for (const Keys& keys : {kFiles, kTexts})
+    for (const Names& keys : {kFiles, kTexts})
         for (const char* key : keys) session.text(key, "");
     for (const char* key : kVectors) session.requiredVector(key, -kLargest, kLargest);
     for (const char* key : kNumbers) session.number(key, 0, -kLargest, kLargest);

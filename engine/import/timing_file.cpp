@@ -11,28 +11,28 @@ namespace relume {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kProcess = 1;
 
 int threadOf(TimingSpan::Track track) { return track == TimingSpan::Track::Cpu ? 1 : 2; }
 const char* nameOf(TimingSpan::Track track) { return track == TimingSpan::Track::Cpu ? "CPU" : "GPU"; }
 
-Json metadata(const char* what, std::optional<TimingSpan::Track> track, Json arguments) {
-    Json event = {{"ph", "M"}, {"pid", kProcess}};
+OrderedJson metadata(const char* what, std::optional<TimingSpan::Track> track, OrderedJson arguments) {
+    OrderedJson event = {{"ph", "M"}, {"pid", kProcess}};
     if (track) event["tid"] = threadOf(*track);
     event["name"] = what;
     event["args"] = std::move(arguments);
     return event;
 }
 
-Json eventOf(const TimingSpan& span) {
-    Json event = {{"ph", "X"},
-                  {"pid", kProcess},
-                  {"tid", threadOf(span.track)},
-                  {"ts", double(span.start) / 1000},
-                  {"dur", double(span.duration) / 1000},
-                  {"name", span.name}};
+OrderedJson eventOf(const TimingSpan& span) {
+    OrderedJson event = {{"ph", "X"},
+                         {"pid", kProcess},
+                         {"tid", threadOf(span.track)},
+                         {"ts", double(span.start) / 1000},
+                         {"dur", double(span.duration) / 1000},
+                         {"name", span.name}};
     if (span.frame) event["args"] = {{"frame", *span.frame}};
     return event;
 }
@@ -59,10 +59,10 @@ const char* nameOf(ClockMatch clock) {
 }
 
 std::string chromeTrace(const TimingTrace& trace) {
-    Json about = {{"device", trace.device}, {"driver", trace.driver}, {"clock", nameOf(trace.clock)}};
+    OrderedJson about = {{"device", trace.device}, {"driver", trace.driver}, {"clock", nameOf(trace.clock)}};
     if (trace.clock != ClockMatch::None)
         about["clock_uncertainty_us"] = double(trace.clockUncertainty) / 1000;
-    std::vector<Json> tracks = {metadata("process_name", {}, {{"name", "relume"}})};
+    std::vector<OrderedJson> tracks = {metadata("process_name", {}, {{"name", "relume"}})};
     for (const TimingSpan::Track track : {TimingSpan::Track::Cpu, TimingSpan::Track::Gpu}) {
         if (track == TimingSpan::Track::Gpu && trace.clock == ClockMatch::None) continue;
         tracks.push_back(metadata("thread_name", track, {{"name", nameOf(track)}}));
@@ -70,12 +70,12 @@ std::string chromeTrace(const TimingTrace& trace) {
     }
     // Write events one by one, one per line; as one JSON document all of them would take many times their
     // size in memory. Device and driver names come from the driver, so bytes that are not UTF-8 are replaced.
-    const auto dump = [](const Json& json) {
-        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const auto dump = [](const OrderedJson& json) {
+        return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     };
     std::string text = "{\"displayTimeUnit\":\"ms\",\"otherData\":" + dump(about) + ",\n\"traceEvents\":[";
     const char* separator = "\n";
-    for (const Json& event : tracks) text += std::exchange(separator, ",\n") + dump(event);
+    for (const OrderedJson& event : tracks) text += std::exchange(separator, ",\n") + dump(event);
     for (const TimingSpan& span : trace.spans) text += separator + dump(eventOf(span));
     return text + "\n]}\n";
 }

@@ -10,7 +10,7 @@ namespace relume {
 
 namespace {
 
-struct Share {
+struct TexelShare {
     CubeTexel texel;
     float weight;
 };
@@ -25,14 +25,14 @@ CubeTexel acrossEdge(int face, int x, int y, int size) {
     return cubeTexel(cubeDirection(face, place(x), place(y)), size);
 }
 
-std::array<Share, 4> sharesOf(vec3 direction, int size) {
+std::array<TexelShare, 4> sharesOf(vec3 direction, int size) {
     const int face = cubeTexel(direction, size).face;
     const CubeFaceAxes axes = cubeFaceAxes(face);
     const vec2 uv = vec2(glm::dot(direction, axes.right), glm::dot(direction, axes.down)) /
                     glm::dot(direction, axes.forward);
     const vec2 place = glm::clamp((uv + 1.0f) * (0.5f * float(size)), 0.0f, float(size)) - 0.5f;
     const vec2 low = glm::floor(place), fraction = place - low;
-    std::array<Share, 4> shares;
+    std::array<TexelShare, 4> shares;
     size_t corner = 4;
     for (size_t i = 0; i < 4; i++) {
         const ivec2 step(i % 2, i / 2), at = ivec2(low) + step;
@@ -46,7 +46,7 @@ std::array<Share, 4> sharesOf(vec3 direction, int size) {
     }
     if (corner < 4) {
         const float third = shares[corner].weight / 3;
-        for (Share& share : shares) share.weight += third;
+        for (TexelShare& share : shares) share.weight += third;
         shares[corner] = {shares[(corner + 1) % 4].texel, 0};
     }
     return shares;

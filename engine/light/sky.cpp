@@ -11,7 +11,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kSunRadius = 3 * kPi / 180;
+constexpr float kDiscRadius = 3 * kPi / 180;
 constexpr float kSunElevation = 42 * kPi / 180, kSunLongitude = 40 * kPi / 180;
 
 // Returns a pseudorandom value in [0, 1) per lattice point, by the finalizer of MurmurHash3.
@@ -56,7 +56,7 @@ vec3 skyRadiance(vec3 d, vec3 sun) {
     sky = glm::mix(horizon, sky, glm::smoothstep(0.0f, 0.35f, d.y));
     sky += 0.7f * sunlight * std::exp(-distance / 0.30f); // haze around the sun
     sky = glm::mix(sky, cloud * (0.75f + 0.8f * std::exp(-distance / 0.5f)), 0.85f * clouds(d));
-    const float disc = 1.0f - glm::smoothstep(0.75f * kSunRadius, 1.25f * kSunRadius, distance);
+    const float disc = 1.0f - glm::smoothstep(0.75f * kDiscRadius, 1.25f * kDiscRadius, distance);
     return sky + 130.0f * disc * sunlight;
 }
 

@@ -24,7 +24,7 @@ using vk::Stage;
 
 namespace {
 
-constexpr uint32_t kNone = 0xffffffff;
+constexpr uint32_t kNoSlot = 0xffffffff;
 constexpr uint32_t kBatch = 32; // nodes made together, for which the buffers between passes have room
 constexpr VkFormat kTexelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kSphereTexels = kSphereRings * kSphereAzimuths;
@@ -156,7 +156,7 @@ LitSpheres::LitSpheres(const vk::Device& device, const Asset& asset, bool takesR
         makeTexels(device, uint64_t(batch) * components * (kSphereRings / 4) * 6, "reflected spectrum");
     mParts = makeTexels(device, uint64_t(batch) * mMostParts * kSphereTexels, "sphere parts");
     mImage = emptyImage(device, kSphereAzimuths, mMostParts * kSphereRings, 1, "lit spheres");
-    mSlotTable.assign(kLightParts * std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNone);
+    mSlotTable.assign(kLightParts * std::max<size_t>(mKernels.size(), 1) * kGridNodes, kNoSlot);
     mSlots = vk::upload<uint32_t>(device, mSlotTable, "sphere slots");
 }
 
@@ -193,7 +193,7 @@ LitSpheres::Set& LitSpheres::addSet(const FactoredBrdf& factors, const ResidualS
 }
 
 void LitSpheres::freeSlots() {
-    std::ranges::fill(mSlotTable, kNone);
+    std::ranges::fill(mSlotTable, kNoSlot);
     mFreeSlots.clear();
     for (uint32_t slot = mSlotCount; slot > 0; slot--) mFreeSlots.push_back(slot - 1);
 }
@@ -274,7 +274,7 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
             missing.push_back({kernel, lit, {}});
             for (const uint32_t node : nodes) {
                 const uint32_t slot = mSlotTable[slotOf(kernel, lit, node)];
-                if (slot == kNone)
+                if (slot == kNoSlot)
                     missing.back().nodes.push_back(node);
                 else
                     used.insert(slot);
@@ -285,9 +285,9 @@ void LitSpheres::record(vk::Commands& commands, std::span<const uint32_t> kernel
     // Evict spheres of other views if there is no room.
     if (mFreeSlots.size() < wanted)
         for (uint32_t& slot : mSlotTable)
-            if (slot != kNone && !used.contains(slot)) {
+            if (slot != kNoSlot && !used.contains(slot)) {
                 mFreeSlots.push_back(slot);
-                slot = kNone;
+                slot = kNoSlot;
             }
     commands.barrier(Stage::Draw, Stage::Transfer);
     commands.barrier(Stage::Compute, Stage::Compute);
@@ -341,7 +341,7 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, LightPart 
 
 std::vector<vec3> LitSpheres::readSphere(uint32_t kernel, uint32_t node, LightPart lit) const {
     const uint32_t slot = mSlotTable[slotOf(kernel, lit, node)];
-    RELUME_CHECK(slot != kNone);
+    RELUME_CHECK(slot != kNoSlot);
     const std::vector<vec4> texels = readImage(mDevice, mImage);
     const auto first = texels.begin() + std::ptrdiff_t(size_t(slot) * mMostParts * kSphereTexels);
     return {first, first + std::ptrdiff_t(mKernels[kernel].parts() * kSphereTexels)};

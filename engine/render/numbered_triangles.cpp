@@ -6,20 +6,20 @@ namespace relume {
 
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t kNoCopy = std::numeric_limits<uint32_t>::max();
 // Triangles after which a device's vertex cache is assumed to have lost a vertex: about what devices hold; on
 // lavapipe it gives the fewest vertices.
 constexpr uint32_t kHeld = 32;
 
-// Copy of a vertex, by its index; kNone if none has been made.
+// Copy of a vertex, by its index; kNoCopy if none has been made.
 struct Copy {
-    uint32_t number = kNone, lastTriangle = 0;
+    uint32_t number = kNoCopy, lastTriangle = 0;
 };
 
 // Lists the triangles that begin with a vertex: the first one per vertex, the next one per triangle.
 struct Beginnings {
     explicit Beginnings(const std::vector<uvec3>& triangles, size_t vertices)
-        : next(triangles.size(), kNone), first(vertices, kNone) {
+        : next(triangles.size(), kNoCopy), first(vertices, kNoCopy) {
         for (auto t = uint32_t(triangles.size()); t-- > 0;) {
             next[t] = first[triangles[t].x];
             first[triangles[t].x] = t;
@@ -58,9 +58,9 @@ NumberedTriangles numberTriangles(const Mesh& mesh) {
         for (int c = 1; c < 3; c++) {
             const uint32_t vertex = triangle[c];
             Copy& copy = copies[vertex];
-            if ((copy.number == kNone || t - copy.lastTriangle > kHeld) && coming[vertex] != kNone)
+            if ((copy.number == kNoCopy || t - copy.lastTriangle > kHeld) && coming[vertex] != kNoCopy)
                 copy.number = coming[vertex];
-            if (copy.number == kNone) {
+            if (copy.number == kNoCopy) {
                 copy.number = uint32_t(numbered.positions.size());
                 numbered.positions.push_back(mesh.positions[vertex]);
             }

@@ -25,8 +25,6 @@ BakeTimes timesOf(const BakePlan& plan) {
     return times;
 }
 
-bool needsScale(const BakePlan& plan) { return isCompressed(plan.options.layout.layout); }
-
 // Opens the visibility in a file; returns null if it has none or is not an asset.
 std::unique_ptr<KeptVisibility> findKept(const std::filesystem::path& path) {
     try {
@@ -100,11 +98,11 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
     std::optional<Previews> previews;
     if (outputOptions.previews && !missing.empty()) {
         previews.emplace(device, plan, missing, limits, checkpoint, *interpolated, writeWhole, observer);
-        if (plan.options.bounces > 0 || (needsScale(plan) && !plan.scale)) previews->writeDraft();
+        if (plan.options.bounces > 0 || (plan.needsScale() && !plan.scale)) previews->writeDraft();
     }
     if (plan.options.bounces > 0 && !missing.empty())
         plan.bounced = bounceTransport(device, plan, limits, observer, summary.times);
-    if (needsScale(plan) && !plan.scale && !missing.empty()) {
+    if (plan.needsScale() && !plan.scale && !missing.empty()) {
         std::vector<SampledBlock> sample = bakeSample(device, plan, limits, observer, summary.times, kept);
         checkpoint.append(*plan.scale);
         for (SampledBlock& sampled : sample)
@@ -152,7 +150,7 @@ Asset bake(const vk::Device& device, Scene scene, const BakeOptions& options, Ba
     StoringSink sink(plan, StoringSink::bytesInHand({}),
                      [&](uint32_t block, StoredBlock stored) { blocks.keep(block, std::move(stored)); });
     if (plan.options.bounces > 0) plan.bounced = bounceTransport(device, plan, {}, observer, times);
-    if (needsScale(plan))
+    if (plan.needsScale())
         for (SampledBlock& sampled : bakeSample(device, plan, {}, observer, times, nullptr)) {
             std::erase(missing, sampled.block);
             sink.take(sampled.block, std::move(sampled.baked));

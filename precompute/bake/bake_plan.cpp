@@ -227,6 +227,10 @@ BakePlan planOf(Asset asset, const std::string& visibilityKey) {
     return plan;
 }
 
+bool BakePlan::needsScale() const {
+    return isCompressed(layoutOf(asset.parts.front().sets.front().transport));
+}
+
 size_t BakePlan::setCount() const { return firstSet.back() + asset.parts.back().sets.size(); }
 
 std::vector<uint32_t> BakePlan::allBlocks() const {

@@ -17,6 +17,8 @@ struct BakeBlock {
     uint32_t count() const { return end - first; }
 };
 
+constexpr size_t kIdentityBytes = 32; // hexadecimal digits of BakePlan::identity
+
 class BouncedTransport;
 
 struct BakePlan {
@@ -38,6 +40,7 @@ struct BakePlan {
 
     uint64_t vertices() const;
     size_t setCount() const;                 // of all parts
+    bool needsScale() const;                 // whether blocks are encoded with a scale, from a sample
     std::vector<uint32_t> allBlocks() const; // the numbers of all blocks, rising
 };
 

@@ -23,10 +23,9 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'L', 'U', 'M', 'E', 'C', 'P'};
 constexpr uint32_t kVersion = 2;
-constexpr size_t kIdentityBytes = 32;
 constexpr size_t kHeaderBytes = kMagic.size() + 4 + kIdentityBytes + 8;
 constexpr uint32_t kScale = 0xffffffff; // marks the scale, in place of a block's number
-constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kLossBytes = 4 * 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
+constexpr size_t kRecordHeaderBytes = 4 + 4 + 8 + 8, kChunkBytes = 4 + 4 + 4 + 8 + 8 + 8;
 
 // Time between flushes to disk: what a crash of the machine may lose. A crash of the program loses nothing
 // appended.
@@ -67,10 +66,6 @@ void putChunk(ByteWriter& out, const ChunkEntry& entry) {
     out.put(entry.storedSize);
     out.put(entry.rawSize);
     out.put(entry.checksum);
-}
-
-bool needsScale(const BakePlan& plan) {
-    return isCompressed(layoutOf(plan.asset.parts.front().sets.front().transport));
 }
 
 uint64_t scaleBytes(const BakePlan& plan) { return sizeof(double) + plan.setCount() * sizeof(float); }
@@ -184,13 +179,13 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
     ByteReader in(header, "");
     const auto block = in.get<uint32_t>(), chunkCount = in.get<uint32_t>();
     const auto bodyBytes = in.get<uint64_t>(), checksum = in.get<uint64_t>();
-    if (block == kScale ? !needsScale(plan) : needsScale(plan) && !mScale) return false;
+    if (block == kScale ? !plan.needsScale() : plan.needsScale() && !mScale) return false;
     uint64_t least = scaleBytes(plan), most = least;
     size_t chunks = 0;
     if (block != kScale) {
         if (block >= plan.blocks.size() || mBlocks[block]) return false;
         chunks = chunksOf(plan, block);
-        least = most = kLossBytes + chunks * kChunkBytes;
+        least = most = kBytesPerLoss + chunks * kChunkBytes;
         for (size_t chunk = 0; chunk < chunks; chunk++) most += mostRawBytes(plan, block, chunk);
     }
     if (chunkCount != chunks || bodyBytes < least || bodyBytes > most) return false;
@@ -206,7 +201,7 @@ bool Checkpoint::readRecord(const BakePlan& plan) {
 
     ByteReader rest(body, "");
     Kept kept{getLosses(rest), {}};
-    uint64_t offset = mBytes + header.size() + kLossBytes + chunkCount * kChunkBytes;
+    uint64_t offset = mBytes + header.size() + kBytesPerLoss + chunkCount * kChunkBytes;
     for (size_t chunk = 0; chunk < chunks; chunk++) {
         ChunkEntry entry = getChunk(rest);
         if (!isPlausible(plan, block, chunk, entry)) return false;

@@ -16,9 +16,9 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kIdentityBytes = 32, kShardBytes = 4 + 4 + kIdentityBytes;
-constexpr size_t kLossBytes = 4 * 8, kLossesPerChunk = size_t(1) << 18;
-static_assert(kLossesPerChunk * kLossBytes <= kLargestChunk);
+constexpr size_t kShardBytes = 4 + 4 + kIdentityBytes;
+constexpr size_t kLossesPerChunk = size_t(1) << 18;
+static_assert(kLossesPerChunk * kBytesPerLoss <= kLargestChunk);
 
 void addShard(ChunkWriter& file, const BakePlan& plan, const Shard& shard) {
     RELUME_CHECK_EQ(plan.identity.size(), kIdentityBytes);
@@ -114,9 +114,9 @@ std::vector<TransportLosses> ShardFile::losses(uint32_t blocks) const {
     const std::vector<ChunkEntry> runs = mChunks.find(kBlockLosses, kWholeFile);
     uint64_t bytes = 0;
     for (const ChunkEntry& run : runs) bytes += run.rawSize;
-    if (bytes != blocks * uint64_t(kLossBytes))
+    if (bytes != blocks * uint64_t(kBytesPerLoss))
         throw Error(fmt::format("{}: chunk LOSS: expected {} bytes for {} blocks, found {}", name(),
-                                blocks * uint64_t(kLossBytes), blocks, bytes));
+                                blocks * uint64_t(kBytesPerLoss), blocks, bytes));
     std::vector<TransportLosses> losses;
     for (const ChunkEntry& run : runs) {
         const std::vector<std::byte> raw = mChunks.load(run);

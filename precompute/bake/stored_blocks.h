@@ -10,6 +10,8 @@
 
 namespace relume {
 
+constexpr size_t kBytesPerLoss = 4 * sizeof(double); // of TransportLosses, in files
+
 // A finished block: one chunk of transport per set of its part, in the plan's layout; then chunks of
 // visibility (visb) if it is kept.
 struct StoredBlock {

@@ -20,8 +20,8 @@ using glm::dvec3;
 
 constexpr double kSmoothing = 0.1; // l, in units of the mesh's radius
 constexpr double kMostWeight = 10; // of an edge; slivers exceed it
-constexpr double kTolerance = 1e-4;
-constexpr int kIterations = 100; // of conjugate gradients, between polls for a stop
+constexpr double kSolverTolerance = 1e-4;
+constexpr int kSolverIterations = 100; // of conjugate gradients, between polls for a stop
 constexpr int kMostRounds = 20;
 
 // Returns for each vertex the first one of the same position and normal: vertices are duplicated at seams of
@@ -109,8 +109,8 @@ std::vector<vec3> smoothTangents(const Mesh& mesh, const std::function<bool()>& 
     Eigen::SparseMatrix<Complex> matrix(count, count);
     matrix.setFromTriplets(entries.begin(), entries.end());
     Eigen::ConjugateGradient<Eigen::SparseMatrix<Complex>, Eigen::Lower | Eigen::Upper> solver;
-    solver.setTolerance(kTolerance);
-    solver.setMaxIterations(kIterations);
+    solver.setTolerance(kSolverTolerance);
+    solver.setMaxIterations(kSolverIterations);
     solver.compute(matrix);
     Eigen::VectorXcd field = Eigen::VectorXcd::Ones(count);
     for (int round = 0; round < kMostRounds; round++) {

@@ -10,8 +10,6 @@
 
 namespace relume {
 
-namespace {
-
 // Values of up to kTerms terms in three channels, side by side, so that an instruction serves all terms.
 struct TermGroup {
     static constexpr size_t kTerms = 8;
@@ -35,9 +33,7 @@ struct TermGroup {
 };
 
 // Returns the number of groups that hold so many terms.
-size_t groupsFor(int terms) { return (size_t(terms) + TermGroup::kTerms - 1) / TermGroup::kTerms; }
-
-} // namespace
+static size_t groupsFor(int terms) { return (size_t(terms) + TermGroup::kTerms - 1) / TermGroup::kTerms; }
 
 std::optional<uint16_t> bounceCoefficient(uint16_t coefficient, int size) {
     const int face = coefficient / (size * size), y = coefficient / size % size, x = coefficient % size;

@@ -27,6 +27,8 @@ uint32_t lanesFor(const vk::Device& device) {
     return 128; // every device has as many
 }
 
+} // namespace
+
 // A buffer that the host fills and the device reads often.
 struct StagedBuffer {
     StagedBuffer(const vk::Device& device, uint64_t bytes, std::string_view name)
@@ -43,8 +45,6 @@ struct StagedBuffer {
 
     vk::Buffer staging, buffer;
 };
-
-} // namespace
 
 // The rows that light others, those of all parts one after another.
 struct BounceGatherPass::Sources {

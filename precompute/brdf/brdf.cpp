@@ -16,8 +16,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr size_t kMaxPathLength = 4096;
-
 std::unique_ptr<Brdf> makeFromJson(const std::string& text, const std::filesystem::path& folder) {
     json object = parseMaterial(text);
     if (object.is_object() && object.contains("name") && object["name"].is_string()) object.erase("name");
@@ -48,7 +46,7 @@ std::unique_ptr<Brdf> makeFromFile(const std::string& material, const std::files
             throw Error(fmt::format("{}: {}", (folder / material).generic_string(), wrong.what()));
         }
     }
-    if (material.size() > kMaxPathLength || material.find('\0') != std::string::npos) return nullptr;
+    if (!canBePath(material)) return nullptr;
     const std::filesystem::path path = material;
     if (path.extension() != ".binary" && path.extension() != ".brdf") return nullptr;
     MaterialParameters parameters("measured", {{"measured", material}});

@@ -16,7 +16,7 @@ namespace relume {
 namespace {
 
 // Fewer cells than a MERL table has, since some thousand samples determine no more.
-constexpr int kHalves = 60, kDifferences = 30, kAzimuths = 36;
+constexpr int kHalves = 60, kDifferences = 30, kTableAzimuths = 36;
 constexpr size_t kNeighbors = 12;
 // How much faster a BRDF varies with √θh than with θd, and with φd.
 constexpr float kHalfWeight = 4, kAzimuthWeight = 1;
@@ -118,10 +118,10 @@ vec3 interpolate(const std::vector<Point>& points, vec4 position) {
 
 IsotropicTable parseCornell(std::string_view text, const std::string& name) {
     const std::vector<Point> points = pointsOf(readCornellText(text, name), name);
-    IsotropicTable table(kHalves, kDifferences, kAzimuths);
+    IsotropicTable table(kHalves, kDifferences, kTableAzimuths);
     tbb::parallel_for(0, kHalves, [&](int half) {
         for (int difference = 0; difference < kDifferences; difference++)
-            for (int azimuth = 0; azimuth < kAzimuths; azimuth++)
+            for (int azimuth = 0; azimuth < kTableAzimuths; azimuth++)
                 table[table.cell(half, difference, azimuth)] =
                     interpolate(points, positionOf(table.centerOf(half, difference, azimuth)));
     });

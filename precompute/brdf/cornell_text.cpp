@@ -13,7 +13,7 @@ namespace relume {
 namespace {
 
 constexpr size_t kMaxWavelengths = 1000, kMaxSamples = 20'000, kMinSamples = 16;
-constexpr float kMaxValue = 1e6f; // sr⁻¹, far above any surface
+constexpr float kMaxCornellValue = 1e6f; // sr⁻¹, far above any surface
 
 class Reader {
   public:
@@ -108,8 +108,8 @@ class Reader {
                 fail("expected an azimuth in radians, found {}", sample.angles[phi]);
         sample.values.assign(mNumbers.begin() + 4, mNumbers.end());
         for (float value : sample.values)
-            if (std::abs(value) > kMaxValue)
-                fail("expected values up to {} sr^-1, found {}", kMaxValue, value);
+            if (std::abs(value) > kMaxCornellValue)
+                fail("expected values up to {} sr^-1, found {}", kMaxCornellValue, value);
         mResult.samples.push_back(std::move(sample));
     }
 

@@ -16,7 +16,7 @@ using Eigen::VectorXf;
 namespace {
 
 // Tolerance of the iteration's eigenpairs. Their errors enter the result squared, so this suffices.
-constexpr float kTolerance = 1e-5f;
+constexpr float kEigenpairTolerance = 1e-5f;
 
 float inverseOrZero(double value) { return value > 0 ? float(1 / value) : 0; }
 
@@ -30,7 +30,7 @@ LowRank lowRank(std::span<const MatrixXf> blocks, int terms) {
         for (const MatrixXf& block : blocks) sum.noalias() += block * (block.transpose() * vectors).eval();
         return sum;
     };
-    const Eigenpairs pairs = largestEigenpairs(apply, int(n), terms, kTolerance);
+    const Eigenpairs pairs = largestEigenpairs(apply, int(n), terms, kEigenpairTolerance);
 
     // Squaring halved the precision of small values, but the products Bᵀu still have it. A final
     // Rayleigh–Ritz step on their Gram matrix, in double precision, gives values and vectors to float

@@ -17,9 +17,12 @@ namespace {
 // Materials are a few lines; anything longer or deeper is a mistake.
 constexpr size_t kMaxTextSize = 1 << 16;
 constexpr int kMaxDepth = 8;
-constexpr size_t kMaxPathLength = 4096;
 
 } // namespace
+
+bool canBePath(const std::string& text) {
+    return text.size() <= kMaxPathLength && text.find('\0') == std::string::npos;
+}
 
 bool looksLikeJson(const std::string& text) {
     const size_t first = text.find_first_not_of(" \t\r\n");
@@ -42,8 +45,7 @@ json parseMaterial(const std::string& text) {
 
 std::optional<MaterialFile> readMaterialFile(const std::string& material,
                                              const std::filesystem::path& folder) {
-    if (material.size() > kMaxPathLength || material.find('\0') != std::string::npos) return std::nullopt;
-    if (looksLikeJson(material) || !material.ends_with(".json")) return std::nullopt;
+    if (!canBePath(material) || looksLikeJson(material) || !material.ends_with(".json")) return std::nullopt;
     const std::filesystem::path path = folder / material;
     std::error_code failure;
     if (!std::filesystem::exists(path, failure))

@@ -8,6 +8,11 @@
 
 namespace relume {
 
+constexpr size_t kMaxPathLength = 4096; // in bytes; Linux's PATH_MAX
+
+// Returns whether text is short enough for a path, and without NUL.
+bool canBePath(const std::string& text);
+
 bool looksLikeJson(const std::string& text);
 
 // Throws UsageError if the text is not JSON, or is too long or too deeply nested for a material.

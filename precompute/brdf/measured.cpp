@@ -4,6 +4,7 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "precompute/brdf/cornell.h"
+#include "precompute/brdf/material_json.h"
 #include "precompute/brdf/merl.h"
 
 #include <fmt/core.h>
@@ -14,7 +15,6 @@ namespace relume {
 namespace {
 
 constexpr size_t kMaxFileSize = size_t(64) << 20;
-constexpr size_t kMaxPathLength = 4096;
 
 class Measured final : public Brdf {
   public:
@@ -38,7 +38,7 @@ class Measured final : public Brdf {
 // Returns the path; notes a fault if a description cannot hold it as text.
 std::filesystem::path readPath(MaterialParameters& parameters) {
     const std::string text = parameters.requiredText("measured");
-    if (text.size() > kMaxPathLength || text.find('\0') != std::string::npos)
+    if (!canBePath(text))
         parameters.noteFault(
             fmt::format("\"measured\" must be a path of at most {} characters", kMaxPathLength));
     try {

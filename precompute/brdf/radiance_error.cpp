@@ -12,7 +12,7 @@ namespace relume {
 
 namespace {
 
-constexpr int kViews = 40; // per orientation
+constexpr int kViewDirections = 40; // per orientation
 
 // The lights above an orientation's horizon, texel by texel.
 struct LocalLights {
@@ -132,7 +132,7 @@ std::vector<std::vector<std::vector<float>>> radianceErrors(const Brdf& brdf,
     std::vector<Orientation> orientations(size_t(options.orientations));
     for (Orientation& orientation : orientations) {
         orientation.localFromWorld = random.rotation();
-        for (int v = 0; v < kViews; v++)
+        for (int v = 0; v < kViewDirections; v++)
             orientation.views.push_back(options.uniform ? random.uniformHemisphere()
                                                         : random.cosineHemisphere());
     }

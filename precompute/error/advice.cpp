@@ -13,8 +13,6 @@ namespace relume {
 
 namespace {
 
-constexpr size_t kRungs = kTriedCoefficients.size();
-
 // Returns points seen from four sides, slightly from above.
 std::vector<SeenPoints> seenPoints(const Asset& asset, size_t count) {
     constexpr int kViews = 4, kWidth = 320, kHeight = 240;
@@ -118,7 +116,7 @@ std::optional<AdvisedBake> adviseBases(const vk::Device& device, const AdviceReq
     BakeOptions options = request.options;
     const auto rung =
         size_t(std::ranges::find(kTriedCoefficients, options.coefficients) - kTriedCoefficients.begin());
-    RELUME_CHECK_LT(rung, kRungs);
+    RELUME_CHECK_LT(rung, kTriedCoefficients.size());
     const std::optional<int> terms = termsForBases(grid, rung, request.error);
     if (!terms) return std::nullopt;
     options.factorization.terms = *terms;
@@ -153,7 +151,8 @@ MeshAdvice adviseMesh(const vk::Device& device, const AdviceRequest& request, co
 
     MeshAdvice advice;
     advice.vertices = plan.vertices();
-    for (const auto& errors : grid.errors) advice.leastErrors.push_back(errors[kRungs - 1]);
+    for (const auto& errors : grid.errors)
+        advice.leastErrors.push_back(errors[kTriedCoefficients.size() - 1]);
     advice.rows = adviseRows(request, plan.asset, grid);
     advice.bases = adviseBases(device, request, scene, grid, drawn[size_t(LightPart::Whole)].entries, points,
                                observer, shareOf(report, 0.8, 1));

@@ -31,21 +31,21 @@ static nlohmann::ordered_json describeParts(const ErrorStudy& study, const ViewP
 }
 
 nlohmann::ordered_json describe(const ErrorStudy& study, const ViewPoints& points, const Asset& asset) {
-    nlohmann::ordered_json json = {{"points", study.stages.size()},
-                                   {"sources", describeSources(study.budget)},
-                                   {"parts", describeParts(study, points, asset)},
-                                   {"total", study.budget.total},
-                                   {"total_standard_error", study.budget.uncertainty},
-                                   {"root_sum_of_squares", study.budget.rootSumSquares},
-                                   {"measured", study.measured},
-                                   {"reference_noise", study.noise},
-                                   {"reference_passes", study.passes},
-                                   {"unexplained_truth", study.truthAside}};
+    nlohmann::ordered_json described = {{"points", study.stages.size()},
+                                        {"sources", describeSources(study.budget)},
+                                        {"parts", describeParts(study, points, asset)},
+                                        {"total", study.budget.total},
+                                        {"total_standard_error", study.budget.uncertainty},
+                                        {"root_sum_of_squares", study.budget.rootSumSquares},
+                                        {"measured", study.measured},
+                                        {"reference_noise", study.noise},
+                                        {"reference_passes", study.passes},
+                                        {"unexplained_truth", study.truthAside}};
     if (study.lowOrder) {
-        json["spherical_harmonics"] = study.lowOrder->error;
-        json["spherical_harmonics_of_terms"] = study.lowOrder->termsError;
+        described["spherical_harmonics"] = study.lowOrder->error;
+        described["spherical_harmonics_of_terms"] = study.lowOrder->termsError;
     }
-    return json;
+    return described;
 }
 
 std::string commandLineOf(const BakeOptions& options) {
@@ -82,11 +82,11 @@ nlohmann::ordered_json describe(const MeshAdvice& advice) {
 } // namespace
 
 nlohmann::ordered_json describe(const Advice& advice, double asked) {
-    nlohmann::ordered_json json = {{"asked", asked}, {"plain", describe(advice.plain)}};
-    if (advice.refined) json["refined"] = describe(*advice.refined);
+    nlohmann::ordered_json described = {{"asked", asked}, {"plain", describe(advice.plain)}};
+    if (advice.refined) described["refined"] = describe(*advice.refined);
     const AdvisedBake* best = advice.best();
-    json["best"] = best ? nlohmann::ordered_json(commandLineOf(best->options)) : nullptr;
-    return json;
+    described["best"] = best ? nlohmann::ordered_json(commandLineOf(best->options)) : nullptr;
+    return described;
 }
 
 } // namespace relume

@@ -11,7 +11,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-constexpr double kTolerance = 1e-5;
+constexpr double kFlatTolerance = 1e-5;
 
 // A flat surface, projected along the normal of its plane.
 struct FlatMesh {
@@ -33,7 +33,7 @@ std::optional<FlatMesh> flatten(const Mesh& mesh) {
     const dvec3 v = glm::cross(normal, u);
 
     const vec3 extent = boundsOf(mesh).extent();
-    const double limit = kTolerance * std::max({extent.x, extent.y, extent.z});
+    const double limit = kFlatTolerance * std::max({extent.x, extent.y, extent.z});
     dvec3 origin(0);
     for (const vec3& position : mesh.positions) origin += dvec3(position) / double(mesh.vertexCount());
     FlatMesh flat;
@@ -85,7 +85,7 @@ double hullArea(const std::vector<dvec2>& points, const std::vector<uint32_t>& h
 
 // Drops corners that are due to rounding: those whose removal hardly changes the area.
 void dropStraightCorners(const std::vector<dvec2>& points, double total, std::vector<uint32_t>& hull) {
-    const double limit = 0.01 * kTolerance * total;
+    const double limit = 0.01 * kFlatTolerance * total;
     for (size_t i = 0; i < hull.size() && hull.size() > 3;) {
         const size_t last = (i + hull.size() - 1) % hull.size(), next = (i + 1) % hull.size();
         if (area(points[hull[last]], points[hull[i]], points[hull[next]]) <= limit)
@@ -103,7 +103,7 @@ std::optional<Mesh> reduceFlat(const Mesh& mesh) {
     std::vector<uint32_t> hull = convexHull(flat->points);
     const auto fills = [&](const std::vector<uint32_t>& corners) {
         return corners.size() >= 3 &&
-               std::abs(hullArea(flat->points, corners) - flat->area) <= kTolerance * flat->area;
+               std::abs(hullArea(flat->points, corners) - flat->area) <= kFlatTolerance * flat->area;
     };
     if (!fills(hull)) return {};
     std::vector<uint32_t> fewer = hull;

@@ -14,10 +14,9 @@ struct CornerFolder : TemporaryFolder {
     std::string read(const std::string& name) const { return contents(path() / name); }
 };
 
-const std::string kBake = "bake mesh.obj --ground --ground-tessellation 12 --refine off -m gold -K 2 -N 32 "
-                          "--layout rows --visibility-size 64 --face-size 32 --map-size 8 -q ";
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
+const std::string kBounceBake =
+    "bake mesh.obj --ground --ground-tessellation 12 --refine off -m gold -K 2 -N 32 "
+    "--layout rows --visibility-size 64 --face-size 32 --map-size 8 -q ";
 Outcome succeed(const CornerFolder& folder, const std::string& command) {
     const Outcome outcome = runRelume(folder, command, kNoThreads);
     REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.err);
@@ -28,9 +27,9 @@ Outcome succeed(const CornerFolder& folder, const std::string& command) {
 
 TEST_CASE("bounces: two are the default, with the same bytes, and none are told of") {
     const CornerFolder folder;
-    succeed(folder, kBake + "-o plain.relume");
-    succeed(folder, kBake + "--bounces 0 -o none.relume");
-    succeed(folder, kBake + "--bounces 2 -o two.relume");
+    succeed(folder, kBounceBake + "-o plain.relume");
+    succeed(folder, kBounceBake + "--bounces 0 -o none.relume");
+    succeed(folder, kBounceBake + "--bounces 2 -o two.relume");
     CHECK(folder.read("plain.relume") == folder.read("two.relume"));
     CHECK(folder.read("plain.relume") != folder.read("none.relume"));
     CHECK(says(succeed(folder, "info two.relume").out, "by up to 2 reflections between surfaces"));
@@ -38,7 +37,7 @@ TEST_CASE("bounces: two are the default, with the same bytes, and none are told 
     const Outcome errors = runRelume(folder, "errors two.relume --size 8x8 --bounces 1", kNoThreads);
     CHECK(errors.exitCode == 2);
     CHECK(says(errors.err, "--bounces: expected 2, as many as the bake has, to 8, found 1"));
-    const Outcome many = runRelume(folder, kBake + "--bounces 9 -o many.relume", kNoThreads);
+    const Outcome many = runRelume(folder, kBounceBake + "--bounces 9 -o many.relume", kNoThreads);
     CHECK(many.exitCode == 2);
     CHECK(says(many.err, "--bounces: expected 0 to 8, found 9"));
     succeed(folder, "convert two.relume --layout bases -o bases.relume");
@@ -47,12 +46,12 @@ TEST_CASE("bounces: two are the default, with the same bytes, and none are told 
 
 TEST_CASE("bounces: none by default where materials share terms, but where they are asked for") {
     const CornerFolder folder;
-    succeed(folder, kBake + "-m clay -o set.relume");
+    succeed(folder, kBounceBake + "-m clay -o set.relume");
     CHECK(says(succeed(folder, "info set.relume").out, "direct alone"));
-    succeed(folder, kBake + "-m clay --bounces 1 -o asked.relume");
+    succeed(folder, kBounceBake + "-m clay --bounces 1 -o asked.relume");
     CHECK(says(succeed(folder, "info asked.relume").out, "by one reflection between surfaces"));
 
-    succeed(folder, kBake + "--keep-visibility -o gold.relume");
+    succeed(folder, kBounceBake + "--keep-visibility -o gold.relume");
     succeed(folder, "rebake gold.relume -m gold -m clay -q -o rebaked.relume");
     CHECK(folder.read("rebaked.relume") == folder.read("set.relume"));
     succeed(folder, "rebake gold.relume -m gold -m clay --bounces 2 -q -o both.relume");
@@ -61,7 +60,7 @@ TEST_CASE("bounces: none by default where materials share terms, but where they 
 
 TEST_CASE("bounces: any threads, shards and kills give the same bytes") {
     const CornerFolder folder;
-    const std::string bake = kBake + "--bounces 2 ";
+    const std::string bake = kBounceBake + "--bounces 2 ";
     succeed(folder, bake + "-o whole.relume");
     const std::string whole = folder.read("whole.relume");
     succeed(folder, bake + "--threads 1 -o single.relume");

@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 namespace {
 
 Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
-    const Outcome outcome = runRelume(folder, arguments, "LP_NUM_THREADS=0");
+    const Outcome outcome = runRelume(folder, arguments, kNoThreads);
     REQUIRE_MESSAGE(outcome.exitCode == 0, arguments << ": " << outcome.err);
     return outcome;
 }

@@ -18,7 +18,7 @@ struct Command {
 const std::string kSmallBake =
     "bake mesh.obj -m clay --refine off -K 1 -N 8 --visibility-size 64 --face-size 32 "
     "--map-size 8 -q --validation core,sync -o out.relume ";
-const Command kBake{kSmallBake + "--bounces 0 --layout rows", "out.relume"};
+const Command kFaultyBake{kSmallBake + "--bounces 0 --layout rows", "out.relume"};
 const Command kBounces{kSmallBake + "--bounces 1 --ground --ground-tessellation 3", "out.relume"};
 const Command kPicture{"render in.relume --size 16x12 --validation core,sync -o out.png", "out.png"};
 
@@ -35,9 +35,9 @@ struct FaultFolder : TemporaryFolder {
 class Sweep {
   public:
     explicit Sweep(const Command& command) : mCommand(command) {
-        const Outcome input = runRelume(mFolder, kBake.arguments, kNoThreads);
+        const Outcome input = runRelume(mFolder, kFaultyBake.arguments, kNoThreads);
         REQUIRE_MESSAGE(input.exitCode == 0, input.err);
-        std::filesystem::rename(mFolder.path() / kBake.output, mFolder.path() / "in.relume");
+        std::filesystem::rename(mFolder.path() / kFaultyBake.output, mFolder.path() / "in.relume");
         const Outcome whole = runRelume(mFolder, mCommand.arguments, kNoThreads);
         REQUIRE_MESSAGE(whole.exitCode == 0, whole.err);
         mWhole = contents(output());
@@ -62,16 +62,14 @@ class Sweep {
     }
 
   private:
-    static constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
     std::filesystem::path output() const { return mFolder.path() / mCommand.output; }
 
     Outcome faulty(const std::string& result, int call) const {
         const std::string only = mFunction.empty() ? "" : " RELUME_FAULT_VULKAN_FUNCTION=" + mFunction;
-        return runRelume(
-            mFolder, mCommand.arguments,
-            "timeout 100 env LP_NUM_THREADS=0 LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_VULKAN=" + result +
-                " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call) + only);
+        return runRelume(mFolder, mCommand.arguments,
+                         std::string("timeout 100 env ") + kNoThreads +
+                             " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_VULKAN=" + result +
+                             " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call) + only);
     }
 
     void fail(const std::string& result, int call, Tally& tally) {
@@ -113,7 +111,7 @@ class Sweep {
 } // namespace
 
 TEST_CASE("device faults: a bake goes on, or ends with an error and can be resumed") {
-    Sweep sweep(kBake);
+    Sweep sweep(kFaultyBake);
     const Tally memory = sweep.run("device-memory", 3);
     CHECK_GT(memory.calls, 100);
     CHECK_GT(memory.recovered, 30);

@@ -23,13 +23,7 @@ std::string bakeCommand(int groundQuads) {
            "8 -q -o "
            "out.relume ";
 }
-const std::string kBake = bakeCommand(12);
-
-struct BakeFolder : TemporaryFolder {
-    BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
-};
-
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
+const std::string kTriangleBake = bakeCommand(12);
 
 std::string faults(const std::string& kind, int call) {
     return std::string(kNoThreads) +
@@ -41,7 +35,7 @@ std::string faults(const std::string& kind, int call) {
 const std::string& undisturbed() {
     static const std::string bytes = [] {
         const BakeFolder folder;
-        const Outcome bake = runRelume(folder, kBake, kNoThreads);
+        const Outcome bake = runRelume(folder, kTriangleBake, kNoThreads);
         REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
         return contents(folder.path() / "out.relume");
     }();
@@ -50,7 +44,7 @@ const std::string& undisturbed() {
 
 // That a bake goes on to the right bytes and leaves nothing beside them.
 void checkFinishes(const BakeFolder& folder) {
-    const Outcome bake = runRelume(folder, kBake, kNoThreads);
+    const Outcome bake = runRelume(folder, kTriangleBake, kNoThreads);
     CAPTURE(bake.err);
     REQUIRE_EQ(bake.exitCode, 0);
     CHECK(contents(folder.path() / "out.relume") == undisturbed());
@@ -90,7 +84,7 @@ TEST_CASE("durable bake: killed at random instants, it resumes to the same bytes
     std::ofstream(folder.path() / "out.relume") << "precious";
     int killed = 0;
     for (int attempt = 0; attempt < 250 && killed < 25; attempt++) {
-        const pid_t process = startBake(folder, kBake);
+        const pid_t process = startBake(folder, kTriangleBake);
         std::uniform_real_distribution<double> instant(0, longest);
         std::this_thread::sleep_for(std::chrono::duration<double>(instant(random)));
         kill(process, SIGKILL);
@@ -118,7 +112,7 @@ TEST_CASE("durable bake: at every write it can be killed, run out of disk or fal
             CAPTURE(call);
             const BakeFolder folder;
             std::ofstream(folder.path() / "out.relume") << "precious";
-            const Outcome bake = runRelume(folder, kBake, faults(kind, call));
+            const Outcome bake = runRelume(folder, kTriangleBake, faults(kind, call));
             if (bake.exitCode == 0) {
                 CHECK(contents(folder.path() / "out.relume") == undisturbed());
                 break;
@@ -138,10 +132,10 @@ TEST_CASE("durable bake: at every write it can be killed, run out of disk or fal
 TEST_CASE("durable bake: blocks that are kept are not baked again, whatever was torn behind them") {
     const BakeFolder folder;
     const auto checkpoint = folder.path() / "out.relume.checkpoint";
-    REQUIRE_EQ(runRelume(folder, kBake, faults("kill", 6)).exitCode, 137);
+    REQUIRE_EQ(runRelume(folder, kTriangleBake, faults("kill", 6)).exitCode, 137);
     const std::string kept = contents(checkpoint);
     const auto doneOf = [&] {
-        const Outcome bake = runRelume(folder, kBake + "--json", kNoThreads);
+        const Outcome bake = runRelume(folder, kTriangleBake + "--json", kNoThreads);
         REQUIRE_EQ(bake.exitCode, 0);
         CHECK(contents(folder.path() / "out.relume") == undisturbed());
         std::istringstream lines(bake.out);
@@ -173,14 +167,14 @@ TEST_CASE("durable bake: blocks that are kept are not baked again, whatever was 
 TEST_CASE("durable bake: a checkpoint of other options is said to be dropped, another file is left alone") {
     const BakeFolder folder;
     const auto checkpoint = folder.path() / "out.relume.checkpoint";
-    REQUIRE_EQ(runRelume(folder, kBake + "-m clay", faults("kill", 6)).exitCode, 137);
-    const Outcome other = runRelume(folder, kBake, kNoThreads);
+    REQUIRE_EQ(runRelume(folder, kTriangleBake + "-m clay", faults("kill", 6)).exitCode, 137);
+    const Outcome other = runRelume(folder, kTriangleBake, kNoThreads);
     CHECK_EQ(other.exitCode, 0);
     CHECK(says(other.err, "out.relume.checkpoint"));
     CHECK(says(other.err, "starting over"));
     CHECK(contents(folder.path() / "out.relume") == undisturbed());
     std::ofstream(checkpoint) << "somebody's notes";
-    const Outcome refused = runRelume(folder, kBake, kNoThreads);
+    const Outcome refused = runRelume(folder, kTriangleBake, kNoThreads);
     CHECK_EQ(refused.exitCode, 1);
     CHECK(says(refused.err, "out.relume.checkpoint"));
     CHECK_EQ(contents(checkpoint), "somebody's notes");
@@ -191,7 +185,7 @@ TEST_CASE("durable bake: two bakes to one output are one too many") {
     const auto checkpoint = folder.path() / "out.relume.checkpoint";
     const int file = open(checkpoint.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     REQUIRE_EQ(flock(file, LOCK_EX), 0);
-    const Outcome second = runRelume(folder, kBake, kNoThreads);
+    const Outcome second = runRelume(folder, kTriangleBake, kNoThreads);
     CHECK_EQ(second.exitCode, 1);
     CHECK(says(second.err, "another bake"));
     close(file);
@@ -238,14 +232,14 @@ TEST_CASE("durable bake: batches, threads and a device out of memory do not show
               "instead of 64"}}) {
         CAPTURE(arguments);
         const BakeFolder folder;
-        const Outcome bake = runRelume(folder, kBake + arguments, environment);
+        const Outcome bake = runRelume(folder, kTriangleBake + arguments, environment);
         CAPTURE(bake.err);
         REQUIRE_EQ(bake.exitCode, 0);
         CHECK(says(bake.err, warning));
         CHECK(contents(folder.path() / "out.relume") == undisturbed());
     }
     const BakeFolder folder;
-    const Outcome little = runRelume(folder, kBake + "--memory 10k", kNoThreads);
+    const Outcome little = runRelume(folder, kTriangleBake + "--memory 10k", kNoThreads);
     CHECK_EQ(little.exitCode, 2);
     CHECK(says(little.err, "--memory"));
 }

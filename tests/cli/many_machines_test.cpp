@@ -10,16 +10,11 @@ using namespace relume::test;
 namespace {
 
 // A triangle over a ground: parts of one and of seven blocks, little work each.
-const std::string kMesh = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
-const std::string kBake =
+const std::string kShardBake =
     "bake mesh.obj --ground --ground-tessellation 20 --refine off -K 1 -N 8 --bounces 0 --visibility-size 64 "
     "--face-size 32 --map-size 8 --layout rows -q ";
 constexpr int kBlocks = 8;
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
-struct BakeFolder : TemporaryFolder {
-    BakeFolder() { write("mesh.obj", kMesh); }
-
+struct ShardFolder : BakeFolder {
     std::string read(const std::string& name) const { return contents(path() / name); }
     void put(const std::string& name, const std::string& bytes) const {
         std::ofstream(path() / name, std::ios::binary) << bytes;
@@ -28,10 +23,10 @@ struct BakeFolder : TemporaryFolder {
 
 std::string shardOf(int index, int count) {
     const std::string number = std::to_string(index);
-    return kBake + "--shard " + number + "/" + std::to_string(count) + " -o part-" + number + ".relume ";
+    return kShardBake + "--shard " + number + "/" + std::to_string(count) + " -o part-" + number + ".relume ";
 }
 
-void bakeShards(const BakeFolder& folder, int count) {
+void bakeShards(const ShardFolder& folder, int count) {
     for (int index = 0; index < count; index++) {
         const Outcome bake = runRelume(folder, shardOf(index, count), kNoThreads);
         REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
@@ -41,8 +36,8 @@ void bakeShards(const BakeFolder& folder, int count) {
 // The bytes of a bake by one machine.
 const std::string& whole() {
     static const std::string bytes = [] {
-        const BakeFolder folder;
-        const Outcome bake = runRelume(folder, kBake + "-o whole.relume", kNoThreads);
+        const ShardFolder folder;
+        const Outcome bake = runRelume(folder, kShardBake + "-o whole.relume", kNoThreads);
         REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
         return folder.read("whole.relume");
     }();
@@ -50,7 +45,7 @@ const std::string& whole() {
 }
 
 // Merges, and expects to be refused without a trace.
-std::string refusal(const BakeFolder& folder, const std::string& parts) {
+std::string refusal(const ShardFolder& folder, const std::string& parts) {
     const Outcome merge = runRelume(folder, "merge " + parts + " -o refused.relume");
     CAPTURE(merge.err);
     CHECK_EQ(merge.exitCode, 1);
@@ -62,12 +57,12 @@ std::string refusal(const BakeFolder& folder, const std::string& parts) {
 } // namespace
 
 TEST_CASE("many machines: four shards under mpirun, merged, are the whole bake") {
-    const BakeFolder folder;
+    const ShardFolder folder;
     // What docs/many_machines.md shows.
     folder.put("bake.sh", "part=\"part-$OMPI_COMM_WORLD_RANK.relume\"\n"
                           "test -e \"$part\" && exit\n"
                           "exec '" RELUME_PROGRAM "' " +
-                              kBake +
+                              kShardBake +
                               "--shard \"$OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE\" -o \"$part\"\n");
     const std::string command =
         "cd '" + folder.path().string() + "' && " + kNoThreads +
@@ -83,7 +78,7 @@ TEST_CASE("many machines: four shards under mpirun, merged, are the whole bake")
 TEST_CASE("many machines: one shard, two, and more than there are blocks") {
     for (int count : {1, 2, kBlocks + 2}) {
         CAPTURE(count);
-        const BakeFolder folder;
+        const ShardFolder folder;
         bakeShards(folder, count);
         const Outcome merge = runRelume(folder, "merge part-*.relume -o merged.relume");
         REQUIRE_MESSAGE(merge.exitCode == 0, merge.err);
@@ -92,7 +87,7 @@ TEST_CASE("many machines: one shard, two, and more than there are blocks") {
 }
 
 TEST_CASE("many machines: shards in bases, merged, are the whole bake") {
-    const BakeFolder folder;
+    const ShardFolder folder;
     // 1681 vertices of ground: seven blocks of bases, more than the sample has.
     const std::string bake = "bake mesh.obj --ground --ground-tessellation 40 --refine off -K 1 -N 40 "
                              "--bounces 0 --visibility-size 64 "
@@ -115,7 +110,7 @@ TEST_CASE("many machines: shards in bases, merged, are the whole bake") {
 }
 
 TEST_CASE("many machines: a shard counts its own vertices, and goes on from its own checkpoint") {
-    const BakeFolder folder;
+    const ShardFolder folder;
     // Shard 1 has blocks 1, 3, 5 and 7: of the ground, 64 + 64 + 64 + 57 vertices. The fourth write is of the
     // third.
     const std::string killed = std::string(kNoThreads) + " LD_PRELOAD='" RELUME_FAULTS
@@ -144,7 +139,7 @@ TEST_CASE("many machines: a shard counts its own vertices, and goes on from its 
 }
 
 TEST_CASE("many machines: what cannot be joined is refused, and why is said") {
-    const BakeFolder folder;
+    const ShardFolder folder;
     bakeShards(folder, 2);
     CHECK(says(refusal(folder, "part-0.relume"), "1 of 2 shards missing: 1/2"));
     CHECK(says(refusal(folder, "part-0.relume part-1.relume part-0.relume"), "part-0.relume: is shard 0/2"));
@@ -153,7 +148,7 @@ TEST_CASE("many machines: what cannot be joined is refused, and why is said") {
     CHECK(says(refusal(folder, "part-0.relume whole.relume"), "whole.relume: is a whole bake"));
 
     const auto otherShard = [&](const std::string& options) {
-        REQUIRE_EQ(runRelume(folder, kBake + options + " -o other.relume", kNoThreads).exitCode, 0);
+        REQUIRE_EQ(runRelume(folder, kShardBake + options + " -o other.relume", kNoThreads).exitCode, 0);
         return refusal(folder, "part-0.relume other.relume");
     };
     CHECK(says(otherShard("--shard 1/3"), "one of 3 shards"));
@@ -172,7 +167,7 @@ TEST_CASE("many machines: what cannot be joined is refused, and why is said") {
 }
 
 TEST_CASE("many machines: parts that were damaged or cut short are refused, whole output stays") {
-    const BakeFolder folder;
+    const ShardFolder folder;
     bakeShards(folder, 2);
     const std::string good = folder.read("part-1.relume");
     std::mt19937 random(7);
@@ -205,15 +200,15 @@ TEST_CASE("many machines: parts that were damaged or cut short are refused, whol
 }
 
 TEST_CASE("many machines: options that cannot be") {
-    const BakeFolder folder;
+    const ShardFolder folder;
     const auto usage = [&](const std::string& arguments) {
         const Outcome outcome = runRelume(folder, arguments);
         CHECK_EQ(outcome.exitCode, 2);
         return outcome.err;
     };
     CHECK(says(usage(shardOf(4, 4)), "the first of 4 is 0/4, the last 3/4"));
-    CHECK(says(usage(kBake + "--shard /4 -o part.relume"), "expected I/N"));
-    CHECK(says(usage(kBake + "--shard '' -o part.relume"), "--shard: expected a value"));
+    CHECK(says(usage(kShardBake + "--shard /4 -o part.relume"), "expected I/N"));
+    CHECK(says(usage(kShardBake + "--shard '' -o part.relume"), "--shard: expected a value"));
     CHECK(says(usage("merge part.relume -o merged.png"), "expected a name ending in .relume"));
     folder.put("part.relume", "x");
     CHECK(says(usage("merge part.relume -o ./part.relume"), "would be written over"));

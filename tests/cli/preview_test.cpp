@@ -11,12 +11,6 @@ namespace {
 const std::string kBakeIn =
     "bake mesh.obj --ground --refine off -K 2 -N 8 --bounces 0 --visibility-size 64 --face-size "
     "32 --map-size 8 -q -o out.relume --layout ";
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
-struct BakeFolder : TemporaryFolder {
-    BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
-};
-
 std::string killAt(int call) {
     return std::string(kNoThreads) +
            " LD_PRELOAD='" RELUME_FAULTS

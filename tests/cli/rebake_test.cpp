@@ -11,8 +11,6 @@ using namespace relume::test;
 
 namespace {
 
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
 // Two triangles of their own and a ground: parts of one, one and three blocks.
 struct RebakeFolder : TemporaryFolder {
     RebakeFolder() {

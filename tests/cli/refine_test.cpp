@@ -9,12 +9,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
 // A triangle over a ground.
-struct BakeFolder : TemporaryFolder {
-    BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
-
+struct RefineFolder : BakeFolder {
     Outcome bake(const std::string& arguments, const std::string& input = "mesh.obj --ground") const {
         return runRelume(
             *this,
@@ -35,7 +31,7 @@ struct BakeFolder : TemporaryFolder {
 } // namespace
 
 TEST_CASE("refine: says what it did, and does it again to the same bytes") {
-    const BakeFolder folder;
+    const RefineFolder folder;
     REQUIRE_EQ(folder.bake("-o first.relume").exitCode, 0);
     REQUIRE_EQ(folder.bake("--threads 1 -o second.relume").exitCode, 0);
     const std::string first = folder.bytes("first.relume");
@@ -57,7 +53,7 @@ TEST_CASE("refine: says what it did, and does it again to the same bytes") {
 }
 
 TEST_CASE("refine: shards, previews and other materials keep to the same meshes") {
-    const BakeFolder folder;
+    const RefineFolder folder;
     REQUIRE_EQ(folder.bake("--keep-visibility -o kept.relume").exitCode, 0);
     REQUIRE_EQ(folder.bake("-o whole.relume").exitCode, 0);
     const std::string whole = folder.bytes("whole.relume");
@@ -75,7 +71,7 @@ TEST_CASE("refine: shards, previews and other materials keep to the same meshes"
 }
 
 TEST_CASE("refine: a ground whose tessellation is given starts with it") {
-    const BakeFolder folder;
+    const RefineFolder folder;
     REQUIRE_EQ(folder.bake("--ground-tessellation 5 -o option.relume").exitCode, 0);
     CHECK_EQ(folder.info("option.relume")["refinement"]["start_vertices"], 3 + 6 * 6);
     for (const auto& [ground, vertices] :
@@ -89,7 +85,7 @@ TEST_CASE("refine: a ground whose tessellation is given starts with it") {
 }
 
 TEST_CASE("refine: by itself a bake adds vertices to coarse parts alone") {
-    const BakeFolder folder;
+    const RefineFolder folder;
     const auto bake = [&](const std::string& input, const std::string& output) {
         const Outcome outcome =
             runRelume(folder,
@@ -117,7 +113,7 @@ TEST_CASE("refine: by itself a bake adds vertices to coarse parts alone") {
 }
 
 TEST_CASE("refine: its event") {
-    const BakeFolder folder;
+    const RefineFolder folder;
     const Outcome bake =
         runRelume(folder,
                   "bake mesh.obj --ground --refine 0.1 -K 1 -N 8 --bounces 0 --visibility-size 64 "
@@ -143,7 +139,7 @@ TEST_CASE("refine: its event") {
 }
 
 TEST_CASE("refine: errors that cannot be asked for") {
-    const BakeFolder folder;
+    const RefineFolder folder;
     for (const std::string error : {"0", "-1", "0.0005", "1.5", "1e300", "nan", "inf", "fine"}) {
         CAPTURE(error);
         const Outcome bake = runRelume(folder, "bake mesh.obj --refine " + error + " -o out.relume");

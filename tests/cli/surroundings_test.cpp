@@ -12,8 +12,7 @@ using namespace relume::test;
 
 namespace {
 
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-const std::string kBake =
+const std::string kFlatBake =
     "bake mesh.obj --refine off -K 1 -N 8 --layout rows --bounces 0 --visibility-size 64 "
     "--face-size 32 --map-size 8 -q ";
 
@@ -26,7 +25,7 @@ struct MeshFolder : TemporaryFolder {
 };
 
 std::string baked(const TemporaryFolder& folder, const std::string& options) {
-    const Outcome bake = runRelume(folder, kBake + options + " -o baked.relume", kNoThreads);
+    const Outcome bake = runRelume(folder, kFlatBake + options + " -o baked.relume", kNoThreads);
     REQUIRE_MESSAGE(bake.exitCode == 0, bake.err);
     std::string bytes = contents(folder.path() / "baked.relume");
     std::filesystem::remove(folder.path() / "baked.relume");
@@ -48,7 +47,7 @@ TEST_CASE("surroundings: of bakes to one output at once each is whole or refused
     // Each says what it has to say to a file of its own.
     const auto bake = [&](int number) {
         const std::string command = "cd " + quoted(folder.path()) + " && " + kNoThreads +
-                                    " '" RELUME_PROGRAM "' " + kBake + "-m clay -o out.relume 2>err" +
+                                    " '" RELUME_PROGRAM "' " + kFlatBake + "-m clay -o out.relume 2>err" +
                                     std::to_string(number) + ".txt";
         return WEXITSTATUS(std::system(command.c_str()));
     };
@@ -100,7 +99,7 @@ TEST_CASE("surroundings: a home that cannot be written changes nothing") {
     const MeshFolder folder;
     const std::string whole = baked(folder, "-m clay");
     const Outcome bake =
-        runRelume(folder, kBake + "-m clay -o out.relume",
+        runRelume(folder, kFlatBake + "-m clay -o out.relume",
                   std::string(kNoThreads) + " HOME=/proc XDG_CACHE_HOME=/proc/cache TMPDIR=/proc");
     CHECK_MESSAGE(bake.exitCode == 0, bake.err);
     CHECK((contents(folder.path() / "out.relume") == whole));
@@ -118,8 +117,8 @@ TEST_CASE("surroundings: names of files are any bytes") {
         CHECK_MESSAGE(outcome.exitCode == 0, outcome.err);
         return outcome;
     };
-    std::string command =
-        kBake + "-m clay --keep-visibility -o " + name(".relume") + " --timings " + name(".json") + " --json";
+    std::string command = kFlatBake + "-m clay --keep-visibility -o " + name(".relume") + " --timings " +
+                          name(".json") + " --json";
     command.replace(command.find("mesh.obj"), 8, name(".obj"));
     std::istringstream events(run(command).out);
     for (std::string line; std::getline(events, line);) CHECK(nlohmann::json::accept(line));

@@ -11,8 +11,6 @@ using namespace relume::test;
 
 namespace {
 
-constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
-
 // What commands read, and links to it.
 struct InputFolder : TemporaryFolder {
     InputFolder() {

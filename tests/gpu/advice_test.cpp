@@ -18,7 +18,7 @@ Scene knot() {
     return scene;
 }
 
-BakeOptions smallOptions() {
+BakeOptions adviceOptions() {
     BakeOptions options;
     options.visibilitySize = 64;
     options.faceSize = 32;
@@ -53,7 +53,7 @@ TEST_CASE("advise: a bake of its options has about the error and the bytes that 
     const StudiedLight light = sky();
     BakeObserver observer;
     constexpr double kWanted = 0.06;
-    const Advice advice = advise(device, {knot(), {}, kWanted, smallOptions(), 160}, light, observer);
+    const Advice advice = advise(device, {knot(), {}, kWanted, adviceOptions(), 160}, light, observer);
     CHECK(!advice.refined);
     CHECK(advice.best() == &*advice.plain.bases);
     for (const auto& advised : {advice.plain.bases, advice.plain.rows}) {
@@ -78,7 +78,7 @@ TEST_CASE("advise: a refined ground is preferred where it needs fewer bytes") {
     };
     BakeObserver observer;
     const Advice advice =
-        advise(device, {onGround(100), onGround(8), 0.1, smallOptions(), 160}, sky(), observer);
+        advise(device, {onGround(100), onGround(8), 0.1, adviceOptions(), 160}, sky(), observer);
     REQUIRE(advice.refined);
     CHECK(advice.refined->vertices < advice.plain.vertices / 2);
     REQUIRE(advice.best());
@@ -90,7 +90,7 @@ TEST_CASE("advise: a refined ground is preferred where it needs fewer bytes") {
 TEST_CASE("advise: what is out of reach is not advised") {
     const TestDevice device;
     BakeObserver observer;
-    AdviceRequest request{knot(), {}, 1e-3, smallOptions(), 40};
+    AdviceRequest request{knot(), {}, 1e-3, adviceOptions(), 40};
     const Advice advice = advise(device, request, sky(), observer);
     CHECK(advice.best() == nullptr);
     CHECK(advice.plain.leastErrors.back() > 1e-3);

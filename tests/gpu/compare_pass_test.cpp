@@ -11,12 +11,12 @@ using namespace relume;
 
 namespace {
 
-constexpr int kWidth = 37, kHeight = 21;
+constexpr int kCompareWidth = 37, kCompareHeight = 21;
 
 Image randomImage(uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> value(0, 2);
-    Image image(kWidth, kHeight);
+    Image image(kCompareWidth, kCompareHeight);
     for (vec4& pixel : image.pixels)
         pixel = {value(random), value(random), value(random), float(random() % 2)};
     return image;
@@ -24,14 +24,15 @@ Image randomImage(uint32_t seed) {
 
 Image compared(const vk::Device& device, const Image& first, const Image& second,
                const CompareOptions& options) {
-    const vk::ImageOptions uploaded{.width = kWidth,
-                                    .height = kHeight,
+    const vk::ImageOptions uploaded{.width = kCompareWidth,
+                                    .height = kCompareHeight,
                                     .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     const vk::Image a = vk::uploadImage(device, uploaded, std::as_bytes(std::span(first.pixels)), "first");
     const vk::Image b = vk::uploadImage(device, uploaded, std::as_bytes(std::span(second.pixels)), "second");
     ComparePass pass(device);
-    const vk::Buffer readback(device, 16 * kWidth * kHeight, vk::BufferUse::Readback, "readback");
+    const vk::Buffer readback(device, 16 * kCompareWidth * kCompareHeight, vk::BufferUse::Readback,
+                              "readback");
     vk::Commands commands(device, "compare");
     commands.begin();
     for (const vk::Image* image : {&a, &b})
@@ -41,7 +42,7 @@ Image compared(const vk::Device& device, const Image& first, const Image& second
     commands.copy(pass.image(), readback, 1);
     commands.barrier(vk::Stage::Transfer, vk::Stage::Host);
     commands.submitAndWait();
-    Image image(kWidth, kHeight);
+    Image image(kCompareWidth, kCompareHeight);
     std::ranges::copy(readback.map<vec4>(), image.pixels.begin());
     return image;
 }
@@ -53,10 +54,10 @@ TEST_CASE("compare pass: one image left of the split, the other right of it") {
     const Image first = randomImage(1), second = randomImage(2);
     for (const float split : {0.0f, 0.4f, 1.0f}) {
         const Image both = compared(device, first, second, {CompareMode::Split, split});
-        for (int y = 0; y < kHeight; y++)
-            for (int x = 0; x < kWidth; x++)
+        for (int y = 0; y < kCompareHeight; y++)
+            for (int x = 0; x < kCompareWidth; x++)
                 CHECK(both.at(x, y) ==
-                      (float(x) + 0.5f < split * float(kWidth) ? first.at(x, y) : second.at(x, y)));
+                      (float(x) + 0.5f < split * float(kCompareWidth) ? first.at(x, y) : second.at(x, y)));
     }
 }
 

@@ -106,7 +106,7 @@ Asset bakeTwoParts(const vk::Device& device) {
     return bake(device, twoParts(), options);
 }
 
-constexpr int kWidth = 96, kHeight = 72;
+constexpr int kDriftWidth = 96, kDriftHeight = 72;
 const Camera kCamera{{0, 1.5f, 4}, {0, 0, 0}, 0.8f};
 
 // Draws an asset as a program does that changes light, look and size.
@@ -114,8 +114,8 @@ class Drawing {
   public:
     Drawing(const vk::Device& device, const Asset& asset)
         : mAsset(asset), mLight(device, asset.faceSize), mRelighter(device, asset),
-          mView(device, asset, {.width = kWidth, .height = kHeight}), mCommands(device, "drift test"),
-          mAppearance(defaultAppearance(asset)) {}
+          mView(device, asset, {.width = kDriftWidth, .height = kDriftHeight}),
+          mCommands(device, "drift test"), mAppearance(defaultAppearance(asset)) {}
 
     // A lamp that turns about the scene and is back after a hundred steps.
     void setLight(int step) {
@@ -192,11 +192,11 @@ TEST_CASE("drift: swaps of materials and sizes of images leave nothing behind") 
     checkFlat("swaps and resizes", device, repeats(20, 1'000), [&](int i) {
         drawing.bind(i % 2 == 0 ? "red-plastic" : "gold");
         drawing.view().setSamples(i % 3 == 0 ? 1 : 4);
-        drawing.view().resize(kWidth + i % 7 * 16, kHeight + i % 5 * 8);
+        drawing.view().resize(kDriftWidth + i % 7 * 16, kDriftHeight + i % 5 * 8);
         drawing.draw();
     });
     drawing.bind("gold");
     drawing.view().setSamples(ViewOptions{}.samples);
-    drawing.view().resize(kWidth, kHeight);
+    drawing.view().resize(kDriftWidth, kDriftHeight);
     CHECK(drawing.draw().pixels == first.pixels);
 }

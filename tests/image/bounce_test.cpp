@@ -21,7 +21,7 @@ using namespace relume::test;
 
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kBounceWidth = 64, kBounceHeight = 48;
 
 LightCube uniformLight(int size) { return {size, std::vector<vec3>(size_t(6 * size * size), vec3(1))}; }
 
@@ -69,7 +69,7 @@ Image draw(const vk::Device& device, const Asset& asset, const LightCube& cube, 
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
     Relighter relighter(device, asset);
-    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = 1});
+    ViewPass view(device, asset, {.width = kBounceWidth, .height = kBounceHeight, .samples = 1});
     vk::Commands commands(device, "bounce test");
     commands.begin();
     light.record(commands);
@@ -120,8 +120,8 @@ TEST_CASE("image: bounced light against paths, in gold, red and white") {
     const Camera camera{{3.2f, 1.6f, 2.4f}, {-0.4f, -0.1f, 0}, 0.7f};
     const LightCube light = sunnyLight(direct.faceSize);
     ReferenceOptions options;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = kBounceWidth;
+    options.height = kBounceHeight;
     options.samples = 1;
     options.raysPerTexelSide = 1;
     const Image directTruth = renderReference(direct, camera, light, options);

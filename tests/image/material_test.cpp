@@ -20,7 +20,7 @@ using namespace relume::test;
 
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kMaterialWidth = 64, kMaterialHeight = 48;
 
 class MaterialTest {
   public:
@@ -28,7 +28,7 @@ class MaterialTest {
         : mAsset(bake(mDevice, std::move(scene), optionsOf(terms))), mCamera(camera),
           mSky(sampleEnvironment(prepareForSampling(makeSky()), 64, 0)), mLight(mDevice, 64),
           mRelighter(mDevice, mAsset),
-          mView(mDevice, mAsset, {.width = kWidth, .height = kHeight, .samples = 1}) {
+          mView(mDevice, mAsset, {.width = kMaterialWidth, .height = kMaterialHeight, .samples = 1}) {
         mLight.setCube(mSky);
     }
 
@@ -46,7 +46,7 @@ class MaterialTest {
     }
 
     double error(const Appearance& appearance, ReferenceBrdf brdf = ReferenceBrdf::Exact) {
-        ReferenceOptions options{.width = kWidth, .height = kHeight, .samples = 1};
+        ReferenceOptions options{.width = kMaterialWidth, .height = kMaterialHeight, .samples = 1};
         options.brdf = brdf;
         options.raysPerTexelSide = 1;
         options.appearance = appearance;

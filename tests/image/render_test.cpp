@@ -15,7 +15,7 @@ using namespace relume;
 
 namespace {
 
-constexpr int kWidth = 120, kHeight = 90;
+constexpr int kRenderWidth = 120, kRenderHeight = 90;
 
 Asset bakeKnot(const vk::Device& device, const std::string& material, const BakeOptions& options) {
     Scene scene;
@@ -30,14 +30,14 @@ Asset bakeDiffuseKnot(const vk::Device& device, int coefficients) {
 }
 
 Camera viewOf(const Asset& asset) {
-    return defaultCamera(boundsOf(asset), 0.6f, float(kWidth) / float(kHeight));
+    return defaultCamera(boundsOf(asset), 0.6f, float(kRenderWidth) / float(kRenderHeight));
 }
 
 Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube, int threshold, int samples) {
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
     Relighter relighter(device, asset, {.residual = false}); // what the reference draws, too
-    ViewPass view(device, asset, {.width = kWidth, .height = kHeight, .samples = samples});
+    ViewPass view(device, asset, {.width = kRenderWidth, .height = kRenderHeight, .samples = samples});
     vk::Commands commands(device, "render test");
     commands.begin();
     light.record(commands, 0, {threshold});
@@ -50,8 +50,8 @@ Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
 double relativeRmse(const vk::Device& device, const Asset& asset, const LightCube& cube, ReferenceBrdf brdf,
                     int threshold, int raysPerTexelSide = 1) {
     ReferenceOptions options;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = kRenderWidth;
+    options.height = kRenderHeight;
     options.samples = 1;
     options.raysPerTexelSide = raysPerTexelSide;
     options.brdf = brdf;
@@ -82,9 +82,9 @@ TEST_CASE("image: edges are as the reference has them") {
     const Asset asset = bakeDiffuseKnot(device, 6 * 64 * 64);
     const Image image = relit(device, asset, sky, 0, kDefaultSamples);
     for (const int samples : {1, kDefaultSamples}) {
-        const Image reference =
-            renderReference(asset, viewOf(asset), sky,
-                            {.width = kWidth, .height = kHeight, .samples = samples, .raysPerTexelSide = 1});
+        const Image reference = renderReference(
+            asset, viewOf(asset), sky,
+            {.width = kRenderWidth, .height = kRenderHeight, .samples = samples, .raysPerTexelSide = 1});
         int edges = 0, differ = 0;
         double squares = 0, level = 0;
         for (size_t i = 0; i < image.pixels.size(); i++) {
@@ -126,5 +126,5 @@ TEST_CASE("image: under an even light a convex diffuse object shows its albedo")
         CHECK(pixel.x / pixel.w == doctest::Approx(0.5).epsilon(0.01));
         CHECK(pixel.z / pixel.w == doctest::Approx(0.5).epsilon(0.01));
     }
-    CHECK_GT(covered, kWidth * kHeight / 6);
+    CHECK_GT(covered, kRenderWidth * kRenderHeight / 6);
 }

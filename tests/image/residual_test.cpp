@@ -22,7 +22,7 @@ using namespace relume;
 
 namespace {
 
-constexpr int kWidth = 96, kHeight = 72;
+constexpr int kResidualWidth = 96, kResidualHeight = 72;
 
 Asset bakeKnot(const vk::Device& device, const std::string& material, Factorization method) {
     Scene scene;
@@ -33,35 +33,36 @@ Asset bakeKnot(const vk::Device& device, const std::string& material, Factorizat
     return bake(device, std::move(scene), options);
 }
 
-Camera viewOf(const Asset& asset) {
-    return defaultCamera(boundsOf(asset), 0.6f, float(kWidth) / float(kHeight));
+Camera residualView(const Asset& asset) {
+    return defaultCamera(boundsOf(asset), 0.6f, float(kResidualWidth) / float(kResidualHeight));
 }
 
-Image relit(const vk::Device& device, const Asset& asset, const LightCube& cube,
-            const RelighterOptions& options = {}, bool isAdded = true, bool isUnshadowed = false) {
+Image relitWith(const vk::Device& device, const Asset& asset, const LightCube& cube,
+                const RelighterOptions& options = {}, bool isAdded = true, bool isUnshadowed = false) {
     LightPass light(device, asset.faceSize);
     light.setCube(cube);
     Relighter relighter(device, asset, options);
-    ViewPass view(device, asset,
-                  {.width = kWidth, .height = kHeight, .samples = 1, .isUnshadowed = isUnshadowed});
+    ViewPass view(
+        device, asset,
+        {.width = kResidualWidth, .height = kResidualHeight, .samples = 1, .isUnshadowed = isUnshadowed});
     view.setResidual(isAdded);
     vk::Commands commands(device, "residual test");
     commands.begin();
     light.record(commands);
     relighter.record(commands, light);
-    view.record(commands, viewOf(asset), relighter);
+    view.record(commands, residualView(asset), relighter);
     commands.submitAndWait();
     return view.read();
 }
 
 Image reference(const Asset& asset, const LightCube& cube, ReferenceBrdf brdf) {
     ReferenceOptions options;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = kResidualWidth;
+    options.height = kResidualHeight;
     options.samples = 1;
     options.raysPerTexelSide = 1;
     options.brdf = brdf;
-    return renderReference(asset, viewOf(asset), cube, options);
+    return renderReference(asset, residualView(asset), cube, options);
 }
 
 } // namespace
@@ -75,7 +76,8 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         REQUIRE(residual);
         CHECK(residual->hasNonnegativeTerms == (method == Factorization::NonNegative));
         const Image exact = reference(asset, sky, ReferenceBrdf::Exact);
-        const Image drawn = relit(device, asset, sky), terms = relit(device, asset, sky, {.residual = false});
+        const Image drawn = relitWith(device, asset, sky),
+                    terms = relitWith(device, asset, sky, {.residual = false});
         const double error = compareImages(drawn, exact).relativeRmse,
                      ofTerms = compareImages(terms, exact).relativeRmse,
                      ofEstimate =
@@ -85,7 +87,7 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
         CHECK_LE(error, 0.5 * ofTerms + silhouetteError(device));
         CHECK_LE(ofEstimate, 0.06 + silhouetteError(device));
         // Switched off, not a bit of it is left.
-        CHECK(relit(device, asset, sky, {}, false).pixels == terms.pixels);
+        CHECK(relitWith(device, asset, sky, {}, false).pixels == terms.pixels);
     }
 }
 
@@ -105,7 +107,7 @@ TEST_CASE("image: where a sun is shadowed, the sky is reflected all the same") {
     sun.radiance[place] = light.radiance[place] = vec3(8000);
     const Image exact = reference(asset, light, ReferenceBrdf::Exact),
                 ofSun = reference(asset, sun, ReferenceBrdf::Exact);
-    const Image drawn = relit(device, asset, light);
+    const Image drawn = relitWith(device, asset, light);
     double difference = 0, level = 0;
     int shadowed = 0;
     for (size_t i = 0; i < exact.pixels.size(); i++) {
@@ -127,7 +129,7 @@ TEST_CASE("image: a sketch of what shadows nothing is its reference") {
         Scene scene;
         scene.parts.push_back({"sphere", makeSphere(4), material, "built-in sphere", ""});
         const Asset sketch = makeSketch(device, std::move(scene));
-        const double error = compareImages(relit(device, sketch, sky, {}, true, true),
+        const double error = compareImages(relitWith(device, sketch, sky, {}, true, true),
                                            reference(sketch, sky, ReferenceBrdf::Exact))
                                  .relativeRmse;
         MESSAGE(std::string(material), ": relative error ", error);
@@ -165,7 +167,8 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
         options.factorization.method = Factorization::NonNegative;
         const Asset asset = bake(device, std::move(scene), options);
         REQUIRE(asset.parts[0].mesh.tangents.size() == asset.parts[0].mesh.vertexCount());
-        const Image drawn = relit(device, asset, sky), exact = reference(asset, sky, ReferenceBrdf::Exact);
+        const Image drawn = relitWith(device, asset, sky),
+                    exact = reference(asset, sky, ReferenceBrdf::Exact);
         const double error = compareImages(drawn, exact).relativeRmse;
         MESSAGE("turned by ", degrees, " degrees: ", error);
         // Without interpolation of turns or phases it is 0.03 and more.
@@ -182,7 +185,7 @@ TEST_CASE("image: a diffuse material has no residual, and light that is none giv
     CHECK_FALSE(diffuse.parts[0].sets[0].residual);
     const Asset gold = bakeKnot(device, "gold", Factorization::NonNegative);
     const LightCube dark{64, std::vector<vec3>(6 * 64 * 64, vec3(0))};
-    for (const vec4& pixel : relit(device, gold, dark).pixels) CHECK(vec3(pixel) == vec3(0));
+    for (const vec4& pixel : relitWith(device, gold, dark).pixels) CHECK(vec3(pixel) == vec3(0));
 }
 
 TEST_CASE("image: a material whose BRDF is gone is drawn by its terms alone") {

@@ -1,4 +1,4 @@
-// Mesh files written by hand, for tests of their readers.
+// Meshes for tests, and mesh files written by hand for tests of their readers.
 #pragma once
 
 #include "engine/scene/mesh.h"
@@ -10,6 +10,16 @@
 #include <string>
 
 namespace relume::test {
+
+// Makes a unit square in z = 0 that faces +z, its image upright: u right, v down.
+inline Mesh makeSquare() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.normals.assign(4, vec3(0, 0, 1));
+    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
 
 enum class PlySample { Ascii, LittleEndian, BigEndian };
 

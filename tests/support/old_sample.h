@@ -7,24 +7,24 @@
 
 namespace relume::test {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-inline Json setJson(const MaterialSet& set, uint64_t entries) {
-    Json materials = Json::array();
+inline OrderedJson setJson(const MaterialSet& set, uint64_t entries) {
+    OrderedJson materials = OrderedJson::array();
     for (const AssetMaterial& material : set.materials)
         materials.push_back({{"name", material.name},
                              {"description", material.description},
                              {"layer", material.layer},
                              {"base", material.hasBase}});
-    Json json = {{"materials", materials},
-                 {"terms", set.brdf.terms},
-                 {"layers", set.brdf.layers},
-                 {"mapSize", set.brdf.size},
-                 {"mapping", diskMappingName(set.brdf.mapping)},
-                 {"layout", layoutName(layoutOf(set.transport))},
-                 {"entries", entries}};
+    OrderedJson json = {{"materials", materials},
+                        {"terms", set.brdf.terms},
+                        {"layers", set.brdf.layers},
+                        {"mapSize", set.brdf.size},
+                        {"mapping", diskMappingName(set.brdf.mapping)},
+                        {"layout", layoutName(layoutOf(set.transport))},
+                        {"entries", entries}};
     if (const auto* bases = std::get_if<BasisTransport>(&set.transport)) {
-        json["kinds"] = Json::array();
+        json["kinds"] = OrderedJson::array();
         for (const auto& [term, color] : bases->kinds)
             json["kinds"].push_back(
                 {{"term", term}, {"red", color.x}, {"green", color.y}, {"blue", color.z}});
@@ -32,30 +32,30 @@ inline Json setJson(const MaterialSet& set, uint64_t entries) {
     return json;
 }
 
-inline Json layoutJson(const LayoutRecord& layout) {
-    Json json = Json::object();
+inline OrderedJson layoutJson(const LayoutRecord& layout) {
+    OrderedJson json = OrderedJson::object();
     if (layout.wantedBytes) json["wantedBytes"] = *layout.wantedBytes;
     if (layout.wantedError) json["wantedError"] = *layout.wantedError;
     json["error"] = layout.error;
     return json;
 }
 
-inline Json textureJson(const Texture& texture) {
+inline OrderedJson textureJson(const Texture& texture) {
     return {{"width", texture.width}, {"height", texture.height}, {"srgb", texture.srgb}};
 }
 
 // Takes the entries of the part's sets off the front of `setEntries`.
-inline Json partJson(const AssetPart& part, std::span<const uint64_t>& setEntries) {
-    Json json = {{"name", part.name},
-                 {"vertices", part.mesh.vertexCount()},
-                 {"triangles", part.mesh.triangleCount()},
-                 {"uvs", !part.mesh.uvs.empty()},
-                 {"colors", !part.mesh.colors.empty()},
-                 {"paintedByColors", part.paintedByColors}};
+inline OrderedJson partJson(const AssetPart& part, std::span<const uint64_t>& setEntries) {
+    OrderedJson json = {{"name", part.name},
+                        {"vertices", part.mesh.vertexCount()},
+                        {"triangles", part.mesh.triangleCount()},
+                        {"uvs", !part.mesh.uvs.empty()},
+                        {"colors", !part.mesh.colors.empty()},
+                        {"paintedByColors", part.paintedByColors}};
     if (!part.mesh.tangents.empty()) json["tangents"] = true;
     if (part.baseColor) json["baseColor"] = textureJson(*part.baseColor);
     if (part.materialMap) json["materialMap"] = textureJson(*part.materialMap);
-    json["sets"] = Json::array();
+    json["sets"] = OrderedJson::array();
     for (const MaterialSet& set : part.sets) {
         json["sets"].push_back(setJson(set, setEntries.front()));
         setEntries = setEntries.subspan(1);
@@ -64,9 +64,9 @@ inline Json partJson(const AssetPart& part, std::span<const uint64_t>& setEntrie
 }
 
 inline std::string oldMeta(const Asset& asset, std::span<const uint64_t> setEntries) {
-    Json parts = Json::array();
+    OrderedJson parts = OrderedJson::array();
     for (const AssetPart& part : asset.parts) parts.push_back(partJson(part, setEntries));
-    Json meta = {
+    OrderedJson meta = {
         {"faceSize", asset.faceSize},
         {"visibilitySize", asset.visibilitySize},
         {"coefficients", asset.coefficients},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/import/builtin_mesh.h"
+#include "tests/support/failure.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 
@@ -12,6 +13,10 @@
 #include <sys/wait.h>
 
 namespace relume::test {
+
+// Environment in which lavapipe runs shaders in the thread that asks for it, so that file calls come in one
+// order.
+constexpr const char* kNoThreads = "LP_NUM_THREADS=0";
 
 inline std::string contents(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -40,16 +45,17 @@ inline Outcome runRelume(const TemporaryFolder& folder, const std::string& argum
     return runProgram(folder, RELUME_PROGRAM, arguments, environment);
 }
 
+// A folder with a mesh of one triangle.
+struct BakeFolder : TemporaryFolder {
+    BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
+};
+
 // Writes a ball of 642 vertices to the folder and returns the arguments with which `relume bake` takes it
 // unrefined.
 inline std::string ballIn(const TemporaryFolder& folder) {
     if (!std::filesystem::exists(folder.path() / "ball.obj"))
         folder.write("ball.obj", sampleObj(makeSphere(3)));
     return "ball.obj --refine off";
-}
-
-inline bool says(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace relume::test

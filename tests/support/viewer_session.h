@@ -15,9 +15,9 @@ constexpr int kSessionWidth = 480, kSessionHeight = 360;
 
 // A folder with a mesh ring.obj, a bake ring.relume of it in two materials of one set, an environment
 // room.exr, and the files that sessions leave there.
-class Session {
+class ViewerSession {
   public:
-    Session() {
+    ViewerSession() {
         std::ofstream(path("ring.obj")) << sampleObj(makeTorus(1, 0.4f, 40, 20));
         Image room(64, 32);
         for (int y = 0; y < room.height; y++)
@@ -54,10 +54,10 @@ class Session {
                           mDisplay.environment() + " XDG_CACHE_HOME=" + path("cache").string() +
                               " XDG_STATE_HOME=" + path("state").string() +
                               " MESA_SHADER_CACHE_DIR=\"${HOME:-/tmp}/.cache\""
-                              " LP_NUM_THREADS=0 timeout 300 env " +
-                              environment);
+                              " " +
+                              kNoThreads + " timeout 300 env " + environment);
     }
-    Outcome relume(const std::string& arguments) { return runRelume(mFolder, arguments, "LP_NUM_THREADS=0"); }
+    Outcome relume(const std::string& arguments) { return runRelume(mFolder, arguments, kNoThreads); }
 
     std::filesystem::path path(const std::string& file) const { return mFolder.path() / file; }
     std::string bytes(const std::string& file) const { return contents(path(file)); }
@@ -70,8 +70,8 @@ class Session {
 };
 
 // One for all tests of a program that change nothing of what it holds.
-inline Session& sharedSession() {
-    static Session session;
+inline ViewerSession& sharedSession() {
+    static ViewerSession session;
     return session;
 }
 

@@ -22,7 +22,7 @@ using namespace relume::test;
 
 namespace {
 
-std::atomic<int> gCalls = 0;
+std::atomic<int> gVulkanCalls = 0;
 std::atomic<bool> gIsLost = false;
 
 // How the functions of Vulkan may fail, as its specification lists for each.
@@ -58,14 +58,14 @@ VkResult vulkanFault(const char* function, Results possible) {
     if (chosen == VK_SUCCESS || (only && std::strcmp(only, function))) return VK_SUCCESS;
     if (std::find(possible.begin(), possible.end(), chosen) == possible.end()) return VK_SUCCESS;
     if (gIsLost) return chosen;
-    if (++gCalls != number("RELUME_FAULT_VULKAN_CALL")) return VK_SUCCESS;
+    if (++gVulkanCalls != number("RELUME_FAULT_VULKAN_CALL")) return VK_SUCCESS;
     gIsLost = chosen == VK_ERROR_DEVICE_LOST;
     std::fprintf(stderr, "faults: %s fails\n", function);
     return chosen;
 }
 
 [[gnu::destructor]] void sayCalls() {
-    if (std::getenv("RELUME_FAULT_VULKAN")) std::fprintf(stderr, "faults: %d calls\n", int(gCalls));
+    if (std::getenv("RELUME_FAULT_VULKAN")) std::fprintf(stderr, "faults: %d calls\n", int(gVulkanCalls));
 }
 
 // Leaves nonsense where a failed call has no result, as Vulkan permits; or null.

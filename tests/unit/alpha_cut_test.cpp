@@ -2,6 +2,7 @@
 #include "engine/import/alpha_cut.h"
 
 #include "tests/support/log_capture.h"
+#include "tests/support/mesh_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,6 @@ using namespace relume;
 using namespace relume::test;
 
 namespace {
-
-// A unit square in z = 0 that shows an image once, upright.
-Mesh makeSquare() {
-    Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    mesh.normals.assign(4, vec3(0, 0, 1));
-    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
 
 // White with an alpha that is given for the centers of texels, in [0, 1]².
 template <typename Alpha>

@@ -14,7 +14,7 @@ namespace {
 // For quadrature: see "the quadrature finds known albedos".
 constexpr float kTolerance = 1e-3f;
 
-vec3 direction(float z, float phi) {
+vec3 directionAtHeight(float z, float phi) {
     const float sine = std::sqrt(1 - z * z);
     return {sine * std::cos(phi), sine * std::sin(phi), z};
 }
@@ -28,7 +28,7 @@ vec3 albedo(const Brdf& brdf, vec3 outgoing) {
         const float place = (float(ring) + 0.5f) / rings;
         const float theta = place * place * kPi / 2, width = place * kPi / rings;
         for (int sector = 0; sector < sectors; sector++) {
-            const vec3 half = direction(std::cos(theta), 2 * kPi * (float(sector) + 0.5f) / sectors);
+            const vec3 half = directionAtHeight(std::cos(theta), 2 * kPi * (float(sector) + 0.5f) / sectors);
             const float cosine = glm::dot(half, outgoing);
             const vec3 incoming = glm::normalize(2 * cosine * half - outgoing);
             if (cosine <= 0 || incoming.z <= 0) continue;
@@ -44,7 +44,7 @@ float largestAlbedo(const Brdf& brdf) {
     float largest = 0;
     for (float z : {1.0f, 0.9f, 0.7f, 0.5f, 0.35f, 0.25f, 0.15f, 0.1f, 0.06f, 0.04f, 0.02f, 0.01f})
         for (float phi : {0.0f, 0.8f, kPi / 2}) {
-            const vec3 reflected = albedo(brdf, direction(z, phi));
+            const vec3 reflected = albedo(brdf, directionAtHeight(z, phi));
             largest = std::max({largest, reflected.x, reflected.y, reflected.z});
         }
     return largest;
@@ -56,10 +56,10 @@ float largestAlbedo(const std::string& material) { return largestAlbedo(*makeBrd
 
 TEST_CASE("brdf energy: the quadrature finds known albedos") {
     for (float z : {1.0f, 0.5f, 0.1f, 0.01f})
-        CHECK(std::abs(albedo(*makeBrdf("white-diffuse"), direction(z, 0.3f)).x - 0.8f) < kTolerance);
+        CHECK(std::abs(albedo(*makeBrdf("white-diffuse"), directionAtHeight(z, 0.3f)).x - 0.8f) < kTolerance);
     // Narrow facets that reflect everything lose next to nothing at normal incidence.
     const auto mirror = makeBrdf(R"({"model": "ggx", "f0": 1, "roughness_u": 0.02, "roughness_v": 0.04})");
-    CHECK(std::abs(albedo(*mirror, direction(1, 0)).x - 1) < 2e-3f);
+    CHECK(std::abs(albedo(*mirror, directionAtHeight(1, 0)).x - 1) < 2e-3f);
 }
 
 TEST_CASE("brdf energy: no preset reflects more than it receives") {

@@ -19,7 +19,7 @@ double volume(const Mesh& mesh) {
 }
 
 // Whether every edge is met by two triangles that run along it in opposite directions.
-bool isClosed(const Mesh& mesh) {
+bool isEdgeManifold(const Mesh& mesh) {
     std::map<std::pair<uint32_t, uint32_t>, int> balance;
     for (const uvec3& t : mesh.triangles)
         for (int i = 0; i < 3; i++) {
@@ -48,7 +48,7 @@ TEST_CASE("built-in sphere: counts, radius, volume") {
     for (int levels = 0; levels <= 5; levels++)
         CHECK(makeSphere(levels).vertexCount() == size_t(10 << (2 * levels)) + 2);
     const Mesh sphere = makeSphere(5);
-    CHECK(isClosed(sphere));
+    CHECK(isEdgeManifold(sphere));
     CHECK(volume(sphere) == doctest::Approx(4 * kPi / 3).epsilon(2e-3));
     CHECK(worstAgreement(sphere) > 0.999f);
     for (const vec3& position : sphere.positions)
@@ -58,7 +58,7 @@ TEST_CASE("built-in sphere: counts, radius, volume") {
 TEST_CASE("built-in torus: closed, 2π²Rr² in volume") {
     const Mesh torus = makeTorus(0.7f, 0.3f, 160, 64);
     CHECK(torus.vertexCount() == 160 * 64);
-    CHECK(isClosed(torus));
+    CHECK(isEdgeManifold(torus));
     CHECK(volume(torus) == doctest::Approx(2 * kPi * kPi * 0.7 * 0.3 * 0.3).epsilon(3e-3));
     CHECK(worstAgreement(torus) > 0.99f);
 }
@@ -67,7 +67,7 @@ TEST_CASE("built-in knot: a closed tube of the size asked for, that nowhere cuts
     for (int vertices : {500, 3000, 12000}) {
         const Mesh knot = makeKnot(vertices);
         CHECK(std::abs(double(knot.vertexCount()) - vertices) < 0.05 * vertices);
-        CHECK(isClosed(knot));
+        CHECK(isEdgeManifold(knot));
         CHECK(volume(knot) > 0);
     }
     const Mesh knot = makeKnot();

@@ -54,7 +54,7 @@ Asset makeAsset(const Case& c) {
     return asset;
 }
 
-BakeOptions optionsOf(const Asset& asset) {
+BakeOptions cpuOptionsOf(const Asset& asset) {
     BakeOptions options;
     options.faceSize = asset.faceSize;
     options.visibilitySize = asset.visibilitySize;
@@ -89,7 +89,7 @@ void checkCase(const Case& c) {
         rowsOf(set.transport).rowStarts = {0};
         transports.push_back(&rowsOf(set.transport));
     }
-    CpuBaker baker(asset, part, optionsOf(asset));
+    CpuBaker baker(asset, part, cpuOptionsOf(asset));
     TransportLosses losses;
     baker.bake(points, transports, losses);
     CHECK_GT(baker.times().rays, 0u);
@@ -230,7 +230,7 @@ TEST_CASE("cpu baker: any number of threads gives the same rows") {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         SparseTransport rows{uint32_t(points.size()), 2, {0}, {}, {}, {}};
         TransportLosses losses;
-        CpuBaker(asset, asset.parts[0], optionsOf(asset)).bake(points, std::array{&rows}, losses);
+        CpuBaker(asset, asset.parts[0], cpuOptionsOf(asset)).bake(points, std::array{&rows}, losses);
         return std::pair(rows, losses);
     };
     const auto [alone, lossesAlone] = rowsWith(1);

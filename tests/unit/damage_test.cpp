@@ -2,6 +2,7 @@
 // never give another image.
 #include "engine/transport/kept_visibility.h"
 #include "tests/support/checkpoint_sample.h"
+#include "tests/support/failure.h"
 #include "tests/support/kept_sample.h"
 #include "tests/support/log_capture.h"
 
@@ -13,13 +14,8 @@ using namespace relume::test;
 namespace {
 
 // What refuses a file; empty: nothing does.
-std::string failureOf(std::span<const std::byte> file) {
-    try {
-        decodeAsset(file, "damaged.relume");
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+std::string damageFound(std::span<const std::byte> file) {
+    return failureOf([&] { decodeAsset(file, "damaged.relume"); });
 }
 
 // Calls visit(bytes, place) with every byte inverted, and then with one of its bits flipped, each in its
@@ -58,7 +54,7 @@ TEST_CASE("damage: a bake with any byte changed is refused by the name of its ch
     size_t tried = 0;
     forEachDamage(file, [&](const Bytes& damaged, size_t place) {
         CAPTURE(place);
-        const std::string failure = failureOf(damaged);
+        const std::string failure = damageFound(damaged);
         REQUIRE(failure.starts_with("damaged.relume: "));
         if (place >= kHeaderBytes + kEntryBytes * chunks.entries().size()) {
             const auto entry = entryAt(place);
@@ -76,7 +72,7 @@ TEST_CASE("damage: a bake cut at any length is refused") {
     const Bytes file = fileOf(keptChunks());
     for (size_t size = 0; size < file.size(); size++) {
         CAPTURE(size);
-        const std::string failure = failureOf(std::span(file).first(size));
+        const std::string failure = damageFound(std::span(file).first(size));
         REQUIRE(failure.find(size < 32 ? "not a .relume file" : "cut short") != std::string::npos);
     }
 }

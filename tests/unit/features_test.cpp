@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace relume;
-using namespace relume::vk;
+using vk::Features, vk::hasFeature, vk::missingFeature;
 
 namespace {
 
@@ -72,6 +72,6 @@ TEST_CASE("features: older ways to turn them on count as well") {
 }
 
 TEST_CASE("features: a host's device that is incomplete is refused with what is expected") {
-    CHECK_THROWS_WITH_AS(Device(HostDevice{}), doctest::Contains("host device: expected instance"),
+    CHECK_THROWS_WITH_AS(vk::Device(vk::HostDevice{}), doctest::Contains("host device: expected instance"),
                          UsageError);
 }

@@ -1,6 +1,7 @@
 // glTF files that EXT_meshopt_compression packs, by meshoptimizer's own encoders.
 #include "engine/base/error.h"
 #include "engine/import/mesh_formats.h"
+#include "tests/support/failure.h"
 #include "tests/support/packed_glb.h"
 
 #include <doctest/doctest.h>
@@ -14,23 +15,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string failureOf(const PackedGlb& glb) {
-    try {
-        decodeGlb(glb.bytes());
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+std::string unpackFailure(const PackedGlb& glb) {
+    return failureOf([&] { decodeGlb(glb.bytes()); });
 }
 
 // The error that a change of the description of view 0 causes.
 std::string failureWith(const char* key, const Json& value) {
     PackedGlb glb;
     glb.description(0)[key] = value;
-    return failureOf(glb);
+    return unpackFailure(glb);
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 } // namespace
 
@@ -59,14 +53,14 @@ TEST_CASE("glTF compression: what is packed is what the plain file has") {
 TEST_CASE("glTF compression: a buffer that stands for others needs neither tag nor bytes, and gives none") {
     PackedGlb glb;
     glb.json["buffers"][1].erase("extensions");
-    CHECK(failureOf(glb) == "");
+    CHECK(unpackFailure(glb) == "");
     glb.json["buffers"][1]["byteLength"] = size_t(1) << 40; // nobody allocates it
-    CHECK(failureOf(glb) == "");
+    CHECK(unpackFailure(glb) == "");
     glb.json["bufferViews"][2].erase("extensions");
-    CHECK(says(failureOf(glb), "truncated or corrupt"));
+    CHECK(says(unpackFailure(glb), "truncated or corrupt"));
     glb.json["bufferViews"][2].erase("byteStride");
     glb.description(1)["buffer"] = 1;
-    CHECK(says(failureOf(glb), "does not fit in its buffer of 1 bytes"));
+    CHECK(says(unpackFailure(glb), "does not fit in its buffer of 1 bytes"));
 }
 
 TEST_CASE("glTF compression: descriptions that lie") {
@@ -93,22 +87,22 @@ TEST_CASE("glTF compression: descriptions that lie") {
     CHECK(says(failureWith("filter", "COLOR"), "filter \"COLOR\""));
     PackedGlb glb;
     glb.description(0) = 7;
-    CHECK(says(failureOf(glb), "expected an object"));
+    CHECK(says(unpackFailure(glb), "expected an object"));
     glb = PackedGlb();
     glb.description(3)["count"] = 11; // no whole triangles
-    CHECK(says(failureOf(glb), "count 11"));
+    CHECK(says(unpackFailure(glb), "count 11"));
     glb = PackedGlb();
     glb.description(3)["byteStride"] = 8;
-    CHECK(says(failureOf(glb), "stride 8"));
+    CHECK(says(unpackFailure(glb), "stride 8"));
     glb = PackedGlb();
     glb.description(0)["count"] = 3; // fewer than its accessor has
-    CHECK(failureOf(glb) != "");
+    CHECK(unpackFailure(glb) != "");
 }
 
 TEST_CASE("glTF compression: views that share their bytes do not unfold without end") {
     PackedGlb glb;
     for (int i = 0; i < 2000; i++) glb.json["bufferViews"].push_back(glb.json["bufferViews"][0]);
-    CHECK(says(failureOf(glb), "times the file's bytes"));
+    CHECK(says(unpackFailure(glb), "times the file's bytes"));
 }
 
 TEST_CASE("glTF compression: damaged bytes give parts or an Error") {
@@ -121,6 +115,6 @@ TEST_CASE("glTF compression: damaged bytes give parts or an Error") {
             const size_t place = first + random() % (damaged.buffer.size() - first);
             damaged.buffer[place] ^= char(1u << (random() % 8));
         }
-        failureOf(damaged);
+        unpackFailure(damaged);
     }
 }

@@ -13,9 +13,9 @@ using namespace relume;
 
 namespace {
 
-const vec3 kNormal(0, 0, 1);
+const vec3 kAlongNormal(0, 0, 1);
 
-vec3 direction(float theta, float phi) {
+vec3 directionAtAngles(float theta, float phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
@@ -27,9 +27,9 @@ std::unique_ptr<Brdf> gltf(const std::string& parameters) {
 std::vector<vec3> someDirections() {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> uniform(0, 1);
-    std::vector<vec3> directions = {kNormal, direction(1.57f, 0)};
+    std::vector<vec3> directions = {kAlongNormal, directionAtAngles(1.57f, 0)};
     for (int i = 0; i < 40; i++)
-        directions.push_back(direction(std::acos(1 - uniform(random)), 2 * kPi * uniform(random)));
+        directions.push_back(directionAtAngles(std::acos(1 - uniform(random)), 2 * kPi * uniform(random)));
     return directions;
 }
 
@@ -45,7 +45,7 @@ float largestDifference(const Brdf& first, const Brdf& second) {
 }
 
 // ∫ f cosθi dωi of the first channel, by the midpoint rule, dense at the horizon.
-double albedo(const Brdf& brdf, vec3 outgoing) {
+double albedoTowards(const Brdf& brdf, vec3 outgoing) {
     constexpr int kSteps = 300;
     double sum = 0;
     for (int i = 0; i < kSteps; i++)
@@ -82,7 +82,8 @@ TEST_CASE("brdf glTF: extensions that do nothing change nothing") {
 TEST_CASE("brdf glTF: index of refraction and specular give the reflectance at normal incidence") {
     // Base c (1 - max F0), interface F0 / (4 α²), both over π: α = .25.
     const auto atNormal = [](const std::string& parameters) {
-        return gltf(R"("base_color": 0.5, "roughness": 0.5, )" + parameters)->evaluate(kNormal, kNormal) *
+        return gltf(R"("base_color": 0.5, "roughness": 0.5, )" + parameters)
+                   ->evaluate(kAlongNormal, kAlongNormal) *
                kPi;
     };
     const auto expected = [](double f0, double largest) { return 0.5 * (1 - largest) + f0 / (4 * 0.0625); };
@@ -107,7 +108,7 @@ TEST_CASE(
     // A surface of polished black: the mirror direction at 89.9 degrees.
     const auto peak = [](const std::string& parameters) {
         return gltf(R"("base_color": 0, "roughness": 0.2, )" + parameters)
-            ->evaluate(direction(1.569f, 0), direction(1.569f, kPi));
+            ->evaluate(directionAtAngles(1.569f, 0), directionAtAngles(1.569f, kPi));
     };
     const vec3 white = peak(R"("specular": 1)"), red = peak(R"("specular_color": [1, 0, 0])");
     CHECK(red.y == doctest::Approx(white.y).epsilon(0.01));
@@ -117,14 +118,14 @@ TEST_CASE(
 TEST_CASE(
     "brdf glTF: a clear coat at normal incidence adds its facets and takes its share of what is below") {
     const std::string below = R"("base_color": [0.8, 0.4, 0.2], "metallic": 0.5, "roughness": 0.6)";
-    const vec3 plain = gltf(below)->evaluate(kNormal, kNormal);
+    const vec3 plain = gltf(below)->evaluate(kAlongNormal, kAlongNormal);
     const auto brdf = gltf(below + R"(, "clearcoat": 0.5, "clearcoat_roughness": 0.5)");
-    const vec3 coated = brdf->evaluate(kNormal, kNormal);
+    const vec3 coated = brdf->evaluate(kAlongNormal, kAlongNormal);
     const float peak = 0.5f * 0.04f / (4 * kPi * 0.0625f);
     for (int c = 0; c < 3; c++)
         CHECK(coated[c] == doctest::Approx(plain[c] * (1 - 0.5f * 0.04f) + peak).epsilon(1e-5));
-    CHECK(brdf->evaluateBase(kNormal, kNormal).x ==
-          doctest::Approx(gltf(below)->evaluateBase(kNormal, kNormal).x * 0.98f).epsilon(1e-5));
+    CHECK(brdf->evaluateBase(kAlongNormal, kAlongNormal).x ==
+          doctest::Approx(gltf(below)->evaluateBase(kAlongNormal, kAlongNormal).x * 0.98f).epsilon(1e-5));
     // Over black that reflects nothing, it is a dielectric's interface alone.
     CHECK(largestDifference(
               *gltf(R"("base_color": 0, "specular": 0, "clearcoat": 1, "clearcoat_roughness": 0.3)"),
@@ -134,15 +135,16 @@ TEST_CASE(
 TEST_CASE("brdf glTF: sheen has the specification's distribution and visibility, and scales what is below") {
     const std::string only = R"("base_color": 0, "specular": 0, "sheen_roughness": 1, "sheen_color": )";
     // Both directions at 60 degrees, side by side: there the fit is that of l(1/2), and α is 1.
-    const vec3 w = direction(kPi / 3, 0);
+    const vec3 w = directionAtAngles(kPi / 3, 0);
     const double l = 21.5473 / (1 + 3.82987 * std::pow(0.5, 0.19823)) - 1.97760 * 0.5 - 4.32054;
     const double value = 3 * std::sqrt(0.75) / (2 * double(kPi)) / (1 + 2 * std::exp(l));
     const vec3 sheen = gltf(only + "[1, 0.5, 0]")->evaluate(w, w);
     CHECK(sheen.x == doctest::Approx(value).epsilon(1e-4));
     CHECK(sheen.y == doctest::Approx(value / 2).epsilon(1e-4));
     CHECK(sheen.z == 0);
-    // A Lambertian base of albedo 1 has 1 - E left, with E of the direction in which the sheen reflects more.
-    // Narrow sheens, which are held to what they receive, hide a little more than they reflect.
+    // A Lambertian base of albedo 1 has 1 - E left, with E of the direction in which the sheen
+    // reflects more. Narrow sheens, which are held to what they receive, hide a little more than they
+    // reflect.
     for (const float roughness : {0.1f, 0.4f, 1.0f})
         for (const float z : {0.7f, 0.2f, 0.05f, 0.01f}) {
             CAPTURE(roughness);
@@ -150,13 +152,13 @@ TEST_CASE("brdf glTF: sheen has the specification's distribution and visibility,
             const std::string cloth = fmt::format(
                 R"("specular": 0, "sheen_color": [1, 0.5, 0], "sheen_roughness": {}, "base_color": )",
                 roughness);
-            const vec3 out = direction(std::acos(z), 1);
-            const double reflected = albedo(*gltf(cloth + "0"), out);
-            const float left = gltf(cloth + "1")->evaluateBase(kNormal, out).z * kPi;
+            const vec3 out = directionAtAngles(std::acos(z), 1);
+            const double reflected = albedoTowards(*gltf(cloth + "0"), out);
+            const float left = gltf(cloth + "1")->evaluateBase(kAlongNormal, out).z * kPi;
             CHECK(reflected <= 1.001);
             CHECK(left <= 1.001 - reflected);
             if (roughness > 0.3f) CHECK(left == doctest::Approx(1 - reflected).epsilon(2e-3));
-            CHECK(left == gltf(cloth + "1")->evaluateBase(out, kNormal).z * kPi);
+            CHECK(left == gltf(cloth + "1")->evaluateBase(out, kAlongNormal).z * kPi);
         }
 }
 
@@ -173,8 +175,9 @@ TEST_CASE("brdf glTF: an anisotropic metal is the conductor of two widths, turne
           1e-4f);
     const auto turned = gltf(metal + R"(, "anisotropy_rotation": 30)");
     const float angle = glm::radians(30.0f);
-    CHECK(turned->evaluate(direction(0.5f, 0.2f + angle), direction(0.9f, 2 + angle)).x ==
-          doctest::Approx(gltf(metal)->evaluate(direction(0.5f, 0.2f), direction(0.9f, 2)).x).epsilon(1e-4));
+    CHECK(turned->evaluate(directionAtAngles(0.5f, 0.2f + angle), directionAtAngles(0.9f, 2 + angle)).x ==
+          doctest::Approx(gltf(metal)->evaluate(directionAtAngles(0.5f, 0.2f), directionAtAngles(0.9f, 2)).x)
+              .epsilon(1e-4));
     CHECK_FALSE(turned->isIsotropic());
     CHECK(turned->describe()["anisotropy_rotation"] == 30);
 }

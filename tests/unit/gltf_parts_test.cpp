@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/import/mesh_file.h"
+#include "tests/support/failure.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"
@@ -17,16 +18,9 @@ using namespace relume::test;
 
 namespace {
 
-std::string failureOf(const TexturedGlb& glb, const std::filesystem::path& folder = "") {
-    try {
-        decodeGlb(glb.bytes(), folder);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+std::string partsFailure(const TexturedGlb& glb, const std::filesystem::path& folder = "") {
+    return failureOf([&] { decodeGlb(glb.bytes(), folder); });
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 } // namespace
 
@@ -89,14 +83,14 @@ TEST_CASE("glTF parts: images as data, as files, and from nowhere else") {
     REQUIRE(file.images.size() == 1);
     CHECK(says(file.images[0].file, "red wood.png"));
     CHECK(file.images[0].hash == hashText(std::as_bytes(std::span(png))));
-    CHECK(says(failureOf(withImage("../outside.png"), inner), "folder"));
-    CHECK(says(failureOf(withImage("%2e%2e/outside.png"), inner), "folder"));
-    CHECK(says(failureOf(withImage((folder.path() / "outside.png").string()), inner), "folder"));
-    CHECK(says(failureOf(withImage("missing.png"), inner), "missing.png"));
-    CHECK(says(failureOf(withImage("maps"), inner), "no file"));
-    CHECK(says(failureOf(withImage(""), inner), "images[0]"));
-    CHECK(says(failureOf(withImage("broken.png"), inner), "images[0]"));
-    CHECK(says(failureOf(withImage("data:image/png;base64,AAAA"), inner), "PNG or JPEG"));
+    CHECK(says(partsFailure(withImage("../outside.png"), inner), "folder"));
+    CHECK(says(partsFailure(withImage("%2e%2e/outside.png"), inner), "folder"));
+    CHECK(says(partsFailure(withImage((folder.path() / "outside.png").string()), inner), "folder"));
+    CHECK(says(partsFailure(withImage("missing.png"), inner), "missing.png"));
+    CHECK(says(partsFailure(withImage("maps"), inner), "no file"));
+    CHECK(says(partsFailure(withImage(""), inner), "images[0]"));
+    CHECK(says(partsFailure(withImage("broken.png"), inner), "images[0]"));
+    CHECK(says(partsFailure(withImage("data:image/png;base64,AAAA"), inner), "PNG or JPEG"));
 }
 
 TEST_CASE("glTF parts: metalness and roughness are averaged, texture coordinates transformed") {
@@ -245,7 +239,7 @@ TEST_CASE("glTF parts: materials that lie") {
     const auto withMaterial = [](const std::string& material) {
         TexturedGlb glb;
         glb.materials = "[" + material + ",{}]";
-        return failureOf(glb);
+        return partsFailure(glb);
     };
     const auto withSurface = [&](const std::string& surface) {
         return withMaterial(R"({"pbrMetallicRoughness":)" + surface + "}");
@@ -262,19 +256,19 @@ TEST_CASE("glTF parts: materials that lie") {
     CHECK(withSurface(R"({"baseColorTexture":{}})") == "");
     TexturedGlb glb;
     glb.textures = R"([{"source":4},{"source":0}])";
-    CHECK(says(failureOf(glb), "number 4 of its images"));
+    CHECK(says(partsFailure(glb), "number 4 of its images"));
     glb.textures = R"([{"extensions":{"KHR_texture_basisu":{"source":0}}},{"source":0}])";
-    CHECK(says(failureOf(glb), "PNG or JPEG"));
+    CHECK(says(partsFailure(glb), "PNG or JPEG"));
     glb.textures = R"([{"source":0,"sampler":3},{"source":0}])";
-    CHECK(says(failureOf(glb), "samplers"));
+    CHECK(says(partsFailure(glb), "samplers"));
     glb = {};
     glb.images = R"([{"bufferView":77},{"bufferView":5}])";
-    CHECK(says(failureOf(glb), "buffer view 77"));
+    CHECK(says(partsFailure(glb), "buffer view 77"));
     glb.images = R"([{"bufferView":0},{"bufferView":5}])";
-    CHECK(says(failureOf(glb), "PNG or JPEG"));
+    CHECK(says(partsFailure(glb), "PNG or JPEG"));
     glb = {};
     glb.materials = "[{}]";
-    CHECK(says(failureOf(glb), "number 1 of its materials"));
+    CHECK(says(partsFailure(glb), "number 1 of its materials"));
 }
 
 TEST_CASE("glTF parts: one small image that many materials have does not become gigabytes") {
@@ -294,7 +288,7 @@ TEST_CASE("glTF parts: one small image that many materials have does not become 
         list->insert(0, 1, '[');
     }
     CHECK(glb.bytes().size() < 300'000);
-    CHECK(says(failureOf(glb), "texels in all"));
+    CHECK(says(partsFailure(glb), "texels in all"));
 }
 
 TEST_CASE("glTF parts: truncated anywhere or with any bit flipped, parts or an Error") {

@@ -2,23 +2,20 @@
 #include "engine/import/image_file.h"
 #include "engine/import/light_file.h"
 #include "engine/light/sun_position.h"
+#include "tests/support/failure.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
 
 using namespace relume;
+using namespace relume::test;
 using relume::test::TemporaryFolder;
 
 namespace {
 
-std::string failureOf(const std::string& text) {
+std::string lightFailure(const std::string& text) {
     const TemporaryFolder folder;
-    try {
-        readLight(folder.write("light.json", text));
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+    return failureOf([&] { readLight(folder.write("light.json", text)); });
 }
 
 } // namespace
@@ -80,7 +77,7 @@ TEST_CASE("light file: a sky by its sun, and nothing at all") {
 
 TEST_CASE("light file: errors name file, place and field") {
     const auto check = [](const std::string& text, std::initializer_list<const char*> parts) {
-        const std::string failure = failureOf(text);
+        const std::string failure = lightFailure(text);
         CAPTURE(text);
         CAPTURE(failure);
         CHECK(failure.find("light.json") != std::string::npos);
@@ -121,7 +118,7 @@ TEST_CASE("light file: errors name file, place and field") {
     check(many + "]}", {"at most 512"});
     // Of other files, that file.
     const auto names = [](const char* text, const char* part) {
-        return failureOf(text).find(part) != std::string::npos;
+        return lightFailure(text).find(part) != std::string::npos;
     };
     CHECK(names(R"({"environment": {"file": "none.exr"}})", "none.exr"));
     CHECK(names(R"({"environment": {"sequence": "a_##.exr"}})", "a_##.exr: expected files with a number"));

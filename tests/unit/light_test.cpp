@@ -11,7 +11,7 @@ using namespace relume;
 namespace {
 
 // Σ radiance · solid angle of the first channel.
-double irradianceSum(const LightCube& cube) {
+double cubeIrradiance(const LightCube& cube) {
     double sum = 0;
     for (int face = 0; face < kCubeFaces; face++)
         for (int y = 0; y < cube.size; y++)
@@ -21,7 +21,7 @@ double irradianceSum(const LightCube& cube) {
     return sum;
 }
 
-float largestDifference(const LightCube& a, const LightCube& b) {
+float largestDistance(const LightCube& a, const LightCube& b) {
     float largest = 0;
     for (size_t i = 0; i < a.radiance.size(); i++)
         largest = std::max(largest, glm::distance(a.radiance[i], b.radiance[i]));
@@ -51,7 +51,7 @@ void checkSmooth(int size, float share, LightAt lightAt) {
     for (int step = 1; step <= steps; step++) {
         const float along = float(step) / float(steps);
         const LightCube next = lightAt(vec3(1, 0.9f + 0.15f * along, 0.4f + 0.7f * along));
-        const float jump = largestDifference(last, next) / largestRadiance(last);
+        const float jump = largestDistance(last, next) / largestRadiance(last);
         CAPTURE(step);
         REQUIRE(jump < share);
         last = next;
@@ -65,7 +65,7 @@ TEST_CASE("light: a lamp has the energy of its solid angle, whatever its size an
         for (vec3 direction : directions()) {
             const LightCube cube = sampleLight({.lamps = {{direction, radius, vec3(5)}}}, 16);
             const double solidAngle = 4 * kPi * std::pow(std::sin(radius / 2.0), 2);
-            CHECK(irradianceSum(cube) == doctest::Approx(5 * solidAngle).epsilon(1e-5));
+            CHECK(cubeIrradiance(cube) == doctest::Approx(5 * solidAngle).epsilon(1e-5));
         }
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("light: small lamps move smoothly over texels, edges and corners") {
 TEST_CASE("light: a distant light keeps its irradiance, on four texels at most") {
     for (vec3 direction : directions()) {
         const LightCube cube = sampleLight({.distant = {{direction, vec3(2, 3, 4)}}}, 16);
-        CHECK(irradianceSum(cube) == doctest::Approx(2).epsilon(1e-5));
+        CHECK(cubeIrradiance(cube) == doctest::Approx(2).epsilon(1e-5));
         int lit = 0;
         vec3 middle(0);
         for (int face = 0; face < kCubeFaces; face++)
@@ -126,7 +126,7 @@ TEST_CASE("light: distant lights on the same texel add up") {
     const DistantLight one{{0.2f, 0.3f, 1}, vec3(1)}, other{{0.21f, 0.3f, 1}, vec3(2)};
     const std::vector<shared::LightTap> taps = distantTaps(std::vector{one, other, one}, 32);
     for (size_t i = 1; i < taps.size(); i++) CHECK(taps[i - 1].texel < taps[i].texel);
-    CHECK(irradianceSum(sampleLight({.distant = {one, other, one}}, 32)) == doctest::Approx(4));
+    CHECK(cubeIrradiance(sampleLight({.distant = {one, other, one}}, 32)) == doctest::Approx(4));
     CHECK(distantTaps({}, 32).empty());
 }
 

@@ -6,6 +6,7 @@
 #include "precompute/brdf/merl.h"
 #include "precompute/brdf/spectrum.h"
 #include "precompute/brdf/table_repair.h"
+#include "tests/support/failure.h"
 #include "tests/support/log_capture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,6 +21,7 @@
 #include <sstream>
 
 using namespace relume;
+using namespace relume::test;
 using dvec3 = glm::dvec3;
 
 namespace {
@@ -102,10 +104,6 @@ std::string errorOf(const std::string& material, const std::filesystem::path& fo
     }
     FAIL("accepted: " << material);
     return {};
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 // A Cornell file of a spectrum that is the same in all directions, with `extra` as further lines.
@@ -200,7 +198,7 @@ TEST_CASE("measured: a description names the file by path and content") {
     CHECK(makeBrdf((folder.path() / "gold.json").string())->describe()["model"] == "ggx");
 
     folder.write("plastic.binary", cornellText([](double) { return 0.1; }));
-    CHECK(contains(errorOf(description.dump()), "hash"));
+    CHECK(says(errorOf(description.dump()), "hash"));
 }
 
 TEST_CASE("measured: negative values are counted, reported and filled from their neighbors") {
@@ -255,8 +253,8 @@ TEST_CASE("measured: damaged MERL files are refused") {
         folder.write("bad.binary", bytes);
         const std::string error = errorOf("bad.binary", folder.path());
         CAPTURE(error);
-        CHECK(contains(error, "bad.binary"));
-        CHECK(contains(error, part));
+        CHECK(says(error, "bad.binary"));
+        CHECK(says(error, part));
     };
     refused("", "90, 90, 180");
     refused("90 90 180", "90, 90, 180");
@@ -279,21 +277,21 @@ TEST_CASE("measured: damaged MERL files are refused") {
 
 TEST_CASE("measured: paths that lead nowhere are named") {
     const test::TemporaryFolder folder;
-    CHECK(contains(errorOf("missing.binary", folder.path()), "missing.binary: measured material not found"));
-    CHECK(contains(errorOf("missing.json", folder.path()), "missing.json: material file not found"));
+    CHECK(says(errorOf("missing.binary", folder.path()), "missing.binary: measured material not found"));
+    CHECK(says(errorOf("missing.json", folder.path()), "missing.json: material file not found"));
     std::filesystem::create_directory(folder.path() / "folder.brdf");
-    CHECK(contains(errorOf("folder.brdf", folder.path()), "folder.brdf"));
+    CHECK(says(errorOf("folder.brdf", folder.path()), "folder.brdf"));
     std::filesystem::create_directory(folder.path() / "folder.json");
-    CHECK(contains(errorOf("folder.json", folder.path()), "folder.json"));
+    CHECK(says(errorOf("folder.json", folder.path()), "folder.json"));
     folder.write("wrong.json", R"({"model": "plastik"})");
     const std::string wrong = errorOf("wrong.json", folder.path());
-    CHECK(contains(wrong, "wrong.json"));
-    CHECK(contains(wrong, "did you mean \"plastic\""));
+    CHECK(says(wrong, "wrong.json"));
+    CHECK(says(wrong, "did you mean \"plastic\""));
     folder.write("empty.json", "");
-    CHECK(contains(errorOf("empty.json", folder.path()), "empty.json"));
+    CHECK(says(errorOf("empty.json", folder.path()), "empty.json"));
     folder.write("name.json", "\"name.json\"");
-    CHECK(contains(errorOf("name.json", folder.path()), "must be an object"));
-    CHECK(contains(errorOf(R"({"measured": "a.binary", "scal": 2})"), "did you mean \"scale\""));
+    CHECK(says(errorOf("name.json", folder.path()), "must be an object"));
+    CHECK(says(errorOf(R"({"measured": "a.binary", "scal": 2})"), "did you mean \"scale\""));
     for (const char* material :
          {R"({"measured": ""})", R"({"measured": 3})", R"({"measured": "a\u0000.binary"})",
           R"({"measured": "x.binary", "scale": -1})", R"({"measured": null})", "\xff.binary",
@@ -336,8 +334,8 @@ TEST_CASE("measured: hostile Cornell text is refused with its line") {
         } catch (const Error& error) {
             const std::string message = error.what();
             CAPTURE(message);
-            CHECK(contains(message, "bad.brdf"));
-            CHECK(contains(message, part));
+            CHECK(says(message, "bad.brdf"));
+            CHECK(says(message, part));
         }
     };
     const std::string last = "line 153: "; // after 8 lines of header and 144 samples

@@ -4,6 +4,7 @@
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/mesh_cleanup.h"
 #include "engine/import/polygon.h"
+#include "tests/support/failure.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"
@@ -25,13 +26,8 @@ Mesh decode(const std::string& text, const std::string& name, UpAxis up = UpAxis
 constexpr MeshAttributes kAll{true, true};
 
 // The text of the Error that decoding throws, or "" if it does not.
-std::string failureOf(const std::string& text, const std::string& name, MeshAttributes wanted = {}) {
-    try {
-        decode(text, name, UpAxis::Y, wanted);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+std::string meshFailure(const std::string& text, const std::string& name, MeshAttributes wanted = {}) {
+    return failureOf([&] { decode(text, name, UpAxis::Y, wanted); });
 }
 
 // The same triangles in the same order; vertices may be numbered otherwise.
@@ -103,9 +99,9 @@ TEST_CASE("OBJ: texture coordinates from the top left, where wanted, split verti
     CHECK(mesh.uvs[mesh.triangles[1].y] == vec2(0.5f, 0.75f));
     CHECK(mesh.uvs[mesh.triangles[1].z] == vec2(0, 1));
     CHECK(decode(text + "f 1 2 4\n", "a.obj", UpAxis::Y, kAll).uvs.empty());
-    CHECK(failureOf("vt x 0\n" + text, "a.obj", kAll).find("line 1") != std::string::npos);
-    CHECK(failureOf("vt 0 1e999\n" + text, "a.obj", kAll).find("line 1") != std::string::npos);
-    CHECK(failureOf(text + "f 1/9 2/2 3/3\n", "a.obj", kAll).find("coordinates 9") != std::string::npos);
+    CHECK(meshFailure("vt x 0\n" + text, "a.obj", kAll).find("line 1") != std::string::npos);
+    CHECK(meshFailure("vt 0 1e999\n" + text, "a.obj", kAll).find("line 1") != std::string::npos);
+    CHECK(meshFailure(text + "f 1/9 2/2 3/3\n", "a.obj", kAll).find("coordinates 9") != std::string::npos);
 }
 
 TEST_CASE("PLY: texture coordinates and colors under their several names") {
@@ -136,9 +132,9 @@ TEST_CASE("PLY: texture coordinates and colors under their several names") {
     const Mesh clamped = decode(fmt::format(fmt::runtime(floats), "0"), "a.ply", UpAxis::Y, kAll);
     REQUIRE(clamped.colors.size() == 3);
     CHECK(clamped.colors[0] == vec4(0.5f, 1, 0, 1));
-    CHECK(failureOf(fmt::format(fmt::runtime(floats), "nan"), "a.ply", kAll).find("finite") !=
+    CHECK(meshFailure(fmt::format(fmt::runtime(floats), "nan"), "a.ply", kAll).find("finite") !=
           std::string::npos);
-    CHECK(failureOf(fmt::format(fmt::runtime(floats), "nan"), "a.ply") == "");
+    CHECK(meshFailure(fmt::format(fmt::runtime(floats), "nan"), "a.ply") == "");
 }
 
 TEST_CASE("clean-up: vertices are one only if all that is there of them agrees") {
@@ -199,32 +195,36 @@ TEST_CASE("polygons: large convex faces pass, large concave ones are refused") {
         face += fmt::format(" {}", i + 1);
     }
     CHECK(decode(round + face, "a.obj").triangleCount() == 198);
-    CHECK(failureOf(star + face, "a.obj").find("concave") != std::string::npos);
-    CHECK(failureOf(star + face + face.substr(1), "a.obj").find("corners") != std::string::npos);
+    CHECK(meshFailure(star + face, "a.obj").find("concave") != std::string::npos);
+    CHECK(meshFailure(star + face + face.substr(1), "a.obj").find("corners") != std::string::npos);
 }
 
 TEST_CASE("OBJ: errors name the line, and nothing but the surface is read") {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    CHECK(failureOf("", "a.obj").find("no triangles") != std::string::npos);
-    CHECK(failureOf(corners, "a.obj").find("no triangles") != std::string::npos);
-    CHECK(failureOf("v 0 0 0\nv 1 nan 0\n", "a.obj").find("line 2") != std::string::npos);
-    CHECK(failureOf("v 0 0 0\r\nv 1 0\r\n", "a.obj").find("line 2") != std::string::npos);
-    CHECK(failureOf("v 0 0 1e999\n", "a.obj").find("line 1") != std::string::npos);
-    CHECK(failureOf(corners + "f 1 2 4\n", "a.obj").find("vertex 4") != std::string::npos);
+    CHECK(meshFailure("", "a.obj").find("no triangles") != std::string::npos);
+    CHECK(meshFailure(corners, "a.obj").find("no triangles") != std::string::npos);
+    CHECK(meshFailure("v 0 0 0\nv 1 nan 0\n", "a.obj").find("line 2") != std::string::npos);
+    CHECK(meshFailure("v 0 0 0\r\nv 1 0\r\n", "a.obj").find("line 2") != std::string::npos);
+    CHECK(meshFailure("v 0 0 1e999\n", "a.obj").find("line 1") != std::string::npos);
+    CHECK(meshFailure(corners + "f 1 2 4\n", "a.obj").find("vertex 4") != std::string::npos);
     // Neither cut off nor wrapped, 4294967299 would be 3.
     for (const char* corner : {"-4", "0", "x", "3.7", "3abc", "4294967299", "99999999999999999999", "3/",
                                "3//", "3/1/1/1", "3//0", "3//-2", "+3", "3/x/1"}) {
         CAPTURE(corner);
-        const std::string failure = failureOf(corners + "vn 0 0 1\nf 1 2 " + corner + "\n", "a.obj");
+        const std::string failure = meshFailure(corners + "vn 0 0 1\nf 1 2 " + corner + "\n", "a.obj");
         CHECK(failure.find("line 5: expected a corner") != std::string::npos);
         CHECK(failure.find(fmt::format("\"{}\"", corner)) != std::string::npos);
     }
-    CHECK(failureOf(corners + "f 1 2 2147483647\n", "a.obj").find("vertex 2147483647") != std::string::npos);
-    CHECK(failureOf(corners + "f 1//9 2//9 3//9\nvn 0 0 1\n", "a.obj").find("normal 9") != std::string::npos);
-    CHECK(failureOf(corners + "f 1//1 2//1 3//1\n", "a.obj").find("normal 1") != std::string::npos);
-    CHECK(failureOf(corners + "vn 0 0 1\nf 1//1 2//7 3\n", "a.obj").find("normal 7") != std::string::npos);
-    CHECK(failureOf("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "a.obj").find("degenerate") != std::string::npos);
-    CHECK(failureOf("v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").find("within") != std::string::npos);
+    CHECK(meshFailure(corners + "f 1 2 2147483647\n", "a.obj").find("vertex 2147483647") !=
+          std::string::npos);
+    CHECK(meshFailure(corners + "f 1//9 2//9 3//9\nvn 0 0 1\n", "a.obj").find("normal 9") !=
+          std::string::npos);
+    CHECK(meshFailure(corners + "f 1//1 2//1 3//1\n", "a.obj").find("normal 1") != std::string::npos);
+    CHECK(meshFailure(corners + "vn 0 0 1\nf 1//1 2//7 3\n", "a.obj").find("normal 7") != std::string::npos);
+    CHECK(meshFailure("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "a.obj").find("degenerate") !=
+          std::string::npos);
+    CHECK(meshFailure("v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").find("within") !=
+          std::string::npos);
     // Subdivision tags claim any amount of memory, material libraries name other files.
     const std::string hostile = "t x 2000000000/2000000000/2000000000\rvw 0 1\nmtllib /dev/zero\nusemtl a\n";
     CHECK(decode(hostile + corners + hostile + "f 1 2 3\n" + hostile, "a.obj").triangleCount() == 1);
@@ -237,8 +237,8 @@ TEST_CASE("OBJ: byte order marks, comments behind the data, and lines that go on
                "a.obj");
     CHECK(mesh.vertexCount() == 4);
     CHECK(mesh.triangleCount() == 2);
-    CHECK(failureOf("v 0 0 \\\n0\nv 1 \\\nx 0\n", "a.obj").find("line 3") != std::string::npos);
-    CHECK(failureOf("v 0 0 \\", "a.obj").find("line 1") != std::string::npos);
+    CHECK(meshFailure("v 0 0 \\\n0\nv 1 \\\nx 0\n", "a.obj").find("line 3") != std::string::npos);
+    CHECK(meshFailure("v 0 0 \\", "a.obj").find("line 1") != std::string::npos);
 }
 
 TEST_CASE("PLY: foreign elements, properties and types are skipped or converted") {
@@ -261,29 +261,29 @@ TEST_CASE("PLY: counts and indices that are not true") {
     const auto fileOf = [&](const char* vertices, const char* faces, const char* row) {
         return fmt::format(fmt::runtime(header), vertices, faces, row);
     };
-    CHECK(failureOf(fileOf("3", "1", "3 0 1 2"), "a.ply") == "");
-    CHECK(failureOf(fileOf("3000000000000", "1", "3 0 1 2"), "a.ply").find("truncated") != std::string::npos);
-    CHECK(failureOf(fileOf("99999999999999999999", "1", "3 0 1 2"), "a.ply").find("header") !=
+    CHECK(meshFailure(fileOf("3", "1", "3 0 1 2"), "a.ply") == "");
+    CHECK(meshFailure(fileOf("3000000000000", "1", "3 0 1 2"), "a.ply").find("truncated") !=
           std::string::npos);
-    CHECK(failureOf(fileOf("-3", "1", "3 0 1 2"), "a.ply").find("header") != std::string::npos);
-    CHECK(failureOf(fileOf("3", "4000000000", "3 0 1 2"), "a.ply").find("truncated") != std::string::npos);
-    CHECK(failureOf(fileOf("3", "1", "3 0 1 3"), "a.ply").find("vertex 3") != std::string::npos);
-    CHECK(failureOf(fileOf("3", "1", "3 0 1 -1"), "a.ply").find("corrupt") != std::string::npos);
-    CHECK(failureOf(fileOf("3", "1", "2000000000 0 1 2"), "a.ply").find("claims") != std::string::npos);
-    CHECK(failureOf(fileOf("3", "1", "3 0 1"), "a.ply").find("truncated") != std::string::npos);
-    CHECK(failureOf(fileOf("3", "1", "3 0 1 x"), "a.ply").find("number") != std::string::npos);
-    CHECK(failureOf("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply").find("end_header") !=
+    CHECK(meshFailure(fileOf("99999999999999999999", "1", "3 0 1 2"), "a.ply").find("header") !=
           std::string::npos);
-    CHECK(failureOf("plum\n", "a.ply").find("PLY") != std::string::npos);
+    CHECK(meshFailure(fileOf("-3", "1", "3 0 1 2"), "a.ply").find("header") != std::string::npos);
+    CHECK(meshFailure(fileOf("3", "4000000000", "3 0 1 2"), "a.ply").find("truncated") != std::string::npos);
+    CHECK(meshFailure(fileOf("3", "1", "3 0 1 3"), "a.ply").find("vertex 3") != std::string::npos);
+    CHECK(meshFailure(fileOf("3", "1", "3 0 1 -1"), "a.ply").find("corrupt") != std::string::npos);
+    CHECK(meshFailure(fileOf("3", "1", "2000000000 0 1 2"), "a.ply").find("claims") != std::string::npos);
+    CHECK(meshFailure(fileOf("3", "1", "3 0 1"), "a.ply").find("truncated") != std::string::npos);
+    CHECK(meshFailure(fileOf("3", "1", "3 0 1 x"), "a.ply").find("number") != std::string::npos);
+    CHECK(meshFailure("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply").find("end_header") !=
+          std::string::npos);
+    CHECK(meshFailure("plum\n", "a.ply").find("PLY") != std::string::npos);
     const std::string good = fileOf("3", "1", "3 0 1 2"), format = "format ascii 1.0\n";
-    CHECK(failureOf("ply\n" + good.substr(4 + format.size()), "a.ply").find("no format") !=
+    CHECK(meshFailure("ply\n" + good.substr(4 + format.size()), "a.ply").find("no format") !=
           std::string::npos);
-    CHECK(
-        failureOf("ply\nformat ascii 2.0\n" + good.substr(4 + format.size()), "a.ply").find("version 2.0") !=
-        std::string::npos);
+    CHECK(meshFailure("ply\nformat ascii 2.0\n" + good.substr(4 + format.size()), "a.ply")
+              .find("version 2.0") != std::string::npos);
     std::string comments = "ply\n" + format;
     for (int i = 0; i < 1000; i++) comments += "comment\n";
-    CHECK(failureOf(comments + good.substr(4 + format.size()), "a.ply").find("more than 1000 lines") !=
+    CHECK(meshFailure(comments + good.substr(4 + format.size()), "a.ply").find("more than 1000 lines") !=
           std::string::npos);
 }
 
@@ -308,7 +308,7 @@ TEST_CASE("glTF: node transforms apply, and mirrors keep the outside out") {
 
 TEST_CASE("glTF: documents that lie") {
     const Mesh sphere = makeSphere(1);
-    const auto failsWith = [&](const char* nodes) { return failureOf(sampleGlb(sphere, nodes), "a.glb"); };
+    const auto failsWith = [&](const char* nodes) { return meshFailure(sampleGlb(sphere, nodes), "a.glb"); };
     CHECK(failsWith(R"({"mesh":0})") == "");
     CHECK(failsWith(R"({"mesh":7})").find("mesh 7") != std::string::npos);
     CHECK(failsWith(R"({"children":[0]})").find("tree") != std::string::npos);
@@ -316,15 +316,15 @@ TEST_CASE("glTF: documents that lie") {
     CHECK(failsWith(R"({"mesh":0,"scale":[1,2]})").find("expected 3") != std::string::npos);
     CHECK(failsWith(R"({"mesh":0,"scale":[0,0,0]})").find("degenerate") != std::string::npos);
     CHECK(failsWith(R"({"mesh":0,"translation":[1e300,0,0]})").find("finite") != std::string::npos);
-    CHECK(failureOf("{", "a.gltf").find("not valid") != std::string::npos);
-    CHECK(failureOf("[]", "a.gltf") != "");
-    CHECK(failureOf(std::string(100000, '['), "a.gltf").find("deeper") != std::string::npos);
-    CHECK(failureOf(R"({"asset":{"version":"2.0"}})", "a.gltf").find("no triangles") != std::string::npos);
-    CHECK(failureOf(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})",
-                    "a.gltf")
+    CHECK(meshFailure("{", "a.gltf").find("not valid") != std::string::npos);
+    CHECK(meshFailure("[]", "a.gltf") != "");
+    CHECK(meshFailure(std::string(100000, '['), "a.gltf").find("deeper") != std::string::npos);
+    CHECK(meshFailure(R"({"asset":{"version":"2.0"}})", "a.gltf").find("no triangles") != std::string::npos);
+    CHECK(meshFailure(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})",
+                      "a.gltf")
               .find("KHR_draco") != std::string::npos);
     const auto changed = [&](const std::string& from, const std::string& to) {
-        return failureOf(sampleGlb(sphere, R"({"mesh":0})", from, to), "a.glb");
+        return meshFailure(sampleGlb(sphere, R"({"mesh":0})", from, to), "a.glb");
     };
     CHECK(changed("\"count\":240", "\"count\":241").find("does not fit") != std::string::npos);
     CHECK(changed("\"count\":240", "\"count\":99999999999999").find("does not fit") != std::string::npos);
@@ -439,7 +439,7 @@ TEST_CASE("glTF: buffers come from the file's own folder only") {
                                     sampleGltf(sphere, data + encodeBase64(sampleBuffer(sphere))))),
               sphere);
     const std::string echo =
-        failureOf(sampleGltf(sphere, data + encodeBase64(sampleBuffer(sphere) + "x")), "a.gltf");
+        meshFailure(sampleGltf(sphere, data + encodeBase64(sampleBuffer(sphere) + "x")), "a.gltf");
     CHECK(echo.find("found 1969") != std::string::npos);
     CHECK(echo.find("base64") == std::string::npos);
     CHECK_THROWS_AS(readMesh(folder.path() / "missing.obj"), Error);
@@ -455,13 +455,13 @@ TEST_CASE("mesh files: truncated anywhere or with any bit flipped, a mesh or an 
         {sampleGlb(sphere), "a.glb"}};
     std::mt19937 random(7);
     for (const auto& [bytes, name] : files) {
-        for (size_t size = 0; size < bytes.size(); size += 3) failureOf(bytes.substr(0, size), name);
+        for (size_t size = 0; size < bytes.size(); size += 3) meshFailure(bytes.substr(0, size), name);
         for (int i = 0; i < 1000; i++) {
             std::string damaged = bytes;
             for (int flips = 1 + i % 3; flips > 0; flips--)
                 damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
-            failureOf(damaged, name);
+            meshFailure(damaged, name);
         }
-        CHECK(failureOf(bytes, name) == "");
+        CHECK(meshFailure(bytes, name) == "");
     }
 }

@@ -2,12 +2,14 @@
 #include "engine/import/image_file.h"
 #include "engine/import/light_file.h"
 #include "engine/light/sun_position.h"
+#include "tests/support/failure.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
 using namespace relume;
+using namespace relume::test;
 using relume::test::TemporaryFolder;
 
 namespace {
@@ -22,13 +24,8 @@ MovingLight lampOf(const std::string& radius) {
                    "}]}");
 }
 
-std::string failureOf(const std::string& radius) {
-    try {
-        lampOf(radius);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+std::string lampFailure(const std::string& radius) {
+    return failureOf([&] { lampOf(radius); });
 }
 
 double degrees(float angle) { return double(glm::degrees(angle)); }
@@ -73,7 +70,7 @@ TEST_CASE("moving light: colors are tracks too, and a gain is of all") {
 
 TEST_CASE("moving light: what is wrong at any time is found when it is read") {
     const auto check = [](const std::string& radius, std::initializer_list<const char*> parts) {
-        const std::string failure = failureOf(radius);
+        const std::string failure = lampFailure(radius);
         CAPTURE(failure);
         for (const char* part : parts) CHECK(failure.find(part) != std::string::npos);
     };

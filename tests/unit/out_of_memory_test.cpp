@@ -23,7 +23,7 @@ constexpr long kNever = -1;
 constexpr size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 thread_local long allocationsLeft = kNever; // of this thread before one fails
 thread_local bool hasFailed = false;
-std::atomic<long> blocks = 0; // of memory that are held
+std::atomic<long> blocksHeld = 0; // of memory that are held
 
 void* allocate(size_t size, size_t alignment) {
     if (allocationsLeft != kNever && allocationsLeft-- == 0) {
@@ -33,12 +33,12 @@ void* allocate(size_t size, size_t alignment) {
     const size_t rounded = std::max(alignment, (size + alignment - 1) / alignment * alignment);
     void* const block = alignment <= kUsual ? std::malloc(rounded) : std::aligned_alloc(alignment, rounded);
     if (!block) throw std::bad_alloc();
-    blocks++;
+    blocksHeld++;
     return block;
 }
 
 void release(void* block) {
-    if (block) blocks--;
+    if (block) blocksHeld--;
     std::free(block);
 }
 
@@ -112,7 +112,7 @@ std::vector<Reading> readings() {
 size_t failEach(const Reading& reading) {
     reading.read(); // what is made once is not the reader's to free
     for (long count = 0; count < reading.allocations; count++) {
-        const long before = blocks;
+        const long before = blocksHeld;
         hasFailed = false;
         bool isSaid = false;
         allocationsLeft = count;
@@ -123,7 +123,7 @@ size_t failEach(const Reading& reading) {
         } catch (const Error&) { // which would tell of something else
         }
         allocationsLeft = kNever;
-        const long after = blocks;
+        const long after = blocksHeld;
         CAPTURE(count);
         if (!hasFailed) return size_t(count);
         CHECK(isSaid);

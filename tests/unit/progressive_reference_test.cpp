@@ -16,7 +16,7 @@ using namespace relume::test;
 
 namespace {
 
-constexpr int kWidth = 32, kHeight = 24, kFace = 8;
+constexpr int kWidth = 32, kHeight = 24, kLightFace = 8;
 const Camera kCamera{{0.5f, 2.5f, 3.2f}, vec3(0), 0.6f};
 
 // A torus above a ground, both in this material.
@@ -33,19 +33,20 @@ const std::string kGlossy = R"({"model": "plastic", "diffuse": 0.2, "roughness":
 
 // A colored sky, and a sun of one texel that gives half of the light.
 LightCube makeSunnySky() {
-    LightCube light{kFace, {}};
-    for (int i = 0; i < 6 * kFace * kFace; i++) {
-        const vec3 d = cubeTexelDirection(i / (kFace * kFace), i % kFace, i / kFace % kFace, kFace);
+    LightCube light{kLightFace, {}};
+    for (int i = 0; i < 6 * kLightFace * kLightFace; i++) {
+        const vec3 d = cubeTexelDirection(i / (kLightFace * kLightFace), i % kLightFace,
+                                          i / kLightFace % kLightFace, kLightFace);
         light.radiance.push_back(d.y > 0 ? vec3(0.5f, 0.7f, 1) * (1.2f + d.x) : vec3(0.2f, 0.15f, 0.1f));
     }
-    light.radiance[size_t(cubeTexelIndex(2, 6, 4, kFace))] = vec3(120, 100, 80);
+    light.radiance[size_t(cubeTexelIndex(2, 6, 4, kLightFace))] = vec3(120, 100, 80);
     return light;
 }
 
 // Nothing but one texel.
 LightCube makeLamp() {
-    LightCube light{kFace, std::vector<vec3>(6 * kFace * kFace, vec3(0))};
-    light.radiance[size_t(cubeTexelIndex(4, 3, 1, kFace))] = vec3(50, 60, 70);
+    LightCube light{kLightFace, std::vector<vec3>(6 * kLightFace * kLightFace, vec3(0))};
+    light.radiance[size_t(cubeTexelIndex(4, 3, 1, kLightFace))] = vec3(50, 60, 70);
     return light;
 }
 
@@ -286,7 +287,7 @@ TEST_CASE("progressive reference: a restart takes nothing over") {
     check(other, makeLamp(), half, 7, 5);
     check({{0, 9, 0}, {0, 10, 0}, 0.5f}, makeLamp(), half, 7, 5); // sees nothing
     CHECK_FALSE(reference.errorOf(Image(7, 5)));
-    check(kCamera, {kFace, std::vector<vec3>(6 * kFace * kFace, vec3(0))}, half, 7, 5);
+    check(kCamera, {kLightFace, std::vector<vec3>(6 * kLightFace * kLightFace, vec3(0))}, half, 7, 5);
     CHECK(reference.mean().at(3, 2) == vec4(0, 0, 0, 1));
 }
 

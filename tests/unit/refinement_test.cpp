@@ -28,7 +28,7 @@ std::vector<Edge> edgesOf(const Mesh& mesh) {
     return {edges.begin(), edges.end()};
 }
 
-double areaOf(const Mesh& mesh) {
+double surfaceArea(const Mesh& mesh) {
     double area = 0;
     for (const uvec3& t : mesh.triangles) {
         const vec3 a = mesh.positions[t.x];
@@ -38,7 +38,7 @@ double areaOf(const Mesh& mesh) {
 }
 
 // Whether every edge has a twin that runs the other way, as on closed surfaces, once places are welded.
-bool isClosed(const Mesh& mesh) {
+bool isWatertight(const Mesh& mesh) {
     std::map<std::array<float, 3>, uint32_t> places;
     const auto place = [&](uint32_t vertex) {
         const vec3 p = mesh.positions[vertex];
@@ -125,8 +125,8 @@ TEST_CASE("edge split: a closed surface stays closed, as large and as smooth, wh
         std::ranges::shuffle(edges, random);
         splitEdges(mesh, edges);
         REQUIRE_EQ(mesh.vertexCount(), before.vertexCount() + edges.size());
-        CHECK(isClosed(mesh));
-        CHECK(areaOf(mesh) == doctest::Approx(areaOf(before)).epsilon(1e-6));
+        CHECK(isWatertight(mesh));
+        CHECK(surfaceArea(mesh) == doctest::Approx(surfaceArea(before)).epsilon(1e-6));
         for (size_t i = 0; i < edges.size(); i++) {
             const size_t added = before.vertexCount() + i;
             const auto [a, b] = edges[i];
@@ -153,7 +153,7 @@ TEST_CASE("edge split: two, three or four triangles, that face as before") {
         Mesh mesh = triangle;
         splitEdges(mesh, edges);
         CHECK_EQ(mesh.triangleCount(), edges.size() + 1);
-        CHECK(areaOf(mesh) == doctest::Approx(0.5));
+        CHECK(surfaceArea(mesh) == doctest::Approx(0.5));
         for (const uvec3& t : mesh.triangles) {
             const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
             CHECK(glm::cross(b - a, c - a).z > 0.1f);
@@ -274,7 +274,7 @@ TEST_CASE("refinement: vertices go where shadows end, until the error is what wa
     CHECK_EQ(some.vertices, coarse.parts[0].mesh.vertexCount() + coarse.parts[1].mesh.vertexCount());
     const Mesh& mesh = coarse.parts[0].mesh;
     CHECK(std::equal(before.positions.begin(), before.positions.end(), mesh.positions.begin()));
-    CHECK(areaOf(mesh) == doctest::Approx(16).epsilon(1e-6));
+    CHECK(surfaceArea(mesh) == doctest::Approx(16).epsilon(1e-6));
     // The roof's shadow, and as much around it, is a quarter of the plane.
     const auto inside = std::ranges::count_if(std::span(mesh.positions).subspan(81), [](vec3 p) {
         return std::max(std::abs(p.x), std::abs(p.z)) < 1.001f;

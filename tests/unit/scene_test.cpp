@@ -4,6 +4,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/nearest_name.h"
 #include "engine/import/builtin_mesh.h"
+#include "tests/support/failure.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/textured_glb.h"
@@ -15,14 +16,9 @@ using namespace relume::test;
 
 namespace {
 
-std::string failureOf(const std::string& text) {
+std::string sceneFailure(const std::string& text) {
     const TemporaryFolder folder;
-    try {
-        readScene(folder.write("scene.json", text));
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+    return failureOf([&] { readScene(folder.write("scene.json", text)); });
 }
 
 } // namespace
@@ -80,32 +76,32 @@ TEST_CASE("scene: errors name the place, the key and the remedy") {
         return R"({"parts": [{"mesh": "sphere", "material": "clay"}, {"mesh": "sphere", "material": "clay")" +
                more + "}]}";
     };
-    CHECK(failureOf(part("")) == "");
-    const std::string unknown = failureOf(part(R"(, "tranlate": [0, 0, 0])"));
+    CHECK(sceneFailure(part("")) == "");
+    const std::string unknown = sceneFailure(part(R"(, "tranlate": [0, 0, 0])"));
     CHECK(unknown.find("scene.json: parts[1]") != std::string::npos);
     CHECK(unknown.find("did you mean \"translate\"") != std::string::npos);
-    CHECK(failureOf(part(R"(, "translate": [0, 0])")).find("three numbers") != std::string::npos);
-    CHECK(failureOf(part(R"(, "translate": [0, 0, "1"])")).find("translate") != std::string::npos);
-    CHECK(failureOf(part(R"(, "scale": 0)")).find("scale") != std::string::npos);
-    CHECK(failureOf(part(R"(, "scale": 1e300)")).find("scale") != std::string::npos);
-    CHECK(failureOf(part(R"(, "up": "x")")).find("\"y\" or \"z\"") != std::string::npos);
-    CHECK(failureOf(part(R"(, "name": 7)")).find("name") != std::string::npos);
-    CHECK(failureOf(R"({"parts": [{"mesh": "sphere"}]})").find("material") != std::string::npos);
-    CHECK(failureOf(R"({"parts": [{"material": "clay"}]})").find("mesh") != std::string::npos);
-    CHECK(failureOf(R"({"parts": [{"mesh": "none.obj", "material": "clay"}]})").find("none.obj") !=
+    CHECK(sceneFailure(part(R"(, "translate": [0, 0])")).find("three numbers") != std::string::npos);
+    CHECK(sceneFailure(part(R"(, "translate": [0, 0, "1"])")).find("translate") != std::string::npos);
+    CHECK(sceneFailure(part(R"(, "scale": 0)")).find("scale") != std::string::npos);
+    CHECK(sceneFailure(part(R"(, "scale": 1e300)")).find("scale") != std::string::npos);
+    CHECK(sceneFailure(part(R"(, "up": "x")")).find("\"y\" or \"z\"") != std::string::npos);
+    CHECK(sceneFailure(part(R"(, "name": 7)")).find("name") != std::string::npos);
+    CHECK(sceneFailure(R"({"parts": [{"mesh": "sphere"}]})").find("material") != std::string::npos);
+    CHECK(sceneFailure(R"({"parts": [{"material": "clay"}]})").find("mesh") != std::string::npos);
+    CHECK(sceneFailure(R"({"parts": [{"mesh": "none.obj", "material": "clay"}]})").find("none.obj") !=
           std::string::npos);
-    CHECK(failureOf(R"({"parts": []})").find("parts") != std::string::npos);
-    CHECK(failureOf(R"({"part": []})").find("did you mean \"parts\"") != std::string::npos);
-    CHECK(failureOf(R"([1])").find("object") != std::string::npos);
-    CHECK(failureOf("{\"parts\": [").find("not valid JSON") != std::string::npos);
-    CHECK(failureOf("").find("not valid JSON") != std::string::npos);
-    CHECK(failureOf(std::string(100000, '[')).find("deeper") != std::string::npos);
+    CHECK(sceneFailure(R"({"parts": []})").find("parts") != std::string::npos);
+    CHECK(sceneFailure(R"({"part": []})").find("did you mean \"parts\"") != std::string::npos);
+    CHECK(sceneFailure(R"([1])").find("object") != std::string::npos);
+    CHECK(sceneFailure("{\"parts\": [").find("not valid JSON") != std::string::npos);
+    CHECK(sceneFailure("").find("not valid JSON") != std::string::npos);
+    CHECK(sceneFailure(std::string(100000, '[')).find("deeper") != std::string::npos);
     const std::string start = R"({"parts": [{"mesh": "sphere", "material": "clay"}], "ground": )";
-    CHECK(failureOf(start + R"({"tessellation": 1e9}})").find("tessellation") != std::string::npos);
-    CHECK(failureOf(start + R"({"tessellation": 1.5}})").find("whole") != std::string::npos);
-    CHECK(failureOf(start + R"({"size": 2}})").find("unknown key \"size\"") != std::string::npos);
-    CHECK(failureOf(start + "3}").find("object") != std::string::npos);
-    CHECK(failureOf(start + "true}") == "");
+    CHECK(sceneFailure(start + R"({"tessellation": 1e9}})").find("tessellation") != std::string::npos);
+    CHECK(sceneFailure(start + R"({"tessellation": 1.5}})").find("whole") != std::string::npos);
+    CHECK(sceneFailure(start + R"({"size": 2}})").find("unknown key \"size\"") != std::string::npos);
+    CHECK(sceneFailure(start + "3}").find("object") != std::string::npos);
+    CHECK(sceneFailure(start + "true}") == "");
 }
 
 TEST_CASE("scene: parts painted by textures or by vertex colors") {
@@ -171,7 +167,7 @@ TEST_CASE("scene: a glTF file without a named material keeps its own") {
 
 TEST_CASE("scene: what is placed where single precision would round its shape is refused") {
     const auto placed = [](const std::string& more) {
-        return failureOf(R"({"parts": [{"mesh": "sphere", "material": "clay", )" + more + "}]}");
+        return sceneFailure(R"({"parts": [{"mesh": "sphere", "material": "clay", )" + more + "}]}");
     };
     CHECK(placed(R"("translate": [9000, 0, 0])") == "");
     CHECK(placed(R"("translate": [0, 1e9, 0])").find("parts[0]: is 2 units large") != std::string::npos);

@@ -1,5 +1,6 @@
 #include "engine/transport/asset_arrays.h"
 #include "precompute/bake/shard.h"
+#include "tests/support/failure.h"
 #include "tests/support/shard_sample.h"
 
 #include <algorithm>
@@ -21,8 +22,6 @@ std::string refusal(const std::vector<Bytes>& files) {
     }
     return "";
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 Bytes wholeBake(const Asset& asset, TransportLayout layout = TransportLayout::Rows) {
     BakePlan plan = planIn(asset, layout);

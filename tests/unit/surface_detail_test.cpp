@@ -3,22 +3,14 @@
 
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/metal_roughness_map.h"
+#include "tests/support/mesh_samples.h"
 
 #include <doctest/doctest.h>
 
 using namespace relume;
+using namespace relume::test;
 
 namespace {
-
-// A unit square in z = 0 that faces +z, its image upright: u right, v down.
-Mesh makeSquare() {
-    Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    mesh.normals.assign(4, vec3(0, 0, 1));
-    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
 
 bool isNear(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-5f; }
 

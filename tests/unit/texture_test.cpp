@@ -2,6 +2,7 @@
 #include "engine/scene/texture.h"
 
 #include "engine/base/error.h"
+#include "tests/support/failure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/texture_samples.h"
 
@@ -19,13 +20,8 @@ Texture decode(const std::string& bytes, bool srgb = false) {
     return decodeTexture(std::as_bytes(std::span(bytes)), "picture", srgb);
 }
 
-std::string failureOf(const std::string& bytes) {
-    try {
-        decode(bytes);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+std::string textureFailure(const std::string& bytes) {
+    return failureOf([&] { decode(bytes); });
 }
 
 bool isNear(vec4 a, vec4 b, float tolerance = 1e-5f) { return glm::distance(a, b) < tolerance; }
@@ -156,20 +152,21 @@ TEST_CASE("texture: truncated, absurd and foreign files") {
     const std::string png = samplePng(gradient()), jpeg = sampleJpeg(gradient());
     for (const std::string& file : {png, jpeg})
         for (size_t size = 0; size < file.size(); size++)
-            CHECK(failureOf(file.substr(0, size)).find("picture") != std::string::npos);
-    CHECK(failureOf("GIF89a").find("PNG or JPEG") != std::string::npos);
+            CHECK(textureFailure(file.substr(0, size)).find("picture") != std::string::npos);
+    CHECK(textureFailure("GIF89a").find("PNG or JPEG") != std::string::npos);
     // The header's claim, with a check sum that agrees.
-    CHECK(failureOf(samplePngHeader(100000, 100000) + png.substr(33)).find("picture") != std::string::npos);
-    CHECK(failureOf(samplePngHeader(60000, 60000) + png.substr(33))
+    CHECK(textureFailure(samplePngHeader(100000, 100000) + png.substr(33)).find("picture") !=
+          std::string::npos);
+    CHECK(textureFailure(samplePngHeader(60000, 60000) + png.substr(33))
               .find("60000 x 60000 pixels, expected at most") != std::string::npos);
-    CHECK(failureOf(samplePngHeader(8193, 1) + png.substr(33)).find("8192") != std::string::npos);
-    CHECK(failureOf(samplePngHeader(8192, 8192) + png.substr(33)).find("hold") != std::string::npos);
-    CHECK(failureOf(samplePngHeader(0, 4) + png.substr(33)) != "");
-    CHECK(failureOf(samplePngHeader(40, 25) + png.substr(33)) != "");
+    CHECK(textureFailure(samplePngHeader(8193, 1) + png.substr(33)).find("8192") != std::string::npos);
+    CHECK(textureFailure(samplePngHeader(8192, 8192) + png.substr(33)).find("hold") != std::string::npos);
+    CHECK(textureFailure(samplePngHeader(0, 4) + png.substr(33)) != "");
+    CHECK(textureFailure(samplePngHeader(40, 25) + png.substr(33)) != "");
     std::string damaged = png;
     damaged[50] ^= 1;
-    CHECK(failureOf(damaged).find("check sum") != std::string::npos);
-    CHECK(failureOf(png + "after the end") == "");
+    CHECK(textureFailure(damaged).find("check sum") != std::string::npos);
+    CHECK(textureFailure(png + "after the end") == "");
 }
 
 TEST_CASE("texture: JPEG tables that overflow or are missing") {
@@ -177,15 +174,15 @@ TEST_CASE("texture: JPEG tables that overflow or are missing") {
     const size_t huffman = jpeg.find("\xff\xc4"), scan = jpeg.find("\xff\xda");
     REQUIRE(huffman != std::string::npos);
     REQUIRE(scan > huffman);
-    CHECK(failureOf(jpeg.substr(0, huffman) + jpeg.substr(scan)).find("missing") != std::string::npos);
+    CHECK(textureFailure(jpeg.substr(0, huffman) + jpeg.substr(scan)).find("missing") != std::string::npos);
     std::string crowded = jpeg;
     crowded[huffman + 5] = char(3); // codes of one bit
-    CHECK(failureOf(crowded).find("codes") != std::string::npos);
+    CHECK(textureFailure(crowded).find("codes") != std::string::npos);
     const std::string many =
         std::string("\xff\xc4\x01\x13\x00", 5) + std::string(14, '\0') + "\x80\xff" + std::string(383, 'x');
-    CHECK(failureOf(jpeg.substr(0, huffman) + many + jpeg.substr(huffman)) != "");
+    CHECK(textureFailure(jpeg.substr(0, huffman) + many + jpeg.substr(huffman)) != "");
     const size_t quantization = jpeg.find("\xff\xdb"), frame = jpeg.find("\xff\xc0");
-    CHECK(failureOf(jpeg.substr(0, quantization) + jpeg.substr(frame)).find("not described") !=
+    CHECK(textureFailure(jpeg.substr(0, quantization) + jpeg.substr(frame)).find("not described") !=
           std::string::npos);
 }
 
@@ -196,7 +193,7 @@ TEST_CASE("texture: with any bit flipped, a texture or an Error") {
             std::string damaged = file;
             for (int flips = 1 + i % 3; flips > 0; flips--)
                 damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
-            failureOf(damaged);
+            textureFailure(damaged);
         }
 }
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <random>
 
-using namespace relume::vk;
+using relume::vk::ticksBetween, relume::vk::TickClock;
 
 namespace {
 

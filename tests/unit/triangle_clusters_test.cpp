@@ -11,10 +11,10 @@ using namespace relume;
 
 namespace {
 
-constexpr float kAspect = 1.5f, kFov = 0.8f, kHeight = 400;
+constexpr float kAspect = 1.5f, kFov = 0.8f, kViewHeight = 400;
 
 ClusterView viewOf(const Camera& camera, const Mesh& mesh, bool hidesBacks) {
-    const float focalLength = 0.5f * kHeight / std::tan(0.5f * camera.verticalFov);
+    const float focalLength = 0.5f * kViewHeight / std::tan(0.5f * camera.verticalFov);
     return {camera.clipFromWorld(kAspect, boundsOf(mesh)), camera.eye, focalLength, 1.0f / 256, hidesBacks};
 }
 

@@ -19,7 +19,7 @@ json set(const char* name, const json& value) { return {{"set", {{name, value}}}
 } // namespace
 
 TEST_CASE("viewer: a ground is a shadow on the background in the reference, too") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome = session.replay({{{"resize", {320, 240}}},
                                             {{"frames", 3}},
                                             {{"set", {{"panels", false}, {"tone", "none"}, {"exposure", 0}}}},
@@ -46,7 +46,7 @@ TEST_CASE("viewer: a ground is a shadow on the background in the reference, too"
 }
 
 TEST_CASE("viewer: the reference is beside the view, alone and as a difference, and follows the view") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     // Panels and background are not in the way, and tone curves bend nothing.
     const Outcome outcome = session.replay(
         {{{"resize", {320, 240}}},

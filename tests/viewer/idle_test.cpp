@@ -26,7 +26,7 @@ struct Cost {
 };
 
 // What a session takes that waits so long in its middle, once all is there.
-Cost costOf(Session& session, double wait) {
+Cost costOf(ViewerSession& session, double wait) {
     const double before = childTime();
     const Outcome outcome = session.replay({{{"wait", "settled"}}, {{"wait", wait}}, {{"quit", true}}},
                                            "ring.relume --timings idle.json");
@@ -40,7 +40,7 @@ Cost costOf(Session& session, double wait) {
 } // namespace
 
 TEST_CASE("viewer: a window in which nothing changes draws no frame and takes next to no time") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     constexpr double kWait = 4;
     costOf(session, 0.1); // pipelines are kept from here on
     const Cost brief = costOf(session, 0.1), lengthy = costOf(session, kWait);

@@ -9,7 +9,7 @@ using Kind = InputEvent::Kind;
 
 namespace {
 
-constexpr ivec2 kSize(400, 400);
+constexpr ivec2 kSquareSize(400, 400);
 
 // An object of radius 1 about the origin, seen from +Z; lamps move on a sphere of 1.25.
 struct Stage {
@@ -20,7 +20,7 @@ struct Stage {
 
     Stage() { light.environments.push_back({EnvironmentChoice::Kind::DaySky, "day"}); }
 
-    bool take(const InputEvent& event) { return handles.take(event, light, camera, model, kSize); }
+    bool take(const InputEvent& event) { return handles.take(event, light, camera, model, kSquareSize); }
     bool press(vec2 place, int button = GLFW_MOUSE_BUTTON_LEFT, int modifiers = 0) {
         return take({Kind::Button, button, true, modifiers, place});
     }
@@ -29,7 +29,7 @@ struct Stage {
     vec3 direction(size_t lamp = 0) const {
         return directionAt(light.lamps[lamp].azimuth + light.rotation, light.lamps[lamp].elevation);
     }
-    vec2 place(size_t lamp = 0) const { return *pixelOf(1.25f * direction(lamp), camera, kSize); }
+    vec2 place(size_t lamp = 0) const { return *pixelOf(1.25f * direction(lamp), camera, kSquareSize); }
 };
 
 } // namespace

@@ -12,7 +12,7 @@
 
 using namespace relume;
 using namespace relume::test;
-using Kind = EnvironmentChoice::Kind;
+using SourceKind = EnvironmentChoice::Kind;
 
 namespace {
 
@@ -29,9 +29,9 @@ struct Choices {
         const auto prepared = [](const Environment& environment) {
             return std::make_shared<const Environment>(prepareForSampling(environment));
         };
-        state.environments = {{Kind::BuiltIn, "sky", "", prepared(makeSky())},
-                              {Kind::DaySky, "day sky"},
-                              {Kind::File, "map", file, prepared(readEnvironment(file))}};
+        state.environments = {{SourceKind::BuiltIn, "sky", "", prepared(makeSky())},
+                              {SourceKind::DaySky, "day sky"},
+                              {SourceKind::File, "map", file, prepared(readEnvironment(file))}};
         state.environment = 2;
     }
 

@@ -11,7 +11,7 @@ using nlohmann::json;
 namespace {
 
 // Names of the device's passes, frame by frame.
-std::vector<std::set<std::string>> passesOf(Session& session, const std::string& file) {
+std::vector<std::set<std::string>> passesOf(ViewerSession& session, const std::string& file) {
     std::vector<std::set<std::string>> frames;
     for (const ReadSpan& span : readTraceEvents(json::parse(session.bytes(file)))) {
         if (span.track != "GPU") continue;
@@ -36,7 +36,7 @@ json swapTwice(const std::string& screenshot) {
 } // namespace
 
 TEST_CASE("viewer: a frame with another material of the set draws the view, and relights nothing") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome = session.replay(swapTwice("clay.exr"), "ring.relume --timings times.json");
     CAPTURE(outcome.err);
     REQUIRE_EQ(outcome.exitCode, 0);
@@ -63,7 +63,7 @@ TEST_CASE("viewer: a frame with another material of the set draws the view, and 
 }
 
 TEST_CASE("viewer: a frame with a material of another set relights in the same frame") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     session.bake("separate.relume", "--separate -m gold -m clay");
     const Outcome outcome = session.replay(swapTwice("other.exr"), "separate.relume --timings times.json");
     CAPTURE(outcome.err);

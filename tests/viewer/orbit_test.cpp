@@ -8,7 +8,7 @@ using namespace relume;
 
 namespace {
 
-constexpr ivec2 kSize(640, 480);
+constexpr ivec2 kOrbitSize(640, 480);
 constexpr float kAspect = 4.0f / 3;
 
 Orbit sample() { return {{0.3f, -0.2f, 1}, 0.7f, 0.4f, 3, 0.8f}; }
@@ -16,7 +16,7 @@ Orbit sample() { return {{0.3f, -0.2f, 1}, 0.7f, 0.4f, 3, 0.8f}; }
 // Where the ray through a pixel meets the plane through the target that faces the eye.
 vec3 onTargetPlane(const Camera& camera, ivec2 pixel) {
     const vec3 forward = glm::normalize(camera.target - camera.eye),
-               ray = camera.pixelDirection(pixel.x, pixel.y, kSize.x, kSize.y);
+               ray = camera.pixelDirection(pixel.x, pixel.y, kOrbitSize.x, kOrbitSize.y);
     return camera.eye + glm::distance(camera.target, camera.eye) / glm::dot(ray, forward) * ray;
 }
 
@@ -27,20 +27,21 @@ TEST_CASE("orbit: a point is seen where its pixel's ray goes") {
     CHECK(glm::distance(camera.eye, camera.target) == doctest::Approx(3));
     for (const ivec2 pixel : {ivec2(0, 0), ivec2(320, 240), ivec2(639, 10), ivec2(100, 479)})
         for (const float away : {0.1f, 2.0f, 50.0f}) {
-            const vec3 point = camera.eye + away * camera.pixelDirection(pixel.x, pixel.y, kSize.x, kSize.y);
-            const auto place = pixelOf(point, camera, kSize);
+            const vec3 point =
+                camera.eye + away * camera.pixelDirection(pixel.x, pixel.y, kOrbitSize.x, kOrbitSize.y);
+            const auto place = pixelOf(point, camera, kOrbitSize);
             REQUIRE(place);
             CHECK(glm::distance(*place, vec2(pixel) + 0.5f) < 0.02f);
         }
-    CHECK_FALSE(pixelOf(camera.eye + (camera.eye - camera.target), camera, kSize));
-    CHECK_FALSE(pixelOf(camera.eye, camera, kSize));
+    CHECK_FALSE(pixelOf(camera.eye + (camera.eye - camera.target), camera, kOrbitSize));
+    CHECK_FALSE(pixelOf(camera.eye, camera, kOrbitSize));
 }
 
 TEST_CASE("orbit: moved, the target follows the hand") {
     Orbit orbit = sample();
     const vec3 grabbed = orbit.target;
-    orbit.pan({40, -25}, float(kSize.y));
-    const auto place = pixelOf(grabbed, orbit.camera(), kSize);
+    orbit.pan({40, -25}, float(kOrbitSize.y));
+    const auto place = pixelOf(grabbed, orbit.camera(), kOrbitSize);
     REQUIRE(place);
     CHECK(glm::distance(*place, vec2(320 + 40, 240 - 25)) < 0.05f);
     CHECK_EQ(orbit.distance, sample().distance);
@@ -65,10 +66,10 @@ TEST_CASE("orbit: nearer or farther, what is under the cursor stays there") {
         for (const float steps : {3.0f, -2.0f}) {
             Orbit orbit = sample();
             const vec3 point = onTargetPlane(orbit.camera(), pixel);
-            const vec2 cursor = 2.0f * (vec2(pixel) + 0.5f) / vec2(kSize) - 1.0f;
+            const vec2 cursor = 2.0f * (vec2(pixel) + 0.5f) / vec2(kOrbitSize) - 1.0f;
             orbit.zoom(steps, cursor, kAspect, 1);
             CHECK((orbit.distance < 3) == (steps > 0));
-            const auto place = pixelOf(point, orbit.camera(), kSize);
+            const auto place = pixelOf(point, orbit.camera(), kOrbitSize);
             REQUIRE(place);
             CHECK(glm::distance(*place, vec2(pixel) + 0.5f) < 0.05f);
         }

@@ -11,7 +11,7 @@ using namespace relume::test;
 using nlohmann::json;
 
 TEST_CASE("viewer: a recording has every frame, numbered, as large as the window") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     // Stands in for ffmpeg: writes what it was asked for into the video.
     std::filesystem::create_directory(session.path("tools"));
     const std::filesystem::path ffmpeg = session.path("tools") / "ffmpeg";
@@ -57,7 +57,7 @@ TEST_CASE("viewer: a recording has every frame, numbered, as large as the window
 }
 
 TEST_CASE("viewer: G draws the contact sheet that `relume sheet` draws, beside the frames") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome =
         session.replay({{{"wait", "settled"}}, {{"key", "G"}}, {{"wait", "settled"}}, {{"quit", true}}},
                        "ring.relume room.exr");

@@ -61,7 +61,7 @@ json unchanged() {
             {"coefficients", 512}};
 }
 
-void checkIsRendered(Session& session, const std::string& words, const std::string& file) {
+void checkIsRendered(ViewerSession& session, const std::string& words, const std::string& file) {
     CAPTURE(file);
     const std::string command = renderCommand(words, file);
     CAPTURE(command);
@@ -73,7 +73,7 @@ void checkIsRendered(Session& session, const std::string& words, const std::stri
 } // namespace
 
 TEST_CASE("viewer: whatever the light and the material are, `relume render` draws the same bytes") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     json script = {{{"wait", "settled"}}};
     for (const Look& look : looks()) {
         script.push_back({{"set", unchanged()}});
@@ -99,7 +99,7 @@ TEST_CASE("viewer: whatever the light and the material are, `relume render` draw
 }
 
 TEST_CASE("viewer: a light file that moves is drawn at its moment, and turned") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     std::ofstream(session.path("moving.json"))
         << json{{"environment", {{"file", "room.exr"}, {"rotate", {{"keys", {{0, 0}, {10, 90}}}}}}},
                 {"lamps",
@@ -135,7 +135,7 @@ TEST_CASE("viewer: a light file that moves is drawn at its moment, and turned") 
 }
 
 TEST_CASE("viewer: a session is drawn by `relume render`, and opened again as it was") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const json look = {{"set",
                         {{"azimuth", -50},
                          {"elevation", 31},
@@ -214,7 +214,7 @@ TEST_CASE("viewer: a session is drawn by `relume render`, and opened again as it
 
 TEST_CASE("viewer: a session of a bake that is open, but not shown, shows it; the residual is no matter of a "
           "sketch") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     session.bake("other.relume", "-m clay");
     std::ofstream(session.path("back.json"))
         << json{{"session", 1}, {"bake", "ring.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}}};
@@ -239,7 +239,7 @@ TEST_CASE("viewer: a session of a bake that is open, but not shown, shows it; th
 }
 
 TEST_CASE("cli: sessions are data: keys of a look alone, and options that are given win") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const json look = {{"session", 1},    {"bake", "ring.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}},
                        {"exposure", 0.3}, {"background-blur", 4},  {"size", "40x30"}};
     const auto render = [&](json more, const std::string& options) {
@@ -279,7 +279,7 @@ TEST_CASE("cli: sessions are data: keys of a look alone, and options that are gi
 }
 
 TEST_CASE("viewer: the built-in sky and a lamp have a light file") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome = session.replay({{{"wait", "settled"}},
                                             {{"screenshot", "sky.exr"}},
                                             {{"set", {{"lamps", {{{"azimuth", 10}}}}}}},
@@ -295,7 +295,7 @@ TEST_CASE("viewer: the built-in sky and a lamp have a light file") {
 }
 
 TEST_CASE("viewer: a kept view comes back with its field of view") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome = session.replay({{{"wait", "settled"}},
                                             {{"screenshot", "narrow.exr"}},
                                             {{"key", "ctrl+1"}},

@@ -9,7 +9,7 @@ using namespace relume::test;
 using nlohmann::json;
 
 TEST_CASE("viewer: a settled view has the bytes that `relume render` draws") {
-    Session session;
+    ViewerSession session;
     const Outcome outcome =
         session.replay({{{"wait", "settled"}},
                         {{"screenshot", "first.exr"}},
@@ -40,7 +40,7 @@ TEST_CASE("viewer: a settled view has the bytes that `relume render` draws") {
 }
 
 TEST_CASE("viewer: a scene to bake, and what cannot be opened, are dropped onto it") {
-    Session session;
+    ViewerSession session;
     std::ofstream(session.path("roof.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
     std::ofstream(session.path("roof.json"))
         << R"({"parts": [{"mesh": "roof.obj", "material": "white-diffuse"}]})";
@@ -67,7 +67,7 @@ TEST_CASE("viewer: a scene to bake, and what cannot be opened, are dropped onto 
 }
 
 TEST_CASE("viewer: ends by itself after so many frames, the last of them written") {
-    Session session;
+    ViewerSession session;
     const Outcome outcome =
         session.replay({{{"wait", "settled"}}}, "ring.relume --exit-frame 5 --screenshot last.png");
     CAPTURE(outcome.err);
@@ -76,7 +76,7 @@ TEST_CASE("viewer: ends by itself after so many frames, the last of them written
 }
 
 TEST_CASE("viewer: says what is wrong with a script, and that there is no display") {
-    Session session;
+    ViewerSession session;
     const Outcome wrong = session.replay({{{"frames", 1}}, {{"jump", 3}}}, "ring.relume");
     CHECK_EQ(wrong.exitCode, 1);
     CHECK(says(wrong.err, "script.json: step 2: expected one of click, double-click, drag"));
@@ -116,7 +116,7 @@ TEST_CASE("viewer: steps that cannot be done are refused before the first") {
 }
 
 TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
-    Session session;
+    ViewerSession session;
     std::ofstream(session.path("roof.json"))
         << R"({"parts": [{"mesh": "roof.obj", "material": "white-diffuse"}]})";
     std::ofstream(session.path("broken.relume")) << "nothing";
@@ -136,7 +136,7 @@ TEST_CASE("viewer: what cannot be opened ends a session that nobody watches") {
 }
 
 TEST_CASE("viewer: an environment that cannot be read leaves the sky, however often it is chosen") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const json choose = {{"set", {{"environment", "late.exr"}}}};
     const Outcome missing = session.replay({{{"wait", "settled"}},
                                             {{"screenshot", "sky.exr"}},

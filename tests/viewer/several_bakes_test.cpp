@@ -6,7 +6,7 @@ using namespace relume::test;
 using nlohmann::json;
 
 TEST_CASE("viewer: B goes from bake to bake, and the same mesh stays where it is") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     session.bake("coarse.relume", "-m clay");
     const Outcome baked =
         session.relume("bake sphere -m clay -K 2 -N 24 --bounces 0 --visibility-size 64 --face-size 32 "
@@ -54,7 +54,7 @@ TEST_CASE("viewer: B goes from bake to bake, and the same mesh stays where it is
 }
 
 TEST_CASE("viewer: a mesh is shown before anything of it is baked, and the session names it") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome = session.replay({{{"wait", "shown"}},
                                             {{"screenshot", "sketch.exr"}},
                                             {{"key", "ctrl+S"}},

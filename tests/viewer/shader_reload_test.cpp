@@ -17,7 +17,7 @@ void replace(const std::filesystem::path& file, const std::string& from, const s
 }
 
 // A window before and after F5, with these sources.
-Outcome reload(Session& session, const std::filesystem::path& shaders) {
+Outcome reload(ViewerSession& session, const std::filesystem::path& shaders) {
     const Outcome outcome = session.replay({{{"set", {{"panels", false}}}},
                                             {{"wait", "settled"}},
                                             {{"screenshot", "before.png"}},
@@ -35,7 +35,7 @@ Outcome reload(Session& session, const std::filesystem::path& shaders) {
 } // namespace
 
 TEST_CASE("viewer: F5 builds shaders anew, and says what is wrong with them") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const std::filesystem::path shaders = session.path("shaders"), display = shaders / "display.frag";
     std::filesystem::copy(RELUME_SHADERS, shaders, std::filesystem::copy_options::recursive);
 

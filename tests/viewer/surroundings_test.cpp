@@ -105,7 +105,7 @@ class Sweep {
         }
     }
 
-    Session mSession;
+    ViewerSession mSession;
     std::vector<std::string> mWhole; // the images of a run that nothing disturbs
 };
 
@@ -125,7 +125,7 @@ TEST_CASE("viewer surroundings: lost images and surfaces are made again, and a l
 }
 
 TEST_CASE("viewer surroundings: without a writable home a bake is shown, with a warning") {
-    Session session;
+    ViewerSession session;
     const std::string nowhere = "HOME=/proc XDG_CACHE_HOME=/proc/cache XDG_STATE_HOME=/proc/state";
     const json script = {{{"wait", "settled"}}, {{"screenshot", "look.exr"}}, {{"quit", true}}};
     REQUIRE_EQ(session.replay(script, "ring.relume").exitCode, 0);
@@ -144,7 +144,7 @@ TEST_CASE("viewer surroundings: without a writable home a bake is shown, with a 
 }
 
 TEST_CASE("viewer surroundings: settings that cannot be written are a warning") {
-    Session session;
+    ViewerSession session;
     // The first frame says so: its image is out of date. A script would remember nothing.
     auto viewer = std::async(std::launch::async, [&] {
         return session.view("ring.relume",
@@ -167,7 +167,7 @@ TEST_CASE("viewer surroundings: settings that cannot be written are a warning") 
 
 TEST_CASE(
     "viewer surroundings: a disk that is full at any write of a picture or session leaves the old file") {
-    Session session;
+    ViewerSession session;
     const auto namesOf = [&](const std::string& ending) {
         std::vector<std::string> names;
         for (const auto& file : std::filesystem::directory_iterator(session.folder().path()))

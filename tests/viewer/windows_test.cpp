@@ -17,7 +17,7 @@ void append(json& script, const json& steps) { script.insert(script.end(), steps
 } // namespace
 
 TEST_CASE("viewer: why and the light vector are asked for, and leave the view as it is") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     // The middle of the ring is seen through; below it is its near side.
     const std::vector<std::pair<std::string, json>> asked = {
         {"nothing", {{"frames", 1}}},
@@ -61,7 +61,7 @@ TEST_CASE("viewer: why and the light vector are asked for, and leave the view as
 }
 
 TEST_CASE("viewer: each mode of inspection has an image of its own, which nothing else draws") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     json script = {{{"wait", "settled"}}, {{"set", {{"panels", false}}}}};
     const std::vector<std::string> modes = {"off", "wireframe", "normals", "density", "off-again"};
     for (const std::string& mode : modes) {
@@ -91,7 +91,7 @@ TEST_CASE("viewer: each mode of inspection has an image of its own, which nothin
 }
 
 TEST_CASE("viewer: a double click looks at what is there") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     const Outcome outcome = session.replay({{{"wait", "settled"}},
                                             {{"screenshot", "before.exr"}},
                                             {{"double-click", {240, 235}}},
@@ -130,7 +130,7 @@ TEST_CASE("viewer: a double click looks at what is there") {
 }
 
 TEST_CASE("viewer: a lamp is dragged over the object, and nothing else with it") {
-    Session& session = sharedSession();
+    ViewerSession& session = sharedSession();
     // Its handle is in the middle of the window.
     const json drag = {{"drag", "left"}, {"from", {240, 180}}, {"by", {-40, -30}}, {"over", 3}};
     const Outcome outcome =

@@ -13,8 +13,8 @@ namespace relume {
 namespace {
 
 constexpr uint64_t kEntriesPerGroup = 8;
-constexpr uint64_t kWordsPerGroup = 12;
-constexpr uint64_t kGroupBytes = kWordsPerGroup * sizeof(uint32_t);
+constexpr uint64_t kWordsPerRowGroup = 12;
+constexpr uint64_t kGroupBytes = kWordsPerRowGroup * sizeof(uint32_t);
 
 struct ShardData {
     std::vector<uint32_t> starts{0};
@@ -28,16 +28,16 @@ uint64_t rowGroups(const SparseTransport& transport, size_t row) {
 
 void appendRow(ShardData& shard, const SparseTransport& transport, size_t row, uint32_t coefficients) {
     const size_t firstWord = shard.words.size();
-    shard.words.resize(firstWord + rowGroups(transport, row) * kWordsPerGroup, 0);
+    shard.words.resize(firstWord + rowGroups(transport, row) * kWordsPerRowGroup, 0);
     const uint64_t start = transport.rowStarts[row], end = transport.rowStarts[row + 1];
     for (uint64_t entry = start; entry < end; entry++) {
         const uint64_t place = (entry - start) % kEntriesPerGroup;
-        uint32_t* group = &shard.words[firstWord + (entry - start) / kEntriesPerGroup * kWordsPerGroup];
+        uint32_t* group = &shard.words[firstWord + (entry - start) / kEntriesPerGroup * kWordsPerRowGroup];
         RELUME_CHECK_LT(uint32_t(transport.indices[entry]), coefficients);
         group[place / 2] |= uint32_t(transport.indices[entry]) << (place % 2 * 16);
         group[4 + place] = transport.values[entry];
     }
-    shard.starts.push_back(uint32_t(shard.words.size() / kWordsPerGroup));
+    shard.starts.push_back(uint32_t(shard.words.size() / kWordsPerRowGroup));
 }
 
 // Returns the most rows of a shard: limited by one dispatch and by the size of the starts' buffer.

@@ -27,8 +27,8 @@ Eigen::Index vectorOf(uint32_t component) {
 }
 
 constexpr Eigen::Index kSpare = 16; // additional vectors with which the wanted ones converge
-constexpr int kIterations = 4;
-constexpr float kLeastValue = 1e-7f; // relative to the largest
+constexpr int kSubspaceIterations = 4;
+constexpr float kLeastSingularValue = 1e-7f; // relative to the largest
 
 Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& vectors) {
     return Eigen::HouseholderQR<Eigen::MatrixXf>(vectors).householderQ() *
@@ -53,7 +53,7 @@ LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Ind
         std::mt19937 random; // the same start each time
         subspace =
             Eigen::MatrixXf::NullaryExpr(size, count + kSpare, [&] { return random() & 1 ? 1.0f : -1.0f; });
-        for (int i = 0; i < kIterations; i++) subspace = orthonormal(matrix * subspace);
+        for (int i = 0; i < kSubspaceIterations; i++) subspace = orthonormal(matrix * subspace);
         reduced = subspace.transpose() * (matrix * subspace);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(reduced);
@@ -61,7 +61,7 @@ LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Ind
     leading.values = solver.eigenvalues().reverse();
     Eigen::Index kept = 0;
     while (kept < std::min(count, leading.values.size()) &&
-           leading.values[kept] > kLeastValue * leading.values[0])
+           leading.values[kept] > kLeastSingularValue * leading.values[0])
         kept++;
     leading.values.conservativeResize(kept);
     leading.vectors = solver.eigenvectors().rightCols(kept).rowwise().reverse();
