@@ -5,12 +5,11 @@
 #pragma once
 
 #include "engine/image/image.h"
-#include "engine/render/appearance.h"
 #include "engine/render/ground_fade.h"
-#include "engine/render/map_texture.h"
 #include "engine/render/pixel_samples.h"
 #include "engine/render/relighter.h"
-#include "engine/render/triangle_clusters.h"
+#include "engine/render/shade_programs.h"
+#include "engine/render/view_part.h"
 #include "engine/scene/camera.h"
 #include "shaders/shared/render.h"
 
@@ -79,30 +78,6 @@ class ViewPass {
     Image render(const Camera& camera, const Relighter& relighter);
 
   private:
-    struct Set {
-        uint32_t terms = 0, materials = 0;
-        DiskMapping mapping = DiskMapping::Orthographic;
-        ViewMapTexture viewMaps;
-        bool hasTangents = false; // whether frames follow from tangents
-    };
-    struct Part {
-        Bounds bounds;
-        bool isClosed = false;
-        vk::Buffer drawnPositions, drawnTriangles; // NumberedTriangles
-        vk::Buffer vertices, triangles;            // shared::ViewVertex and corners, looked up by pixels
-        TriangleClusters clusters;
-        uint32_t firstTriangleId = 0,
-                 triangleCount = 0; // first triangle id, from 1 over all parts; triangles
-        uint32_t paint = 0;         // shared::kPaintedByMap and so on, if it is painted
-        vk::Image baseColor, materialMap, normalMap, emissionMap;
-        shared::ViewDetail detail;
-        bool isDetailed; // whether `detail` has anything to draw
-        std::vector<Set> sets;
-        vk::Buffer layers; // shared::ViewDetail, then as many shared::ViewLayer as can be bound
-        PartAppearance bound;
-        uint32_t look = 0; // what the bound layers need of the shader: shared::kSingleLook and so on
-        std::vector<shared::ViewLayer> boundLayers;
-    };
     // A camera, for an image of a given size.
     struct Frame {
         mat4 clipFromWorld;
@@ -112,47 +87,31 @@ class ViewPass {
         bool operator==(const Frame&) const = default;
     };
 
-    Part makePart(const AssetPart& source, uint32_t firstTriangleId);
-    Set makeSet(const MaterialSet& source, const std::string& name);
-    static const Set& boundSet(const Part& part) { return part.sets[part.bound.set]; }
-    // The pixels that a program shades: All with one sample per pixel; with several, Inner ones are shaded
-    // once and Edges once per group of samples.
-    enum class Pixels { All, Inner, Edges };
-    // The choice of a shading program. `look` is shared::kSingleLook and so on; `estimate`
-    // shared::kTermsAlone and so on; `harmonics` the most of the bound layers' lit spheres.
-    struct Shading {
-        uint32_t look;
-        bool allTerms;
-        uint32_t estimate, harmonics;
-        Pixels pixels;
-    };
     // Returns the stencil value of a part's pixels. Parts that share a value are told apart by triangle id.
     // With several samples the highest bit marks edges.
-    uint32_t stencilOf(const Part& part) const {
+    uint32_t stencilOf(const ViewPart& part) const {
         return uint32_t(&part - mParts.data()) % (mSamples == 1 ? 255 : 127) + 1;
     }
     void makeImages(int width, int height);
     void makePrograms();
     Frame frameOf(const Camera& camera) const;
-    void drawTriangleIds(vk::Commands& commands, const Frame& frame, const Part& part) const;
+    void drawTriangleIds(vk::Commands& commands, const Frame& frame, const ViewPart& part) const;
     void recordTriangleIds(vk::Commands& commands, const Frame& frame) const;
     // Marks the pixels that are shaded more than once in the stencil.
     void markEdges(vk::Commands& commands, const Frame& frame) const;
     void shade(vk::Commands& commands, const Frame& frame, size_t part, const Relighter& relighter,
-               Pixels pixels);
+               ShadedPixels pixels);
     // Returns shared::kTermsAlone and so on.
-    uint32_t estimateOf(const ResidualSet* residual, bool isShadow) const;
+    uint32_t estimateOf(size_t part, const ResidualSet* residual) const;
+    ShadeVariant variantOf(size_t part, const ViewSet& set, uint32_t look, bool allTerms,
+                           const ResidualSet* residual, uint32_t harmonics, ShadedPixels pixels) const;
     // Returns null if the part shows the K terms alone with this set bound.
     const ResidualSet* residualOf(size_t part, size_t set, const Relighter& relighter) const;
     // Makes the lit spheres that the bound layers of all parts need.
     void recordSpheres(vk::Commands& commands, const Frame& frame, const Relighter& relighter);
-    void inspect(vk::Commands& commands, const Frame& frame, const Part& part);
+    void inspect(vk::Commands& commands, const Frame& frame, const ViewPart& part);
     // Returns none if the bounds are not seen.
     static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Bounds& bounds);
-    // Returns the constants of view_shade.frag.
-    vk::Constants constantsOf(const Set& set, const Shading& shading) const;
-    vk::GraphicsProgram makeShadeProgram(const vk::Constants& constants, Pixels pixels) const;
-    const vk::GraphicsProgram& shadeProgram(const Set& set, const Shading& shading);
     // Makes the programs of all sets and their looks early, so that no change of materials waits; for an
     // unshadowed asset those of the bound materials.
     void makeShadePrograms(const Relighter& relighter);
@@ -167,12 +126,12 @@ class ViewPass {
         vk::GraphicsProgram edges;   // with several samples only
         vk::GraphicsProgram inspect; // made when first needed
     };
-    std::map<int, SamplePrograms> mPrograms;                     // by samples
-    std::map<vk::Constants, vk::GraphicsProgram> mShadePrograms; // by the constants of view_shade.frag
+    std::map<int, SamplePrograms> mPrograms; // by samples
+    ShadePrograms mShadePrograms;
     vk::Sampler mPixelSampler;
     vk::Sampler mDiskSampler, mPolarSampler,
         mSurfaceSampler; // mPolarSampler repeats in x, mSurfaceSampler in x and y
-    std::vector<Part> mParts;
+    std::vector<ViewPart> mParts;
     int mTerms = 0;
     bool mIsUnshadowed;
     bool mAddsResidual = true, mHasShadePrograms = false;
