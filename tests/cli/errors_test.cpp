@@ -97,9 +97,10 @@ TEST_CASE("advise: options in words and as data, and what to do where there are 
     const Outcome words = runErrors(folder, "advise octahedron.obj -m clay --as-is --points 40 --error 0.2");
     CHECK(says(words.out, "of fewest bytes: relume bake … --terms 1 --factorization environment"));
     CHECK(says(words.out, "--layout rows --coefficients"));
+    folder.write("ball.obj", sampleObj(relume::makeSphere(3)));
     // A sphere shadows nothing, so that one term and what it leaves are nearly exact.
     const Json data =
-        Json::parse(runErrors(folder, "advise sphere -m clay --as-is --points 40 --error 0.1 --json").out);
+        Json::parse(runErrors(folder, "advise ball.obj -m clay --as-is --points 40 --error 0.1 --json").out);
     CHECK_EQ(data["asked"], 0.1);
     CHECK_EQ(data["best"], data["plain"]["bases"]["options"]);
     CHECK(says(data["best"].get<std::string>(), "--terms 1 --factorization environment --error"));

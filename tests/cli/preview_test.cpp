@@ -29,7 +29,7 @@ TEST_CASE("preview: killed at any write, a bake leaves a file that is whole, and
         const std::string whole = contents(undisturbed.path() / "out.relume");
         int call = 1, previews = 0;
         // Not at every write: each costs two bakes.
-        for (;; call += says(layout, "rows") ? 3 : 16) {
+        for (;; call += says(layout, "rows") ? 5 : 24) {
             CAPTURE(call);
             const BakeFolder folder;
             const auto output = folder.path() / "out.relume";
