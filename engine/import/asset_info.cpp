@@ -13,12 +13,10 @@ using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
-constexpr size_t kLargestDepth = 8; // of nested arrays and objects
-
 // Returns parsed JSON if the text is JSON of small depth, else the text itself. Printing recurses, so depth
 // is limited.
 OrderedJson jsonOrText(const std::string& text) {
-    if (isJsonDeeper(text, kLargestDepth)) return text;
+    if (isJsonDeeper(text, kRecordDepth)) return text;
     const OrderedJson json = OrderedJson::parse(text, nullptr, false);
     return json.is_discarded() ? OrderedJson(text) : json;
 }

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 // More than any file needs; a bound on what a small one can unfold to, whose materials share an image: a
 // gigabyte of texels must come from megabytes.
-constexpr size_t kMostTexels = size_t(1) << 29, kAlwaysFine = size_t(1) << 26, kTexelsPerByte = 64;
+constexpr size_t kMostTexels = size_t(1) << 29, kTexelsAlwaysFine = size_t(1) << 26, kTexelsPerByte = 64;
 
 // Element number `index` of one of the document's lists; `place` becomes its name in errors.
 const Json& element(const Json& looks, const char* list, size_t index, const std::string& name,
@@ -215,7 +215,7 @@ Texture GltfMaterials::readTexture(size_t index, bool srgb) {
     const Json& image = element(mDocument.looks, "images", *source, mName, place);
     Texture texture = decodeTexture(readImageBytes(image, place), place, srgb);
     mTexels += texture.texelCount();
-    size_t most = kAlwaysFine + kTexelsPerByte * mImageBytes;
+    size_t most = kTexelsAlwaysFine + kTexelsPerByte * mImageBytes;
     for (const tinygltf::Buffer& buffer : mDocument.model.buffers)
         most += kTexelsPerByte * buffer.data.size();
     most = std::min(most, kMostTexels);

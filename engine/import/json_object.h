@@ -16,6 +16,8 @@ namespace relume {
 nlohmann::json readJson(const std::filesystem::path& path);
 std::string readJsonText(const std::filesystem::path& path);
 
+constexpr size_t kRecordDepth = 8; // of arrays and objects nested in what bakes say of themselves
+
 // Returns whether arrays and objects are nested more than `most` deep. The library's parser could tell by a
 // callback, but would then take time quadratic in an array's length.
 bool isJsonDeeper(std::string_view text, size_t most);

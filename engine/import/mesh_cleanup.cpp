@@ -15,9 +15,6 @@ namespace {
 
 constexpr uint32_t kUnused = 0xffffffff;
 
-// Keeps squares of lengths and products of four within single precision.
-constexpr float kSmallestExtent = 1e-9f;
-
 template <typename Vector>
 bool isFinite(const Vector& v) {
     for (int i = 0; i < v.length(); i++)

@@ -10,7 +10,9 @@ namespace relume {
 // Limits beyond any mesh that could be baked, for small files that unfold to many instances.
 constexpr size_t kMostMeshVertices = size_t(1) << 28, kMostMeshTriangles = size_t(1) << 28;
 
-constexpr float kLargestCoordinate = 1e9f; // of positions, in the units of the file
+// Limits of positions and of a mesh's extent, in units of the file: squares of lengths and products of four
+// stay within single precision.
+constexpr float kLargestCoordinate = 1e9f, kSmallestExtent = 1e-9f;
 
 // Cleans up a mesh of unchecked positions, triangles, normals of any length, uvs and colors. Checks indices
 // and finiteness; welds vertices that are equal in position and every attribute; drops degenerate triangles

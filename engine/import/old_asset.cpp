@@ -21,8 +21,6 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr uint32_t kOldVersion = 2;
-constexpr size_t kMostNesting = 8; // of nested arrays and objects
-
 // Reads typed members of a JSON object; errors name the object.
 class OldReader {
   public:
@@ -156,7 +154,7 @@ void readPart(const OldReader& in, AssetMeta& meta) {
 }
 
 OrderedJson parseBounded(std::string_view text, const std::string& where) {
-    if (isJsonDeeper(text, kMostNesting)) throw Error(fmt::format("{}: nested too deep", where));
+    if (isJsonDeeper(text, kRecordDepth)) throw Error(fmt::format("{}: nested too deep", where));
     try {
         return OrderedJson::parse(text);
     } catch (const OrderedJson::exception& failure) {

@@ -113,7 +113,7 @@ class LitSpheres {
     vk::Buffer mBatchNodes, mPolar, mSpectrum, mReflected, mParts;
     vk::Image mImage, mTuples;
     std::vector<vk::Image> mRetired;  // earlier, smaller images, which pending commands may still use
-    std::vector<uint32_t> mSlotTable; // slots(); kNone
+    std::vector<uint32_t> mSlotTable; // slots(); kNoSlot
     std::vector<uint32_t> mFreeSlots;
     uint32_t mSlotCount = 0, mTupleImages = 1; // mTupleImages: of one light
     uint32_t mMostParts = 1;                   // over all kernels

@@ -32,6 +32,7 @@ struct ShadeVariant {
 // Returns options of passes that shade pixels whose stencil equals the part's value in these bits.
 vk::GraphicsOptions shadeOptions(VkFormat depthFormat, uint32_t stencilBits = 0xff);
 
+// The programs that a view has needed so far, on one device.
 class ShadePrograms {
   public:
     // Keeps a reference to the device.

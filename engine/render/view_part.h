@@ -10,6 +10,7 @@
 
 namespace relume {
 
+// A set of materials of a part.
 struct ViewSet {
     uint32_t terms = 0, materials = 0;
     DiskMapping mapping = DiskMapping::Orthographic;
@@ -17,6 +18,7 @@ struct ViewSet {
     bool hasTangents = false; // whether frames follow from tangents
 };
 
+// Part of an asset, with the materials that are bound to it.
 struct ViewPart {
     // Uploads a part whose triangles are numbered from `firstTriangleId`. Throws OutOfMemory, or Error if it
     // has more vertices or triangles than the device can bind.
@@ -31,8 +33,8 @@ struct ViewPart {
     vk::Buffer drawnPositions, drawnTriangles; // NumberedTriangles
     vk::Buffer vertices, triangles;            // shared::ViewVertex and corners, looked up by pixels
     TriangleClusters clusters;
-    uint32_t firstTriangleId, triangleCount;
-    uint32_t paint; // shared::kPaintedByMap and so on, if it is painted
+    uint32_t firstTriangleId, triangleCount; // ids are from 1, over all parts
+    uint32_t paint;                          // shared::kPaintedByMap and so on, if it is painted
     vk::Image baseColor, materialMap, normalMap, emissionMap;
     shared::ViewDetail detail;
     bool isDetailed; // whether `detail` has anything to draw

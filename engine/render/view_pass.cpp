@@ -266,15 +266,15 @@ uint32_t ViewPass::estimateOf(size_t part, const ResidualSet* residual) const {
 
 ShadeVariant ViewPass::variantOf(size_t part, const ViewSet& set, uint32_t look, bool allTerms,
                                  const ResidualSet* residual, uint32_t harmonics, ShadedPixels pixels) const {
-    return {set.terms,
-            set.viewMaps.isGray,
-            look,
-            allTerms,
-            estimateOf(part, residual),
-            uint32_t(mSamples),
-            pixels,
-            harmonics,
-            set.hasTangents};
+    return {.terms = set.terms,
+            .isGray = set.viewMaps.isGray,
+            .look = look,
+            .allTerms = allTerms,
+            .estimate = estimateOf(part, residual),
+            .samples = uint32_t(mSamples),
+            .pixels = pixels,
+            .harmonics = harmonics,
+            .hasTangents = set.hasTangents};
 }
 
 const ResidualSet* ViewPass::residualOf(size_t part, size_t set, const Relighter& relighter) const {

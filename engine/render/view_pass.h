@@ -103,6 +103,7 @@ class ViewPass {
                ShadedPixels pixels);
     // Returns shared::kTermsAlone and so on.
     uint32_t estimateOf(size_t part, const ResidualSet* residual) const;
+    // Returns the program that shades pixels of a part with this set bound.
     ShadeVariant variantOf(size_t part, const ViewSet& set, uint32_t look, bool allTerms,
                            const ResidualSet* residual, uint32_t harmonics, ShadedPixels pixels) const;
     // Returns null if the part shows the K terms alone with this set bound.

@@ -10,7 +10,8 @@
 
 namespace relume {
 
-// Values of up to kTerms terms in three channels, side by side, so that an instruction serves all terms.
+// Outside anonymous namespaces, as BounceGather::Room holds them: values of up to kTerms terms in three
+// channels, side by side, so that an instruction serves all terms.
 struct TermGroup {
     static constexpr size_t kTerms = 8;
     using Values = Eigen::Array<float, kTerms, 1>;

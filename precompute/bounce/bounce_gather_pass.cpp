@@ -29,7 +29,8 @@ uint32_t lanesFor(const vk::Device& device) {
 
 } // namespace
 
-// A buffer that the host fills and the device reads often.
+// A buffer that the host fills and the device reads often; outside the anonymous namespace, as HitBuffers
+// holds some.
 struct StagedBuffer {
     StagedBuffer(const vk::Device& device, uint64_t bytes, std::string_view name)
         : staging(device, bytes, vk::BufferUse::Upload, name),

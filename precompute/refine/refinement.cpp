@@ -21,7 +21,7 @@ constexpr double kRoundShare = 0.35;
 // A round aims at this share of the wanted squared error, so that few last rounds are needed.
 constexpr double kAim = 0.9;
 // Refinement also ends if splittable edges contribute less than this share of the wanted squared error.
-constexpr double kLeastShare = 0.1;
+constexpr double kLeastProgress = 0.1;
 // Shortest edge that is split, in visibility offsets. Closer points differ by the offset rather than by the
 // scene.
 constexpr float kShortestEdge = 8;
@@ -175,7 +175,7 @@ class Refiner {
         std::ranges::stable_sort(mGains, std::greater(), [](const EdgeGain& g) { return g.error / g.sides; });
         double within = 0, sum = 0;
         for (const EdgeGain& gain : mGains) within += gain.error;
-        if (within < kLeastShare * wanted) return false;
+        if (within < kLeastProgress * wanted) return false;
         const double share = std::min(kRoundShare * mError, mError - kAim * wanted);
         uint64_t room = mMostVertices - std::min(mMostVertices, vertices());
         std::vector<Edge> chosen;

@@ -9,7 +9,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kLeastEstimate = 0.25f;                   // least estimate, relative to r E
+constexpr float kLeastShare = 0.25f;                      // least estimate, relative to r E
 constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // bounds of a channel's ratio over luminance's
 
 } // namespace
@@ -34,7 +34,7 @@ vec3 keyLeastView(std::span<const vec3> views) {
 vec3 differenceEstimate(const EstimateSums& sums, bool isBounced) {
     const float share = litShare(sums.lit, sums.unlit);
     const vec3 above = isBounced ? glm::max(sums.shadowed - sums.terms, vec3(0)) : vec3(0);
-    return glm::clamp(sums.shadowed + share * (sums.exact - sums.terms), kLeastEstimate * share * sums.exact,
+    return glm::clamp(sums.shadowed + share * (sums.exact - sums.terms), kLeastShare * share * sums.exact,
                       sums.exact + above);
 }
 
@@ -43,7 +43,7 @@ vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced) {
     if (isBounced)
         return sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1)) +
                glm::max(sums.shadowed - sums.terms, vec3(0));
-    const float gray = std::max(litShare(lit, all), kLeastEstimate * litShare(sums.lit, sums.unlit));
+    const float gray = std::max(litShare(lit, all), kLeastShare * litShare(sums.lit, sums.unlit));
     const vec3 ratio =
         glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGray * gray), vec3(kMostOfGray * gray));
     return sums.exact * glm::min(ratio, vec3(1));

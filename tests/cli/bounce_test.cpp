@@ -17,12 +17,6 @@ struct CornerFolder : TemporaryFolder {
 const std::string kBounceBake =
     "bake mesh.obj --ground --ground-tessellation 12 --refine off -m gold -K 2 -N 32 "
     "--layout rows --visibility-size 64 --face-size 32 --map-size 8 -q ";
-Outcome succeed(const CornerFolder& folder, const std::string& command) {
-    const Outcome outcome = runRelume(folder, command, kNoThreads);
-    REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.err);
-    return outcome;
-}
-
 } // namespace
 
 TEST_CASE("bounces: two are the default, with the same bytes, and none are told of") {

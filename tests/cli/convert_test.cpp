@@ -9,16 +9,11 @@ using Json = nlohmann::json;
 
 namespace {
 
-Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
-    const Outcome outcome = runRelume(folder, arguments, kNoThreads);
-    REQUIRE_MESSAGE(outcome.exitCode == 0, arguments << ": " << outcome.err);
-    return outcome;
-}
-
 void bakeSphere(const TemporaryFolder& folder) {
-    run(folder, "bake " + ballIn(folder) +
-                    " --ground --ground-tessellation 10 -m gold -K 2 -N 200 --bounces 0 --visibility-size 64 "
-                    "--face-size 32 --map-size 16 --layout rows -q -o rows.relume");
+    succeed(folder,
+            "bake " + ballIn(folder) +
+                " --ground --ground-tessellation 10 -m gold -K 2 -N 200 --bounces 0 --visibility-size 64 "
+                "--face-size 32 --map-size 16 --layout rows -q -o rows.relume");
 }
 
 } // namespace
@@ -27,42 +22,43 @@ TEST_CASE(
     "convert: every layout says what it is, relights to the reference's bits, and draws the same image") {
     const TemporaryFolder folder;
     bakeSphere(folder);
-    run(folder, "render rows.relume --size 96x72 --threshold 0 -o rows.exr");
-    const Json rows = Json::parse(run(folder, "info rows.relume --json").out);
-    const Outcome convert = run(folder, "convert rows.relume --layout bases --error 0.03 -o bases.relume");
+    succeed(folder, "render rows.relume --size 96x72 --threshold 0 -o rows.exr");
+    const Json rows = Json::parse(succeed(folder, "info rows.relume --json").out);
+    const Outcome convert =
+        succeed(folder, "convert rows.relume --layout bases --error 0.03 -o bases.relume");
     CHECK(says(convert.err, "bytes"));
-    const Json info = Json::parse(run(folder, "info bases.relume --json").out);
+    const Json info = Json::parse(succeed(folder, "info bases.relume --json").out);
     CHECK_EQ(info["parts"][0]["sets"][0]["layout"], "bases");
     CHECK_EQ(info["layout_error"]["wanted_error"], 0.03);
     CHECK_LE(info["layout_error"]["error"], 0.031);
     CHECK_LT(info["total"]["bytes_per_vertex"], rows["total"]["bytes_per_vertex"]);
-    const Json verify = Json::parse(run(folder, "verify bases.relume --samples 20 --json").out);
+    const Json verify = Json::parse(succeed(folder, "verify bases.relume --samples 20 --json").out);
     CHECK_EQ(verify["relight_bits"], 0);
     CHECK_GT(verify["layout_error"], 0);
-    run(folder, "render bases.relume --size 96x72 --threshold 0 -o bases.exr");
-    const Json compare = Json::parse(run(folder, "compare bases.exr rows.exr --json").out);
+    succeed(folder, "render bases.relume --size 96x72 --threshold 0 -o bases.exr");
+    const Json compare = Json::parse(succeed(folder, "compare bases.exr rows.exr --json").out);
     CHECK_LE(compare["relative_rmse"], 0.05);
     CHECK_GT(compare["relative_rmse"], 0);
-    run(folder, "convert bases.relume --layout rows -o again.relume");
+    succeed(folder, "convert bases.relume --layout rows -o again.relume");
     const auto error = [&](const std::string& file) -> double {
-        return Json::parse(run(folder, "info " + file + " --json").out)["layout_error"]["error"];
+        return Json::parse(succeed(folder, "info " + file + " --json").out)["layout_error"]["error"];
     };
     CHECK_EQ(error("again.relume"), error("bases.relume")); // what was lost stays so
-    run(folder, "convert bases.relume --layout bases --error 0.1 -o twice.relume");
+    succeed(folder, "convert bases.relume --layout bases --error 0.1 -o twice.relume");
     CHECK_GT(error("twice.relume"), error("bases.relume"));
-    run(folder, "convert rows.relume --layout rows -N 20 -o short.relume");
-    CHECK_EQ(Json::parse(run(folder, "info short.relume --json").out)["coefficients"], 20);
-    run(folder, "render again.relume --size 96x72 --threshold 0 -o again.exr");
-    CHECK_LE(Json::parse(run(folder, "compare again.exr bases.exr --json").out)["relative_rmse"], 0.02);
+    succeed(folder, "convert rows.relume --layout rows -N 20 -o short.relume");
+    CHECK_EQ(Json::parse(succeed(folder, "info short.relume --json").out)["coefficients"], 20);
+    succeed(folder, "render again.relume --size 96x72 --threshold 0 -o again.exr");
+    CHECK_LE(Json::parse(succeed(folder, "compare again.exr bases.exr --json").out)["relative_rmse"], 0.02);
 }
 
 TEST_CASE("convert: the same bytes every time, within the budget, and errors that say what to do") {
     const TemporaryFolder folder;
     bakeSphere(folder);
-    run(folder, "convert rows.relume --budget 60 -q -o a.relume");
-    run(folder, "convert rows.relume --budget 60 -q -o b.relume");
+    succeed(folder, "convert rows.relume --budget 60 -q -o a.relume");
+    succeed(folder, "convert rows.relume --budget 60 -q -o b.relume");
     CHECK(contents(folder.path() / "a.relume") == contents(folder.path() / "b.relume"));
-    const Json info = Json::parse(run(folder, "info a.relume --json").out);
+    const Json info = Json::parse(succeed(folder, "info a.relume --json").out);
     CHECK_LE(info["total"]["bytes_per_vertex"], 60);
     CHECK_GE(info["total"]["bytes_per_vertex"], 40);
 
@@ -84,12 +80,12 @@ TEST_CASE("bake: bases unless another layout is asked for, about as small and as
     const TemporaryFolder folder;
     const auto bake = [&](const std::string& options) {
         const Outcome outcome =
-            run(folder, "bake " + ballIn(folder) +
-                            " --ground --ground-tessellation 60 -m gold -K 1 --face-size 32 "
-                            "--bounces 0 --visibility-size 64 --map-size 16 -q -o a.relume " +
-                            options);
+            succeed(folder, "bake " + ballIn(folder) +
+                                " --ground --ground-tessellation 60 -m gold -K 1 --face-size 32 "
+                                "--bounces 0 --visibility-size 64 --map-size 16 -q -o a.relume " +
+                                options);
         CHECK(says(outcome.err, "bytes a vertex"));
-        Json info = Json::parse(run(folder, "info a.relume --json").out);
+        Json info = Json::parse(succeed(folder, "info a.relume --json").out);
         info["layout"] = info["parts"][0]["sets"][0]["layout"];
         return info;
     };
@@ -120,7 +116,7 @@ TEST_CASE("cli: bench relight prints every layout's figures as JSON") {
     const TemporaryFolder folder;
     bakeSphere(folder);
     const Json found =
-        Json::parse(run(folder, "bench relight rows.relume -N 40 --budget 60 --repeats 2 --json").out);
+        Json::parse(succeed(folder, "bench relight rows.relume -N 40 --budget 60 --repeats 2 --json").out);
     CHECK_EQ(found["repeats"], 2);
     CHECK_EQ(found["source_coefficients"], 200);
     CHECK_GT(found["eigen_csr_ms"], 0);
@@ -135,7 +131,7 @@ TEST_CASE("cli: bench relight prints every layout's figures as JSON") {
     }
     CHECK_EQ(found["layouts"]["rows"]["ratio_to_rows"], 1);
     CHECK_LE(found["layouts"]["bases"]["bytes_per_vertex"], 60);
-    const Outcome table = run(folder, "bench relight rows.relume --repeats 1");
+    const Outcome table = succeed(folder, "bench relight rows.relume --repeats 1");
     CHECK(says(table.out, "Eigen CSR"));
     CHECK_EQ(runRelume(folder, "bench --json relight rows.relume").exitCode, 2);
 }

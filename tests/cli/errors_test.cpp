@@ -10,14 +10,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-Outcome runErrors(const TemporaryFolder& folder, const std::string& arguments) {
-    const Outcome outcome = runRelume(folder, arguments, kNoThreads);
-    REQUIRE_MESSAGE(outcome.exitCode == 0, arguments << ": " << outcome.err);
-    return outcome;
-}
-
 Json errorsOf(const TemporaryFolder& folder, const std::string& arguments) {
-    return Json::parse(runErrors(folder, "errors " + arguments + " --size 16x12 --json").out);
+    return Json::parse(succeed(folder, "errors " + arguments + " --size 16x12 --json").out);
 }
 
 double rms(const Json& errors, const char* source) { return errors["sources"][source]["rms"]; }
@@ -26,10 +20,10 @@ double rms(const Json& errors, const char* source) { return errors["sources"][so
 
 TEST_CASE("errors: the sources sum to what is measured, in rows and bases") {
     const TemporaryFolder folder;
-    runErrors(folder, "bake " + ballIn(folder) +
-                          " --ground --ground-tessellation 10 -m ashikhmin-shirley -K 3 -N 48 "
-                          "--bounces 0 --visibility-size 64 --map-size 24 --layout rows -q -o rows.relume");
-    runErrors(folder, "convert rows.relume --layout bases --error 0.2 -q -o bases.relume");
+    succeed(folder, "bake " + ballIn(folder) +
+                        " --ground --ground-tessellation 10 -m ashikhmin-shirley -K 3 -N 48 "
+                        "--bounces 0 --visibility-size 64 --map-size 24 --layout rows -q -o rows.relume");
+    succeed(folder, "convert rows.relume --layout bases --error 0.2 -q -o bases.relume");
     const Json rows = errorsOf(folder, "rows.relume"), bases = errorsOf(folder, "bases.relume");
     for (const Json& errors : {rows, bases}) {
         CAPTURE(errors.dump(2));
@@ -58,10 +52,10 @@ TEST_CASE("errors: the sources sum to what is measured, in rows and bases") {
 
 TEST_CASE("errors: images and heat maps of every source are written") {
     const TemporaryFolder folder;
-    runErrors(folder, "bake " + ballIn(folder) +
-                          " -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
-                          "-o a.relume");
-    runErrors(folder, "errors a.relume --size 16x12 --images images");
+    succeed(folder, "bake " + ballIn(folder) +
+                        " -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
+                        "-o a.relume");
+    succeed(folder, "errors a.relume --size 16x12 --images images");
     for (const char* name : {"drawn.exr", "reference.exr", "harmonics.exr", "total.png", "terms.png",
                              "interpolation.png", "visibility.png"})
         CHECK(std::filesystem::file_size(folder.path() / "images" / name) > 50);
@@ -69,9 +63,9 @@ TEST_CASE("errors: images and heat maps of every source are written") {
 
 TEST_CASE("errors: what it cannot look at is said") {
     const TemporaryFolder folder;
-    runErrors(folder, "bake " + ballIn(folder) +
-                          " -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
-                          "-o a.relume");
+    succeed(folder, "bake " + ballIn(folder) +
+                        " -m clay -K 1 --bounces 0 --visibility-size 64 --face-size 32 --map-size 16 -q "
+                        "-o a.relume");
     const auto fails = [&](const std::string& arguments, int code, const std::string& what) {
         const Outcome outcome = runRelume(folder, arguments, kNoThreads);
         CAPTURE(outcome.err);
@@ -94,13 +88,13 @@ TEST_CASE("advise: options in words and as data, and what to do where there are 
     folder.write("octahedron.obj",
                  "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
                  "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
-    const Outcome words = runErrors(folder, "advise octahedron.obj -m clay --as-is --points 40 --error 0.2");
+    const Outcome words = succeed(folder, "advise octahedron.obj -m clay --as-is --points 40 --error 0.2");
     CHECK(says(words.out, "of fewest bytes: relume bake … --terms 1 --factorization environment"));
     CHECK(says(words.out, "--layout rows --coefficients"));
     folder.write("ball.obj", sampleObj(relume::makeSphere(3)));
     // A sphere shadows nothing, so that one term and what it leaves are nearly exact.
     const Json data =
-        Json::parse(runErrors(folder, "advise ball.obj -m clay --as-is --points 40 --error 0.1 --json").out);
+        Json::parse(succeed(folder, "advise ball.obj -m clay --as-is --points 40 --error 0.1 --json").out);
     CHECK_EQ(data["asked"], 0.1);
     CHECK_EQ(data["best"], data["plain"]["bases"]["options"]);
     CHECK(says(data["best"].get<std::string>(), "--terms 1 --factorization environment --error"));

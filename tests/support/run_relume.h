@@ -7,6 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 #include <cstdlib>
+#include <doctest/doctest.h>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -43,6 +44,13 @@ inline Outcome runProgram(const TemporaryFolder& folder, const std::string& prog
 inline Outcome runRelume(const TemporaryFolder& folder, const std::string& arguments,
                          const std::string& environment = "") {
     return runProgram(folder, RELUME_PROGRAM, arguments, environment);
+}
+
+// Runs a command of relume that must succeed.
+inline Outcome succeed(const TemporaryFolder& folder, const std::string& arguments) {
+    const Outcome outcome = runRelume(folder, arguments, kNoThreads);
+    REQUIRE_MESSAGE(outcome.exitCode == 0, arguments << ": " << outcome.err);
+    return outcome;
 }
 
 // A folder with a mesh of one triangle.

@@ -20,14 +20,14 @@ using namespace relume;
 
 namespace {
 
-const test::TemporaryFolder mapFolder;
+const test::TemporaryFolder folder;
 
-Environment evenMap(int width, int height, vec3 radiance) {
+Environment constant(int width, int height, vec3 radiance) {
     return {width, height, std::vector<vec3>(size_t(width) * size_t(height), radiance)};
 }
 
 // Σ radiance · exact solid angle, of the first channel.
-double mapIrradiance(const Environment& map) {
+double irradianceSum(const Environment& map) {
     const double pi = std::acos(-1.0);
     double sum = 0;
     for (int y = 0; y < map.height; y++) {
@@ -73,7 +73,7 @@ void checkDirectional(const Environment& map, float tolerance) {
 } // namespace
 
 TEST_CASE("environment: the axes lie where OpenEXR's latlong has them") {
-    const Environment map = evenMap(64, 32, vec3(0));
+    const Environment map = constant(64, 32, vec3(0));
     const auto near = [](vec2 a, vec2 b) { return glm::length(a - b) < 1e-3f; };
     CHECK(near(map.place({0, 0, 1}), {32, 16}));
     CHECK(near(map.place({1, 0, 0}), {16, 16}));
@@ -88,7 +88,7 @@ TEST_CASE("environment: the axes lie where OpenEXR's latlong has them") {
 }
 
 TEST_CASE("environment: a pixel's direction leads back to it") {
-    const Environment map = evenMap(40, 20, vec3(0));
+    const Environment map = constant(40, 20, vec3(0));
     for (int y = 0; y < 20; y++)
         for (int x = 0; x < 40; x++) {
             const vec2 center(float(x) + 0.5f, float(y) + 0.5f);
@@ -97,7 +97,7 @@ TEST_CASE("environment: a pixel's direction leads back to it") {
 }
 
 TEST_CASE("environment: lookups are bilinear and wrap in longitude") {
-    Environment map = evenMap(8, 4, vec3(0));
+    Environment map = constant(8, 4, vec3(0));
     map.radiance[2 * 8 + 0] = vec3(4);
     CHECK(map.lookup(map.direction(0.5f, 2.5f)).x == doctest::Approx(4).epsilon(1e-4));
     CHECK(map.lookup(map.direction(1.0f, 2.5f)).x == doctest::Approx(2).epsilon(1e-4));
@@ -105,7 +105,7 @@ TEST_CASE("environment: lookups are bilinear and wrap in longitude") {
     CHECK(map.lookup(map.direction(7.75f, 2.5f)).x == doctest::Approx(1).epsilon(1e-4));
     CHECK(map.lookup(map.direction(0.5f, 2.0f)).x == doctest::Approx(2).epsilon(1e-4));
     CHECK(map.lookup({0, 1, 0}).x == 0);
-    CHECK(evenMap(1, 1, vec3(5)).lookup({1, 2, 3}).x == 5);
+    CHECK(constant(1, 1, vec3(5)).lookup({1, 2, 3}).x == 5);
 }
 
 TEST_CASE("environment: a latlong with its rows on the poles is resampled to pixel centers") {
@@ -116,8 +116,8 @@ TEST_CASE("environment: a latlong with its rows on the poles is resampled to pix
             const Imath::V3f d = Imf::LatLongMap::direction(window, Imath::V2f(float(x), float(y)));
             image.at(x, y) = vec4(directional({d.x, d.y, d.z}), 1);
         }
-    writeEnvmap(mapFolder.path() / "latlong.exr", image, Imf::ENVMAP_LATLONG);
-    checkDirectional(readEnvironment(mapFolder.path() / "latlong.exr"), 0.005f);
+    writeEnvmap(folder.path() / "latlong.exr", image, Imf::ENVMAP_LATLONG);
+    checkDirectional(readEnvironment(folder.path() / "latlong.exr"), 0.005f);
 }
 
 TEST_CASE("environment: a cube becomes a latlong of the same directions") {
@@ -132,43 +132,43 @@ TEST_CASE("environment: a cube becomes a latlong of the same directions") {
                 const Imath::V2f pixel = Imf::CubeMap::pixelPosition(Imf::CubeMapFace(face), window, inFace);
                 image.at(int(pixel.x), int(pixel.y)) = vec4(directional({d.x, d.y, d.z}), 1);
             }
-    writeEnvmap(mapFolder.path() / "cube.exr", image, Imf::ENVMAP_CUBE);
-    const Environment map = readEnvironment(mapFolder.path() / "cube.exr");
+    writeEnvmap(folder.path() / "cube.exr", image, Imf::ENVMAP_CUBE);
+    const Environment map = readEnvironment(folder.path() / "cube.exr");
     CHECK(map.width == 128);
     CHECK(map.height == 64);
     checkDirectional(map, 0.01f);
-    writeEnvmap(mapFolder.path() / "point.exr", Image(1, 6), Imf::ENVMAP_CUBE);
-    CHECK(readEnvironment(mapFolder.path() / "point.exr").width == 4);
+    writeEnvmap(folder.path() / "point.exr", Image(1, 6), Imf::ENVMAP_CUBE);
+    CHECK(readEnvironment(folder.path() / "point.exr").width == 4);
 }
 
 TEST_CASE("environment: a file without a projection is a latlong with pixel centers") {
     Image image(4, 2);
     image.at(1, 0) = vec4(1, 2, 3, 1);
     image.at(2, 1) = vec4(-1, 1e30f, 2, 1);
-    writeExr(mapFolder.path() / "plain.exr", image);
-    const Environment map = readEnvironment(mapFolder.path() / "plain.exr");
+    writeExr(folder.path() / "plain.exr", image);
+    const Environment map = readEnvironment(folder.path() / "plain.exr");
     CHECK(map.radiance[1] == vec3(1, 2, 3));
     CHECK(map.radiance[4 + 2].x == 0);
     CHECK(map.radiance[4 + 2].y == 1e12f);
 }
 
 TEST_CASE("environment: other shapes are refused") {
-    writeExr(mapFolder.path() / "square.exr", Image(16, 16));
-    CHECK_THROWS_AS(readEnvironment(mapFolder.path() / "square.exr"), Error);
-    writeEnvmap(mapFolder.path() / "cube.exr", Image(4, 20), Imf::ENVMAP_CUBE);
-    CHECK_THROWS_AS(readEnvironment(mapFolder.path() / "cube.exr"), Error);
+    writeExr(folder.path() / "square.exr", Image(16, 16));
+    CHECK_THROWS_AS(readEnvironment(folder.path() / "square.exr"), Error);
+    writeEnvmap(folder.path() / "cube.exr", Image(4, 20), Imf::ENVMAP_CUBE);
+    CHECK_THROWS_AS(readEnvironment(folder.path() / "cube.exr"), Error);
 }
 
 TEST_CASE("environment: preparation keeps a point light's energy at any latitude") {
     const int width = 8192, height = 4096;
-    Environment map = evenMap(width, height, vec3(0));
+    Environment map = constant(width, height, vec3(0));
     for (int row : {0, 2047, height - 1}) {
         vec3& pixel = map.radiance[size_t(row) * size_t(width) + size_t(row * 5 % width)];
         pixel = vec3(1000);
         const Environment prepared = prepareForSampling(map, 1024);
         CHECK(prepared.width == 1024);
         CHECK(prepared.height == 512);
-        CHECK(mapIrradiance(prepared) == doctest::Approx(mapIrradiance(map)).epsilon(1e-5));
+        CHECK(irradianceSum(prepared) == doctest::Approx(irradianceSum(map)).epsilon(1e-5));
         pixel = vec3(0);
     }
 }
@@ -177,19 +177,20 @@ TEST_CASE("environment: preparation keeps energy at any size, and constants") {
     std::mt19937 random(3);
     for (int width : {1, 2, 3, 7, 64, 100, 513, 1000})
         for (int maxWidth : {1, 50, 512}) {
-            Environment map = evenMap(width, std::max(1, width / 2), vec3(0));
+            Environment map = constant(width, std::max(1, width / 2), vec3(0));
             const size_t bright = random() % map.radiance.size();
             map.radiance[bright] = vec3(1);
             const Environment prepared = prepareForSampling(map, maxWidth);
             CHECK(prepared.width == std::min(width, maxWidth));
-            CHECK(mapIrradiance(prepared) == doctest::Approx(mapIrradiance(map)).epsilon(1e-5));
-            for (const vec3& radiance : prepareForSampling(evenMap(width, width, vec3(3)), maxWidth).radiance)
+            CHECK(irradianceSum(prepared) == doctest::Approx(irradianceSum(map)).epsilon(1e-5));
+            for (const vec3& radiance :
+                 prepareForSampling(constant(width, width, vec3(3)), maxWidth).radiance)
                 CHECK(radiance.x == doctest::Approx(3).epsilon(1e-5));
         }
 }
 
 TEST_CASE("environment: a prepared pixel near a pole is as wide as one at the equator") {
-    Environment map = evenMap(256, 128, vec3(0));
+    Environment map = constant(256, 128, vec3(0));
     const int row = 10;
     map.radiance[row * 256 + 128] = vec3(1);
     const Environment prepared = prepareForSampling(map);
@@ -216,7 +217,7 @@ TEST_CASE("environment: the built-in sky is finite, bright in its sun, and the s
     }
     CHECK(smallest > 0);
     CHECK(largest > 100);
-    CHECK(std::isfinite(mapIrradiance(sky)));
+    CHECK(std::isfinite(irradianceSum(sky)));
     // Resolution changes nothing but detail.
-    CHECK(mapIrradiance(makeSky(512)) == doctest::Approx(mapIrradiance(sky)).epsilon(0.03));
+    CHECK(irradianceSum(makeSky(512)) == doctest::Approx(irradianceSum(sky)).epsilon(0.03));
 }

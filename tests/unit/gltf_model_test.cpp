@@ -142,9 +142,8 @@ TEST_CASE("brdf glTF: sheen has the specification's distribution and visibility,
     CHECK(sheen.x == doctest::Approx(value).epsilon(1e-4));
     CHECK(sheen.y == doctest::Approx(value / 2).epsilon(1e-4));
     CHECK(sheen.z == 0);
-    // A Lambertian base of albedo 1 has 1 - E left, with E of the direction in which the sheen
-    // reflects more. Narrow sheens, which are held to what they receive, hide a little more than they
-    // reflect.
+    // A Lambertian base of albedo 1 has 1 - E left, with E of the direction in which the sheen reflects more.
+    // Narrow sheens, which are held to what they receive, hide a little more than they reflect.
     for (const float roughness : {0.1f, 0.4f, 1.0f})
         for (const float z : {0.7f, 0.2f, 0.05f, 0.01f}) {
             CAPTURE(roughness);

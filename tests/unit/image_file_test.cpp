@@ -25,9 +25,9 @@ using namespace relume;
 namespace {
 
 using Bytes = std::vector<std::byte>;
-const test::TemporaryFolder imageFolder;
+const test::TemporaryFolder folder;
 
-Image noiseImage(int width, int height) {
+Image randomImage(int width, int height) {
     std::mt19937 random(1);
     std::normal_distribution<float> gauss;
     Image image(width, height);
@@ -43,8 +43,8 @@ ImageFile readText(const std::string& text) {
 }
 
 Bytes exrBytes(const Image& image) {
-    writeExr(imageFolder.path() / "image.exr", image);
-    return readFile(imageFolder.path() / "image.exr");
+    writeExr(folder.path() / "image.exr", image);
+    return readFile(folder.path() / "image.exr");
 }
 
 // Radiance bytes as stb writes them: run-length encoded from 8 pixels a row.
@@ -96,14 +96,14 @@ void patchAttribute(Bytes& bytes, const std::string& nameAndType, size_t offset,
 const std::string kDataWindow("dataWindow\0box2i\0", 17);
 
 ImageFile readHalves(const Imf::Header& header, const std::vector<const char*>& names) {
-    test::writeHalves(imageFolder.path() / "halves.exr", header, names);
-    return readImage(imageFolder.path() / "halves.exr");
+    test::writeHalves(folder.path() / "halves.exr", header, names);
+    return readImage(folder.path() / "halves.exr");
 }
 
 } // namespace
 
 TEST_CASE("image file: OpenEXR keeps floats exactly, in the same bytes each time") {
-    const Image image = noiseImage(37, 21);
+    const Image image = randomImage(37, 21);
     const Bytes bytes = exrBytes(image);
     const ImageFile file = readBytes(bytes);
     CHECK(file.projection == ImageProjection::None);
@@ -114,7 +114,7 @@ TEST_CASE("image file: OpenEXR keeps floats exactly, in the same bytes each time
 }
 
 TEST_CASE("image file: pixels that are not finite become 0") {
-    Image image = noiseImage(4, 4);
+    Image image = randomImage(4, 4);
     image.at(1, 0).x = std::numeric_limits<float>::infinity();
     image.at(2, 3).z = std::nanf("");
     const ImageFile file = readBytes(exrBytes(image));
@@ -151,7 +151,7 @@ TEST_CASE("image file: OpenEXR says what its pixels map") {
 TEST_CASE("image file: OpenEXR that cannot be used is refused") {
     CHECK_THROWS_AS(readHalves(Imf::Header(4, 4), {"depth.Z"}), Error);
     CHECK_THROWS_AS(readHalves(Imf::Header(4, 4), {"BY", "RY", "Y"}), Error);
-    const Bytes bytes = exrBytes(noiseImage(16, 8));
+    const Bytes bytes = exrBytes(randomImage(16, 8));
     for (unsigned flag : {0x08u, 0x10u}) { // deep, multi-part
         Bytes other = bytes;
         other[5] |= std::byte(flag);
@@ -160,7 +160,7 @@ TEST_CASE("image file: OpenEXR that cannot be used is refused") {
 }
 
 TEST_CASE("image file: claims beyond what the file can hold are refused") {
-    const Bytes bytes = exrBytes(noiseImage(16, 8));
+    const Bytes bytes = exrBytes(randomImage(16, 8));
     for (int32_t side : {1 << 16, 1 << 20, 1 << 29, std::numeric_limits<int32_t>::max(), -5}) {
         Bytes wide = bytes, high = bytes;
         patchAttribute(wide, kDataWindow, 8, side);
@@ -179,8 +179,8 @@ TEST_CASE("image file: claims beyond what the file can hold are refused") {
     CHECK_THROWS_WITH_AS(readBytes(large), doctest::Contains("scale it down"), Error);
     Imf::Header tiled(6, 4);
     tiled.setTileDescription(Imf::TileDescription(4, 2));
-    test::writeHalves(imageFolder.path() / "tiled.exr", tiled, {"R", "G", "B"});
-    const Bytes tiles = readFile(imageFolder.path() / "tiled.exr");
+    test::writeHalves(folder.path() / "tiled.exr", tiled, {"R", "G", "B"});
+    const Bytes tiles = readFile(folder.path() / "tiled.exr");
     for (int32_t side : {0, 1, 1 << 20, 1 << 30, -1}) {
         Bytes patched = tiles;
         patchAttribute(patched, std::string("tiles\0tiledesc\0", 15), 0, side);
@@ -197,19 +197,19 @@ TEST_CASE("image file: claims beyond what the file can hold are refused") {
 }
 
 TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
-    checkTruncations(exrBytes(noiseImage(5, 3)));
-    checkBitFlips(exrBytes(noiseImage(16, 9)), 1500);
+    checkTruncations(exrBytes(randomImage(5, 3)));
+    checkBitFlips(exrBytes(randomImage(16, 9)), 1500);
     for (Imf::Compression compression : {Imf::RLE_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION,
                                          Imf::B44A_COMPRESSION, Imf::DWAB_COMPRESSION}) {
         Imf::Header header(20, 10);
         header.compression() = compression;
-        test::writeHalves(imageFolder.path() / "halves.exr", header, {"R", "G", "B"});
-        checkBitFlips(readFile(imageFolder.path() / "halves.exr"), 300);
+        test::writeHalves(folder.path() / "halves.exr", header, {"R", "G", "B"});
+        checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
     }
     Imf::Header tiled(20, 10);
     tiled.setTileDescription(Imf::TileDescription(8, 4));
-    test::writeHalves(imageFolder.path() / "halves.exr", tiled, {"R", "G", "B"});
-    checkBitFlips(readFile(imageFolder.path() / "halves.exr"), 300);
+    test::writeHalves(folder.path() / "halves.exr", tiled, {"R", "G", "B"});
+    checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
 }
 
 TEST_CASE("image file: OpenEXR attributes of other sizes than their types have are refused") {
@@ -247,7 +247,7 @@ TEST_CASE("image file: Radiance pixels, plain and in run lengths") {
     CHECK(runs.at(0, 1) == vec4(0, 0, 0, 1));
     CHECK_THROWS_AS(readText(header + repeat + one + one + one + one + one), Error);
 
-    Image image = noiseImage(40, 5);
+    Image image = randomImage(40, 5);
     for (size_t i = 0; i < image.pixels.size(); i++)
         image.pixels[i] = i % 40 < 20 ? vec4(1, 2, 3, 1) : glm::abs(image.pixels[i]);
     const Image read = readBytes(radianceBytes(image)).image;
@@ -259,7 +259,7 @@ TEST_CASE("image file: Radiance pixels, plain and in run lengths") {
 }
 
 TEST_CASE("image file: damaged Radiance is an error, never a crash") {
-    const Bytes bytes = radianceBytes(noiseImage(12, 3));
+    const Bytes bytes = radianceBytes(randomImage(12, 3));
     checkTruncations(bytes);
     checkBitFlips(bytes, 2000);
     const std::string header = "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n";
@@ -278,16 +278,16 @@ TEST_CASE("image file: damaged Radiance is an error, never a crash") {
 TEST_CASE("image file: what is no image is refused") {
     CHECK_THROWS_AS(readText(""), Error);
     CHECK_THROWS_AS(readText("P6 2 2 255 ............"), Error);
-    CHECK_THROWS_AS(readImage(imageFolder.path()), Error);
-    CHECK_THROWS_AS(readImage(imageFolder.path() / "absent.exr"), Error);
-    CHECK_THROWS_AS(writeExr(imageFolder.path() / "absent" / "image.exr", noiseImage(2, 2)), Error);
-    CHECK_THROWS_AS(writePng(imageFolder.path() / "absent" / "image.png", noiseImage(2, 2)), Error);
+    CHECK_THROWS_AS(readImage(folder.path()), Error);
+    CHECK_THROWS_AS(readImage(folder.path() / "absent.exr"), Error);
+    CHECK_THROWS_AS(writeExr(folder.path() / "absent" / "image.exr", randomImage(2, 2)), Error);
+    CHECK_THROWS_AS(writePng(folder.path() / "absent" / "image.png", randomImage(2, 2)), Error);
 }
 
 TEST_CASE("image file: a PNG is as wide as an image may be") {
     Image image(1'000'001, 1); // libpng's own limit is a million
     image.at(1'000'000, 0) = vec4(1);
-    const auto path = imageFolder.path() / "wide.png";
+    const auto path = folder.path() / "wide.png";
     writePng(path, image);
     int width, height, channels;
     REQUIRE(stbi_info(path.c_str(), &width, &height, &channels));
@@ -299,7 +299,7 @@ TEST_CASE("image file: PNG rounds display values to 8 bits") {
     image.at(0, 0) = {0, 0.5f, 1, 1};
     image.at(2, 1) = {-1, 2, std::nanf(""), 0.25f};
     image.at(1, 1) = vec4(100.4f / 255, 100.6f / 255, 0, 1);
-    const auto path = imageFolder.path() / "image.png";
+    const auto path = folder.path() / "image.png";
     writePng(path, image);
     int width, height, channels;
     stbi_uc* texels = stbi_load(path.c_str(), &width, &height, &channels, 4);

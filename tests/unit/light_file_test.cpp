@@ -9,7 +9,6 @@
 
 using namespace relume;
 using namespace relume::test;
-using relume::test::TemporaryFolder;
 
 namespace {
 

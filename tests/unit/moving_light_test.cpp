@@ -10,7 +10,6 @@
 
 using namespace relume;
 using namespace relume::test;
-using relume::test::TemporaryFolder;
 
 namespace {
 

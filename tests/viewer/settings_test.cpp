@@ -1,12 +1,13 @@
 // Settings by name, from scripts and from the last time.
 #include "apps/viewer/settings.h"
 
-#include "engine/base/error.h"
+#include "tests/support/failure.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
 using namespace relume;
+using namespace relume::test;
 using nlohmann::json;
 
 namespace {
@@ -18,20 +19,11 @@ SceneState freshState() {
     return state;
 }
 
-std::string failureOf(const std::string& name, const json& value) {
+std::string settingFailure(const std::string& name, const json& value) {
     SceneState state = freshState();
     const Bounds model{vec3(-1), vec3(1)};
     state.orbit = Orbit{};
-    try {
-        applySetting(state, name, value, &model);
-    } catch (const Error& why) {
-        return why.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+    return failureOf([&] { applySetting(state, name, value, &model); });
 }
 
 } // namespace
@@ -164,9 +156,9 @@ TEST_CASE("settings: say what they expected") {
         {"expsure", 5, "no setting is called \"expsure\"; did you mean \"exposure\"?"},
     };
     for (const auto& [name, value, words] : wrong) {
-        const std::string failure = failureOf(name, value);
+        const std::string failure = settingFailure(name, value);
         CAPTURE(failure);
-        CHECK_MESSAGE(contains(failure, words), words);
+        CHECK_MESSAGE(says(failure, words), words);
     }
     SceneState state = freshState();
     CHECK_THROWS_WITH_AS(applySetting(state, "azimuth", 3, nullptr),

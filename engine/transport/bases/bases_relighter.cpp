@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kWordsPerGroup = 16; // per column
 constexpr uint32_t kVerticesPerLane = 8;
 
-uint32_t roundUp(uint64_t value, uint32_t step) { return uint32_t((value + step - 1) / step); }
+uint32_t divideUp(uint64_t value, uint32_t step) { return uint32_t((value + step - 1) / step); }
 
 // Puts a byte into a word at `place`; 0 is the lowest byte.
 void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint8_t(value)) << 8 * place; }
@@ -71,8 +71,8 @@ class BasesRelighter::ShardData {
     // Returns the size of the largest buffer if this cluster were added.
     uint64_t bytesWith(const BasisTransport& transport, size_t cluster) const {
         const BasisCluster& more = transport.clusters[cluster];
-        const uint64_t words = roundUp(more.components, 4);
-        const uint64_t octets = roundUp(transport.verticesOf(cluster), kVerticesPerLane);
+        const uint64_t words = divideUp(more.components, 4);
+        const uint64_t octets = divideUp(transport.verticesOf(cluster), kVerticesPerLane);
         return 4 * std::max({basis.size() + words * more.columns(), (indices.size() + more.columns() + 1) / 2,
                              (weightings.size() + transport.kinds.size()) * 3,
                              weights.size() + octets * more.scales.size() * 2, (components + 4 * words) * 4});
@@ -80,7 +80,7 @@ class BasesRelighter::ShardData {
 
     void add(const BasisTransport& transport, size_t number) {
         const BasisCluster& from = transport.clusters[number];
-        const uint32_t words = roundUp(from.components, 4);
+        const uint32_t words = divideUp(from.components, 4);
         clusters.push_back({uint32_t(number * kBasisVertices), transport.verticesOf(number), components});
         for (uint32_t word = 0; word < words; word += kWordsPerGroup)
             groups.push_back({uint32_t(indices.size()), uint32_t(from.columns()), uint32_t(basis.size()),
@@ -124,7 +124,7 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& program
                                uint64_t largestShard, const std::string& name)
     : SetRelighter(device, transport.rows(), lights, name), mPrograms(programs), mTerms(transport.terms),
       mKinds(uint32_t(transport.kinds.size())),
-      mGroupsPerTerm(roundUp(kBasisVertices / kVerticesPerLane, programs.combine.groupSize()[0])) {
+      mGroupsPerTerm(divideUp(kBasisVertices / kVerticesPerLane, programs.combine.groupSize()[0])) {
     std::vector<shared::BasisTermKinds> termKinds(mTerms, {0, 0});
     std::vector<vec3> colors;
     for (uint32_t kind = 0; kind < mKinds; kind++) {
