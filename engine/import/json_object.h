@@ -16,7 +16,8 @@ namespace relume {
 nlohmann::json readJson(const std::filesystem::path& path);
 std::string readJsonText(const std::filesystem::path& path);
 
-constexpr size_t kRecordDepth = 8; // of arrays and objects nested in what bakes say of themselves
+// The most nested arrays and objects in what a bake records of itself: options, inputs, materials.
+constexpr size_t kRecordDepth = 8;
 
 // Returns whether arrays and objects are nested more than `most` deep. The library's parser could tell by a
 // callback, but would then take time quadratic in an array's length.

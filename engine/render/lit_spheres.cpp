@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"
+#include "engine/math/divide_up.h"
 #include "engine/math/tangent_frame.h"
 #include "engine/render/ground_fade.h"
 #include "engine/render/view_grid.h"
@@ -28,8 +29,6 @@ constexpr uint32_t kNoSlot = 0xffffffff;
 constexpr uint32_t kBatch = 32; // nodes made together, for which the buffers between passes have room
 constexpr VkFormat kTexelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kSphereTexels = kSphereRings * kSphereAzimuths;
-
-uint32_t groupsOf(uint32_t value, uint32_t step) { return (value + step - 1) / step; }
 
 // Returns the kernel as the device reads it: [component][four rings of the mirror direction][ring of the
 // light][channel].
@@ -177,7 +176,7 @@ LitSpheres::Set& LitSpheres::addSet(const FactoredBrdf& factors, const ResidualS
     Set& set = mSets.emplace_back(Set{uint32_t(weights.size() / 4), uint32_t(factors.terms),
                                       uint32_t(factors.mapping),
                                       makeViewMapTexture(mDevice, lights, "light maps"), 0});
-    weights.resize(weights.size() + groupsOf(uint32_t(factors.terms), 4) * 12,
+    weights.resize(weights.size() + divideUp(uint32_t(factors.terms), 4) * 12,
                    0); // whole groups of four terms
     if (!residual) return set;
     float* weight = &weights[4 * size_t(set.firstImage)];
@@ -225,7 +224,7 @@ void LitSpheres::recordLight(vk::Commands& commands, const LightPass& light, con
                  mTupleTexels},
                 UnshadowedTuplesPush{set.mapping, set.terms, set.lightMaps.isGray, set.firstImage, mTupleRows,
                                      set.isTurned, mTupleImages},
-                {kTupleAzimuths, set.rows(), groupsOf(set.terms, 4)});
+                {kTupleAzimuths, set.rows(), divideUp(set.terms, 4)});
         commands.barrier(Stage::Compute, Stage::Transfer);
         const auto copyTo = [&](const vk::Buffer& from, const vk::Image& to, Stage readBy) {
             commands.transition(to, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
@@ -248,7 +247,7 @@ void LitSpheres::makeRoom(size_t spheres) {
             "{} lit spheres are needed, {} holds at most {} layers in an image; draw fewer materials at "
             "once, or without the residual",
             spheres, mDevice.name(), most));
-    mSlotCount = std::min(most, groupsOf(uint32_t(spheres + spheres / 4), 16) * 16);
+    mSlotCount = std::min(most, divideUp(uint32_t(spheres + spheres / 4), 16) * 16);
     mRetired.push_back(std::move(mImage));
     mImage = vk::Image(mDevice, imageOptions(kSphereAzimuths, mMostParts * kSphereRings, mSlotCount),
                        "lit spheres");
@@ -322,10 +321,10 @@ void LitSpheres::makeSpheres(vk::Commands& commands, uint32_t number, LightPart 
                       {kSphereAzimuths, kSphereRings, push.nodes});
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.dispatch(mSpectrumProgram, {texels(mPolar), mSpectrum}, push,
-                      {kSphereRings, groupsOf(push.frequencies + 1, 8), push.nodes});
+                      {kSphereRings, divideUp(push.frequencies + 1, 8), push.nodes});
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.dispatch(mReflect, {texels(kernel.values), texels(mSpectrum), mReflected}, push,
-                      {kSphereRings / 4, kernel.components, groupsOf(push.nodes, 2)});
+                      {kSphereRings / 4, kernel.components, divideUp(push.nodes, 2)});
     commands.barrier(Stage::Compute, Stage::Compute);
     commands.dispatch(mSynthesize, {texels(mReflected), mParts}, push,
                       {kSphereAzimuths / 4, kSphereRings / 4, push.nodes * (push.harmonics + 1)});

@@ -14,7 +14,7 @@ constexpr uint32_t kEdgeBit = 0x80; // of the stencil: marks edges where pixels 
 // and Edges once per group of samples.
 enum class ShadedPixels { All, Inner, Edges };
 
-// What a program is made for; everything else changes between draws.
+// The choice of a program. What is not in it may change from draw to draw.
 struct ShadeVariant {
     uint32_t terms;    // K of the set
     bool isGray;       // whether its view maps have one channel

@@ -1,6 +1,7 @@
 #include "engine/vk/commands.h"
 
 #include "engine/base/check.h"
+#include "engine/math/divide_up.h"
 #include "engine/vk/result.h"
 #include "engine/vk/tick_clock.h"
 #include "engine/vk/timing_capture.h"
@@ -155,7 +156,7 @@ void Commands::dispatchBytes(const ComputeProgram& program, std::initializer_lis
     uint32_t groups[3];
     for (int axis = 0; axis < 3; axis++) {
         const uint32_t size = program.groupSize()[size_t(axis)];
-        groups[axis] = (items[axis] + size - 1) / size;
+        groups[axis] = divideUp(items[axis], size);
         RELUME_CHECK_LE(groups[axis], mDevice.limits().maxComputeWorkGroupCount[axis]);
     }
     vkCmdDispatch(mCommands, groups[0], groups[1], groups[2]);

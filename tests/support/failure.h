@@ -1,4 +1,4 @@
-// What errors say.
+// Helpers for tests of what an error says.
 #pragma once
 
 #include "engine/base/error.h"

@@ -1,6 +1,7 @@
 #include "engine/transport/bases/bases_relighter.h"
 
 #include "engine/base/check.h"
+#include "engine/math/divide_up.h"
 #include "engine/vk/upload.h"
 #include "shaders/relight_combine_comp.h"
 #include "shaders/relight_project_comp.h"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr uint32_t kWordsPerGroup = 16; // per column
 constexpr uint32_t kVerticesPerLane = 8;
-
-uint32_t divideUp(uint64_t value, uint32_t step) { return uint32_t((value + step - 1) / step); }
 
 // Puts a byte into a word at `place`; 0 is the lowest byte.
 void putByte(uint32_t& word, size_t place, int8_t value) { word |= uint32_t(uint8_t(value)) << 8 * place; }
