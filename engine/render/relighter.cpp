@@ -35,9 +35,7 @@ std::unique_ptr<SetRelighter> Relighter::makeSet(const Transport& transport, con
     return std::visit(
         [&](const auto& kept) -> std::unique_ptr<SetRelighter> {
             using Set = decltype(relighterOf(kept));
-            auto& programs = std::get<std::unique_ptr<typename Set::Programs>>(mPrograms);
-            if (!programs) programs = std::make_unique<typename Set::Programs>(mDevice);
-            return std::make_unique<Set>(mDevice, *programs, kept, coefficients, lights, largestShard, name);
+            return std::make_unique<Set>(mDevice, kept, coefficients, lights, largestShard, name);
         },
         transport);
 }

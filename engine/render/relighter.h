@@ -11,7 +11,6 @@
 
 #include <limits>
 #include <memory>
-#include <tuple>
 
 namespace relume {
 
@@ -59,8 +58,6 @@ class Relighter {
     const vk::Device& mDevice;
     int mFaceSize;
     RelightMode mMode = RelightMode::Auto;
-    // The programs of the layouts in use. They must not move, as sets refer to them.
-    std::tuple<std::unique_ptr<RowsRelighter::Programs>, std::unique_ptr<BasesRelighter::Programs>> mPrograms;
     std::vector<std::vector<std::unique_ptr<SetRelighter>>> mParts; // sets by part
     std::unique_ptr<LitSpheres> mSpheres;
     std::unique_ptr<FillLight> mFill; // null if no set has a residual

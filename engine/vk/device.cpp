@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/log.h"
+#include "engine/vk/compute_programs.h"
 #include "engine/vk/device_list.h"
 #include "engine/vk/features.h"
 #include "engine/vk/pipeline_cache.h"
@@ -125,6 +126,7 @@ Device::Device(const DeviceOptions& options) {
         pickPhysicalDevice(options.select, options.leastFeatures);
         createDevice(!options.surfaceExtensions.empty());
         mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, options.pipelineCache);
+        mComputePrograms = std::make_unique<ComputePrograms>();
     } catch (...) {
         destroy();
         throw;
@@ -154,16 +156,19 @@ Device::Device(const HostDevice& host) : mIsHosts(true), mInstance(host.instance
     loadDebugUtils();
     mMemoryPool = std::make_unique<MemoryPool>(mDevice);
     mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, std::filesystem::path());
+    mComputePrograms = std::make_unique<ComputePrograms>();
 }
 
 void Device::destroy() {
     if (mIsHosts) {
+        mComputePrograms.reset();
         mPipelineCache.reset();
         mMemoryPool.reset();
         return;
     }
     if (mDevice) {
         vkDeviceWaitIdle(mDevice);
+        mComputePrograms.reset();
         mPipelineCache.reset();
         mMemoryPool.reset();
         vkDestroyDevice(mDevice, nullptr);

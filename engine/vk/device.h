@@ -16,6 +16,7 @@
 
 namespace relume::vk {
 
+class ComputePrograms;
 class PipelineCache;
 struct ShaderReplacement;
 
@@ -140,6 +141,9 @@ class Device {
     void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
 
+    // Returns the compute programs that were made so far.
+    ComputePrograms& computePrograms() const { return *mComputePrograms; }
+
     // Returns the cache that every pipeline is created with; any thread may use it.
     VkPipelineCache pipelineCache() const;
     // Writes DeviceOptions::pipelineCache atomically; logs a warning if it cannot be written.
@@ -182,6 +186,7 @@ class Device {
     DeviceInfo mInfo{};
     std::unique_ptr<MemoryPool> mMemoryPool;
     std::unique_ptr<PipelineCache> mPipelineCache;
+    std::unique_ptr<ComputePrograms> mComputePrograms;
     mutable std::mutex mShaderMutex;
     std::map<const uint32_t*, std::vector<uint32_t>> mReplacedShaders; // by the built-in array
     std::atomic<int> mValidationMessages = 0;

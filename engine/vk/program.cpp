@@ -2,6 +2,7 @@
 
 #include "engine/base/check.h"
 #include "engine/math/vector.h"
+#include "engine/vk/compute_programs.h"
 #include "engine/vk/image.h"
 #include "engine/vk/result.h"
 
@@ -52,21 +53,27 @@ struct Specialization {
 
 } // namespace
 
-void Program::createLayout(const Device& device, std::span<const ShaderInterface> shaders,
-                           std::string_view name) {
-    mDevice = &device;
-    mName = name;
+Program::Objects::~Objects() {
+    vkDestroyPipeline(device.handle(), pipeline, nullptr);
+    vkDestroyPipelineLayout(device.handle(), layout, nullptr);
+    vkDestroyDescriptorSetLayout(device.handle(), setLayout, nullptr);
+}
+
+std::shared_ptr<Program::Objects>
+Program::makeLayouts(const Device& device, std::span<const ShaderInterface> shaders, std::string_view name) {
+    auto objects = std::make_shared<Objects>(device);
+    objects->name = name;
     std::map<uint32_t, VkDescriptorSetLayoutBinding> merged;
     for (const ShaderInterface& shader : shaders) {
-        mStages |= shader.stage;
-        mPushConstantBytes = std::max(mPushConstantBytes, shader.pushConstantBytes);
+        objects->stages |= shader.stage;
+        objects->pushConstantBytes = std::max(objects->pushConstantBytes, shader.pushConstantBytes);
         for (const auto& [binding, type] : shader.bindings) {
             VkDescriptorSetLayoutBinding& entry = merged[binding];
             entry.binding = binding;
             entry.descriptorType = type;
             entry.descriptorCount = 1;
             entry.stageFlags |= shader.stage;
-            mBindings[binding] = type;
+            objects->bindings[binding] = type;
         }
     }
     std::vector<VkDescriptorSetLayoutBinding> list;
@@ -74,66 +81,54 @@ void Program::createLayout(const Device& device, std::span<const ShaderInterface
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set.bindingCount = uint32_t(list.size());
     set.pBindings = list.data();
-    mSetLayout = RELUME_VK_CREATE(vkCreateDescriptorSetLayout, device.handle(), set);
+    objects->setLayout = RELUME_VK_CREATE(vkCreateDescriptorSetLayout, device.handle(), set);
 
-    RELUME_CHECK_LE(mPushConstantBytes, device.limits().maxPushConstantsSize);
-    const VkPushConstantRange range{mStages, 0, mPushConstantBytes};
+    RELUME_CHECK_LE(objects->pushConstantBytes, device.limits().maxPushConstantsSize);
+    const VkPushConstantRange range{objects->stages, 0, objects->pushConstantBytes};
     VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     layout.setLayoutCount = 1;
-    layout.pSetLayouts = &mSetLayout;
-    layout.pushConstantRangeCount = mPushConstantBytes ? 1 : 0;
+    layout.pSetLayouts = &objects->setLayout;
+    layout.pushConstantRangeCount = objects->pushConstantBytes ? 1 : 0;
     layout.pPushConstantRanges = &range;
-    mLayout = RELUME_VK_CREATE(vkCreatePipelineLayout, device.handle(), layout);
-    device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(mSetLayout), name);
-    device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<uint64_t>(mLayout), name);
-}
-
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(mDevice, other.mDevice);
-    std::swap(mPipeline, other.mPipeline);
-    std::swap(mLayout, other.mLayout);
-    std::swap(mSetLayout, other.mSetLayout);
-    std::swap(mBindings, other.mBindings);
-    std::swap(mPushConstantBytes, other.mPushConstantBytes);
-    std::swap(mStages, other.mStages);
-    std::swap(mGroupSize, other.mGroupSize);
-    std::swap(mName, other.mName);
-    return *this;
-}
-
-void Program::destroy() {
-    if (!mDevice) return;
-    vkDestroyPipeline(mDevice->handle(), mPipeline, nullptr);
-    vkDestroyPipelineLayout(mDevice->handle(), mLayout, nullptr);
-    vkDestroyDescriptorSetLayout(mDevice->handle(), mSetLayout, nullptr);
-    mDevice = nullptr;
+    objects->layout = RELUME_VK_CREATE(vkCreatePipelineLayout, device.handle(), layout);
+    device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(objects->setLayout),
+                   name);
+    device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<uint64_t>(objects->layout), name);
+    return objects;
 }
 
 ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> spirv,
                                const Constants& constants, std::string_view name, Subgroups subgroups) {
-    const std::vector<uint32_t> used = device.shader(spirv);
-    const ShaderInterface interface = reflect(used, constants);
-    createLayout(device, {&interface, 1}, name);
-    mGroupSize = interface.groupSize;
-    RELUME_CHECK_LE(mGroupSize[0] * mGroupSize[1] * mGroupSize[2],
+    ComputePrograms::Source source{device.shader(spirv), constants, subgroups};
+    if (const std::optional<ComputeProgram> made = device.computePrograms().find(source)) {
+        *this = *made;
+        return;
+    }
+    const ShaderInterface interface = reflect(source.spirv, constants);
+    const std::array<uint32_t, 3>& groupSize = interface.groupSize;
+    RELUME_CHECK_LE(groupSize[0] * groupSize[1] * groupSize[2],
                     device.limits().maxComputeWorkGroupInvocations);
+    const std::shared_ptr<Objects> objects = makeLayouts(device, {&interface, 1}, name);
+    objects->groupSize = groupSize;
 
-    const Module module(device, used, name);
+    const Module module(device, source.spirv, name);
     const Specialization specialization(constants);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialization.info);
-    create.layout = mLayout;
+    create.layout = objects->layout;
     const VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
         VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO, nullptr,
         device.info().subgroupSize};
     if (subgroups == Subgroups::Full) {
-        RELUME_CHECK_EQ(mGroupSize[0] % device.info().subgroupSize, 0u);
+        RELUME_CHECK_EQ(groupSize[0] % device.info().subgroupSize, 0u);
         create.stage.flags |= VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
         if (device.info().subgroupSizeCanBeAskedFor) create.stage.pNext = &size;
     }
-    RELUME_VK(
-        vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &mPipeline));
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
+    RELUME_VK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr,
+                                       &objects->pipeline));
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(objects->pipeline), name);
+    mObjects = objects;
+    *this = device.computePrograms().add(std::move(source), *this);
 }
 
 GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t> vertexSpirv,
@@ -142,7 +137,7 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     const std::vector<uint32_t> usedVertex = device.shader(vertexSpirv);
     const std::vector<uint32_t> usedFragment = device.shader(fragmentSpirv);
     const ShaderInterface interfaces[] = {reflect(usedVertex, constants), reflect(usedFragment, constants)};
-    createLayout(device, interfaces, name);
+    const std::shared_ptr<Objects> objects = makeLayouts(device, interfaces, name);
 
     const Module vertex(device, usedVertex, name), fragment(device, usedFragment, name);
     const Specialization specialization(constants);
@@ -214,10 +209,11 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
     create.pDepthStencilState = &depth;
     create.pColorBlendState = &blending;
     create.pDynamicState = &dynamic;
-    create.layout = mLayout;
-    RELUME_VK(
-        vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &mPipeline));
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), name);
+    create.layout = objects->layout;
+    RELUME_VK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr,
+                                        &objects->pipeline));
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(objects->pipeline), name);
+    mObjects = objects;
 }
 
 } // namespace relume::vk

@@ -6,39 +6,47 @@
 
 namespace relume::vk {
 
-// The base of compute and graphics programs: pipeline and layouts. Uses descriptor set 0 only.
+// The base of compute and graphics programs: a pipeline and its layouts, which have descriptor set 0 only.
+// Copies share them; an empty program has none.
 class Program {
   public:
     Program() = default;
-    ~Program() { destroy(); }
-    Program(Program&& other) noexcept { *this = std::move(other); }
-    Program& operator=(Program&& other) noexcept;
 
-    VkPipeline pipeline() const { return mPipeline; }
-    VkPipelineLayout layout() const { return mLayout; }
-    VkDescriptorSetLayout setLayout() const { return mSetLayout; }
-    const std::map<uint32_t, VkDescriptorType>& bindings() const { return mBindings; }
-    uint32_t pushConstantBytes() const { return mPushConstantBytes; }
-    VkShaderStageFlags stages() const { return mStages; }
-    const std::array<uint32_t, 3>& groupSize() const { return mGroupSize; }
-    const std::string& name() const { return mName; }
+    VkPipeline pipeline() const { return mObjects ? mObjects->pipeline : VK_NULL_HANDLE; }
+    VkPipelineLayout layout() const { return mObjects->layout; }
+    VkDescriptorSetLayout setLayout() const { return mObjects->setLayout; }
+    const std::map<uint32_t, VkDescriptorType>& bindings() const { return mObjects->bindings; }
+    uint32_t pushConstantBytes() const { return mObjects->pushConstantBytes; }
+    VkShaderStageFlags stages() const { return mObjects->stages; }
+    const std::array<uint32_t, 3>& groupSize() const { return mObjects->groupSize; }
+    const std::string& name() const { return mObjects->name; }
 
   protected:
-    void createLayout(const Device& device, std::span<const ShaderInterface> shaders, std::string_view name);
-    void destroy();
+    struct Objects {
+        explicit Objects(const Device& on) : device(on) {}
+        ~Objects();
+        Objects(const Objects&) = delete;
+        Objects& operator=(const Objects&) = delete;
 
-    const Device* mDevice = nullptr;
-    VkPipeline mPipeline = VK_NULL_HANDLE;
-    VkPipelineLayout mLayout = VK_NULL_HANDLE;
-    VkDescriptorSetLayout mSetLayout = VK_NULL_HANDLE;
-    std::map<uint32_t, VkDescriptorType> mBindings;
-    uint32_t mPushConstantBytes = 0;
-    VkShaderStageFlags mStages = 0;
-    std::array<uint32_t, 3> mGroupSize{1, 1, 1};
-    std::string mName;
+        const Device& device;
+        std::string name;
+        VkPipeline pipeline = VK_NULL_HANDLE;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
+        std::map<uint32_t, VkDescriptorType> bindings;
+        uint32_t pushConstantBytes = 0;
+        VkShaderStageFlags stages = 0;
+        std::array<uint32_t, 3> groupSize{1, 1, 1};
+    };
+
+    // Returns objects with the layouts that the shaders ask for, and no pipeline yet.
+    static std::shared_ptr<Objects>
+    makeLayouts(const Device& device, std::span<const ShaderInterface> shaders, std::string_view name);
+
+    std::shared_ptr<const Objects> mObjects;
 };
 
-// A compute pipeline.
+// A compute pipeline. Those that are made from the same SPIR-V and constants are one (compute_programs.h).
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;

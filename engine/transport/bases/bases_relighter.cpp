@@ -46,16 +46,6 @@ uint32_t pushed(RelightMode mode) {
 
 } // namespace
 
-BasesRelighter::Programs::Programs(const vk::Device& device) {
-    using enum vk::ComputeProgram::Subgroups;
-    const vk::DeviceInfo& info = device.info();
-    const bool isPortable = info.takesPortableShaders();
-    // A subgroup; 8 or 32 invocations for portable shaders.
-    const uint32_t lanes = !isPortable ? info.subgroupSize : info.isSoftware ? 8 : 32;
-    project = {device, relight_project_comp_spirv, {lanes}, "relight project", isPortable ? Any : Full};
-    combine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
-}
-
 // Clusters being prepared for upload.
 class BasesRelighter::ShardData {
   public:
@@ -118,12 +108,20 @@ class BasesRelighter::ShardData {
     }
 };
 
-BasesRelighter::BasesRelighter(const vk::Device& device, const Programs& programs,
-                               const BasisTransport& transport, uint32_t coefficients, size_t lights,
-                               uint64_t largestShard, const std::string& name)
-    : SetRelighter(device, transport.rows(), lights, name), mPrograms(programs), mTerms(transport.terms),
-      mKinds(uint32_t(transport.kinds.size())),
-      mGroupsPerTerm(divideUp(kBasisVertices / kVerticesPerLane, programs.combine.groupSize()[0])) {
+BasesRelighter::BasesRelighter(const vk::Device& device, const BasisTransport& transport,
+                               uint32_t coefficients, size_t lights, uint64_t largestShard,
+                               const std::string& name)
+    : SetRelighter(device, transport.rows(), lights, name), mTerms(transport.terms),
+      mKinds(uint32_t(transport.kinds.size())) {
+    const vk::DeviceInfo& info = device.info();
+    const bool isPortable = info.takesPortableShaders();
+    // A subgroup; 8 or 32 invocations for portable shaders.
+    const uint32_t lanes = !isPortable ? info.subgroupSize : info.isSoftware ? 8 : 32;
+    using enum vk::ComputeProgram::Subgroups;
+    mProject = {device, relight_project_comp_spirv, {lanes}, "relight project", isPortable ? Any : Full};
+    mCombine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
+    mGroupsPerTerm = divideUp(kBasisVertices / kVerticesPerLane, lanes);
+
     std::vector<shared::BasisTermKinds> termKinds(mTerms, {0, 0});
     std::vector<vec3> colors;
     for (uint32_t kind = 0; kind < mKinds; kind++) {
@@ -175,22 +173,21 @@ void BasesRelighter::recordLayout(vk::Commands& commands, const DeviceLight& lig
     const auto of = [&](const Shard& shard) -> const Projected& { return shard.projected[size_t(lit)]; };
     for (const Shard& shard : mShards)
         if (shard.groups > 0)
-            commands.dispatch(mPrograms.project,
+            commands.dispatch(mProject,
                               {shard.indices, light.table, light.stats, shard.groupList, shard.basis,
                                of(shard).sums, of(shard).projections, of(shard).stamps},
                               shared::RelightProjectPush{pushed(mode), stamp},
-                              {shard.groups * mPrograms.project.groupSize()[0], 1, 1});
+                              {shard.groups * mProject.groupSize()[0], 1, 1});
     commands.barrier(Stage::Compute, Stage::Compute);
     for (const Shard& shard : mShards)
-        commands.dispatch(
-            mPrograms.combine,
-            {shard.clusterList, mTermKinds, mColors, shard.weightings,
-             vk::Binding::texelsOf(shard.weights, VK_FORMAT_R32G32_UINT),
-             vk::Binding::texelsOf(shard.scales, VK_FORMAT_R32_SFLOAT),
-             vk::Binding::texelsOf(of(shard).projections, VK_FORMAT_R32G32B32A32_SFLOAT), tuples(lit),
-             of(shard).stamps},
-            shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, stamp},
-            {shard.clusters * mTerms * mGroupsPerTerm * mPrograms.combine.groupSize()[0], 1, 1});
+        commands.dispatch(mCombine,
+                          {shard.clusterList, mTermKinds, mColors, shard.weightings,
+                           vk::Binding::texelsOf(shard.weights, VK_FORMAT_R32G32_UINT),
+                           vk::Binding::texelsOf(shard.scales, VK_FORMAT_R32_SFLOAT),
+                           vk::Binding::texelsOf(of(shard).projections, VK_FORMAT_R32G32B32A32_SFLOAT),
+                           tuples(lit), of(shard).stamps},
+                          shared::RelightCombinePush{mTerms, mKinds, mGroupsPerTerm, stamp},
+                          {shard.clusters * mTerms * mGroupsPerTerm * mCombine.groupSize()[0], 1, 1});
 }
 
 } // namespace relume

@@ -13,14 +13,9 @@ namespace relume {
 // the next kind; incomplete octets are padded.
 class BasesRelighter : public SetRelighter {
   public:
-    struct Programs {
-        vk::ComputeProgram project, combine;
-        explicit Programs(const vk::Device& device);
-    };
-
     // See RowsRelighter.
-    BasesRelighter(const vk::Device& device, const Programs& programs, const BasisTransport& transport,
-                   uint32_t coefficients, size_t lights, uint64_t largestShard, const std::string& name);
+    BasesRelighter(const vk::Device& device, const BasisTransport& transport, uint32_t coefficients,
+                   size_t lights, uint64_t largestShard, const std::string& name);
 
     size_t shards() const override { return mShards.size(); }
 
@@ -42,7 +37,7 @@ class BasesRelighter : public SetRelighter {
     Shard upload(const vk::Device& device, const ShardData& data, uint32_t coefficients,
                  const std::string& name) const;
 
-    const Programs& mPrograms;
+    vk::ComputeProgram mProject, mCombine;
     uint32_t mTerms, mKinds, mGroupsPerTerm;
     vk::Buffer mTermKinds, mColors;
     std::vector<Shard> mShards;

@@ -50,16 +50,14 @@ uint32_t largestRowCount(const vk::Device& device, const vk::ComputeProgram& pro
 
 } // namespace
 
-RowsRelighter::Programs::Programs(const vk::Device& device)
-    : relight(device, relight_rows_comp_spirv, {}, "relight rows") {}
-
-RowsRelighter::RowsRelighter(const vk::Device& device, const Programs& programs,
-                             const SparseTransport& transport, uint32_t coefficients, size_t lights,
-                             uint64_t largestShard, const std::string& name)
-    : SetRelighter(device, transport.rows(), lights, name), mPrograms(programs),
+RowsRelighter::RowsRelighter(const vk::Device& device, const SparseTransport& transport,
+                             uint32_t coefficients, size_t lights, uint64_t largestShard,
+                             const std::string& name)
+    : SetRelighter(device, transport.rows(), lights, name),
+      mRelight(device, relight_rows_comp_spirv, {}, "relight rows"),
       mScales(vk::upload<float>(device, transport.scales, name + " row scales")) {
     const uint64_t largestGroups = largestShard / kGroupBytes;
-    const uint32_t largestRows = largestRowCount(device, programs.relight, largestShard);
+    const uint32_t largestRows = largestRowCount(device, mRelight, largestShard);
     for (uint32_t row = 0; row < rows();) {
         Shard& shard = mShards.emplace_back();
         shard.firstRow = row;
@@ -78,7 +76,7 @@ RowsRelighter::RowsRelighter(const vk::Device& device, const Programs& programs,
 void RowsRelighter::recordLayout(vk::Commands& commands, const DeviceLight& light, RelightMode,
                                  LightPart lit) const {
     for (const Shard& shard : mShards)
-        commands.dispatch(mPrograms.relight,
+        commands.dispatch(mRelight,
                           {shard.starts, shard.entries, light.table, light.stats, mScales, tuples(lit)},
                           shared::RelightRowsPush{shard.firstRow, shard.rows}, {shard.rows, 1, 1});
 }

@@ -11,15 +11,10 @@ namespace relume {
 // values. Rows are padded to whole groups with zeros.
 class RowsRelighter : public SetRelighter {
   public:
-    struct Programs {
-        vk::ComputeProgram relight;
-        explicit Programs(const vk::Device& device);
-    };
-
     // `coefficients` is the light's, 6 F²; all indices must be below it; `lights` as of SetRelighter.
     // `largestShard` limits a shard's bytes; a shard has at least one row.
-    RowsRelighter(const vk::Device& device, const Programs& programs, const SparseTransport& transport,
-                  uint32_t coefficients, size_t lights, uint64_t largestShard, const std::string& name);
+    RowsRelighter(const vk::Device& device, const SparseTransport& transport, uint32_t coefficients,
+                  size_t lights, uint64_t largestShard, const std::string& name);
 
     size_t shards() const override { return mShards.size(); }
 
@@ -34,7 +29,7 @@ class RowsRelighter : public SetRelighter {
         vk::Buffer entries; // groups
     };
 
-    const Programs& mPrograms;
+    vk::ComputeProgram mRelight;
     std::vector<Shard> mShards;
     vk::Buffer mScales; // per row
 };
