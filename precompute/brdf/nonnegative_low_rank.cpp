@@ -1,4 +1,5 @@
 #include "precompute/brdf/low_rank.h"
+#include "precompute/brdf/thin_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +18,9 @@ namespace {
 constexpr float kLeastValue = 1e-5f;
 constexpr int kSweeps = 60; // over the last twenty the error falls by less than a thousandth
 
-using Blocks = std::vector<MatrixXf>;
+using Blocks = std::span<const MatrixXf>;
 
-double squaredNorm(const Blocks& blocks, Index column) {
+double squaredNorm(Blocks blocks, Index column) {
     double sum = 0;
     for (const MatrixXf& block : blocks) sum += double(block.col(column).squaredNorm());
     return sum;
@@ -45,24 +46,52 @@ void startFromHalf(LowRank& start, Index k) {
 }
 
 // Sweeps over the columns of `factor`, making each the least-squares optimum for `target` ≈ factor · otherᵀ,
-// given product = target · other and gram = otherᵀ · other.
-void sweep(MatrixXf& factor, const MatrixXf& product, const MatrixXf& gram) {
-    for (Index k = 0; k < factor.cols(); k++) {
-        if (!(gram(k, k) > 0)) continue;
-        const VectorXf step = (product.col(k) - factor * gram.col(k)) / gram(k, k);
-        factor.col(k) = (factor.col(k) + step).cwiseMax(0.0f);
+// given product = target · other and gram = otherᵀ · other. Rows do not depend on each other.
+void sweep(Eigen::Ref<ThinMatrix> factor, const Eigen::Ref<const ThinMatrix>& product,
+           const ThinMatrix& gram) {
+    for (Index r = 0; r < factor.rows(); r++) {
+        auto row = factor.row(r);
+        for (Index k = 0; k < factor.cols(); k++)
+            if (gram(k, k) > 0)
+                row[k] = std::max(row[k] + (product(r, k) - row.dot(gram.row(k))) / gram(k, k), 0.0f);
     }
 }
 
-// Calls make(first, count) for ranges of up to kTogether of `size` rows, in parallel. The ranges do not
-// depend on the number of threads, since products of other ranges may be rounded differently.
-template <typename Make>
-void forRanges(Index size, const Make& make) {
+// Some columns of a block, which a thread works on, and its sums over them.
+struct Range {
+    const MatrixXf& block;
+    ThinMatrix& right;
+    Index first, count;
+    ThinMatrix product, gram; // block · right, rightᵀ · right
+};
+
+// The ranges do not depend on the number of threads, and so neither does any sum.
+std::vector<Range> makeRanges(Blocks blocks, std::vector<ThinMatrix>& right) {
     constexpr Index kTogether = 128;
-    tbb::parallel_for(Index(0), (size + kTogether - 1) / kTogether, [&](Index range) {
-        const Index first = range * kTogether;
-        make(first, std::min(kTogether, size - first));
-    });
+    std::vector<Range> ranges;
+    for (size_t j = 0; j < blocks.size(); j++)
+        for (Index first = 0; first < blocks[j].cols(); first += kTogether)
+            ranges.push_back(
+                {blocks[j], right[j], first, std::min(kTogether, blocks[j].cols() - first), {}, {}});
+    return ranges;
+}
+
+// Sweeps over the range's rows of the right factor, and sums their products. A few columns at a time remain
+// in the cache between both, so that a block is read once from memory.
+void sweepRight(Range& range, const ThinMatrix& left, const ThinMatrix& leftGram) {
+    constexpr Index kTogether = 16;
+    range.product.setZero(left.rows(), left.cols());
+    range.gram.setZero(left.cols(), left.cols());
+    ThinMatrix product(kTogether, left.cols());
+    for (Index done = 0; done < range.count; done += kTogether) {
+        const Index first = range.first + done, count = std::min(kTogether, range.count - done);
+        const auto columns = range.block.middleCols(first, count);
+        auto right = range.right.middleRows(first, count);
+        multiplyTransposed(columns, left, product.topRows(count));
+        sweep(right, product.topRows(count), leftGram);
+        addProduct(columns, right, range.product);
+        range.gram += right.transpose().lazyProduct(right);
+    }
 }
 
 // Normalizes columns and sorts terms by the sizes of their products.
@@ -98,7 +127,7 @@ LowRank padded(LowRank factors, int terms) {
 
 } // namespace
 
-LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
+LowRank nonNegativeLowRank(Blocks blocks, int terms) {
     LowRank factors = lowRank(blocks, terms);
     // A matrix of rank 1 or 2 has a nonnegative factorization of as many terms (Cohen, Rothblum: Nonnegative
     // ranks, 1993); further terms would only split these.
@@ -106,25 +135,23 @@ LowRank nonNegativeLowRank(std::span<const MatrixXf> blocks, int terms) {
     const Index rank = std::max<Index>(count, 1); // black has one term of zeros
     if (rank <= 2 && rank < terms) return padded(nonNegativeLowRank(blocks, int(rank)), terms);
     for (Index k = 0; k < terms; k++) startFromHalf(factors, k);
+    ThinMatrix left = thinned(factors.left);
+    std::vector<ThinMatrix> right;
+    for (const MatrixXf& block : factors.right) right.push_back(thinned(block));
+    std::vector<Range> ranges = makeRanges(blocks, right);
     for (int round = 0; round < kSweeps; round++) {
-        const MatrixXf leftGram = factors.left.transpose() * factors.left;
-        MatrixXf product = MatrixXf::Zero(factors.left.rows(), terms),
-                 rightGram = MatrixXf::Zero(terms, terms);
-        for (size_t j = 0; j < blocks.size(); j++) {
-            MatrixXf& right = factors.right[j];
-            MatrixXf rightProduct(right.rows(), terms);
-            forRanges(right.rows(), [&](Index first, Index size) {
-                rightProduct.middleRows(first, size).noalias() =
-                    blocks[j].middleCols(first, size).transpose() * factors.left;
-            });
-            sweep(right, rightProduct, leftGram);
-            forRanges(product.rows(), [&](Index first, Index size) {
-                product.middleRows(first, size).noalias() += blocks[j].middleRows(first, size) * right;
-            });
-            rightGram.noalias() += right.transpose() * right;
+        const ThinMatrix leftGram = left.transpose().lazyProduct(left);
+        tbb::parallel_for(size_t(0), ranges.size(), [&](size_t i) { sweepRight(ranges[i], left, leftGram); });
+        ThinMatrix product = ThinMatrix::Zero(left.rows(), left.cols()),
+                   rightGram = ThinMatrix::Zero(left.cols(), left.cols());
+        for (const Range& range : ranges) {
+            product += range.product;
+            rightGram += range.gram;
         }
-        sweep(factors.left, product, rightGram);
+        sweep(left, product, rightGram);
     }
+    factors.left = left.leftCols(terms);
+    for (size_t j = 0; j < right.size(); j++) factors.right[j] = right[j].leftCols(terms);
     normalize(factors);
     return factors;
 }
