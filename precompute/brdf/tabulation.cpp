@@ -7,7 +7,10 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
+#include <span>
 #include <tbb/parallel_for.h>
+#include <tuple>
+#include <utility>
 
 namespace relume {
 
@@ -26,9 +29,38 @@ void listDirections(BrdfTable& table) {
         }
 }
 
+// A permutation of the directions' numbers.
+using Permutation = std::vector<int>;
+
+// Returns the turns and reflections of the square that map directions to directions; the identity is the
+// first. An isotropic BRDF has the same value for a pair of directions and for its images. Polar maps have
+// other symmetries, which are not used.
+std::vector<Permutation> squareSymmetries(const BrdfTable& table) {
+    const int size = table.size, count = int(table.directions.size());
+    std::vector<int> numbers(size_t(size) * size_t(size), -1); // by texel
+    for (int i = 0; i < count; i++) {
+        const ivec2 texel = table.texels[size_t(i)];
+        numbers[size_t(texel.y * size + texel.x)] = i;
+    }
+    std::vector<Permutation> symmetries;
+    const int most = isPolar(table.mapping) ? 1 : 8;
+    for (int symmetry = 0; symmetry < most; symmetry++) {
+        Permutation& images = symmetries.emplace_back();
+        for (ivec2 texel : table.texels) {
+            if (symmetry & 1) texel.x = size - 1 - texel.x;
+            if (symmetry & 2) texel.y = size - 1 - texel.y;
+            if (symmetry & 4) std::swap(texel.x, texel.y);
+            images.push_back(numbers[size_t(texel.y * size + texel.x)]);
+        }
+        // Rounding may put one of two opposite texels at the rim outside the disk.
+        if (std::ranges::count(images, -1) > 0) symmetries.pop_back();
+    }
+    return symmetries;
+}
+
 // For a mean, points of two texels are paired by a rank-1 lattice (Roberts' R4), shifted randomly per pair of
-// texels.
-constexpr int kMeanSamples = 4;
+// texels. Where symmetries leave an eighth of the pairs to evaluate, each has twice the points.
+constexpr int kMeanSamples = 4, kSymmetricMeanSamples = 8;
 constexpr glm::dvec4 kLattice(0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101);
 
 // The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
@@ -41,49 +73,79 @@ uint64_t mix(uint64_t x) {
 class Tabulator {
   public:
     Tabulator(const Brdf& brdf, BrdfPart part, TexelValue value, BrdfTable& table)
-        : mBrdf(brdf), mPart(part), mValue(value), mTable(table) {}
+        : mBrdf(brdf), mPart(part), mValue(value), mTable(table), mSymmetries(squareSymmetries(table)) {
+        if (!brdf.isIsotropic()) mSymmetries.resize(1);
+    }
 
-    // Tabulates one outgoing direction; for a reciprocal BRDF, the values up to the diagonal and their mirror
-    // images.
+    // Tabulates one outgoing direction and its images; for a reciprocal BRDF without symmetries, the values
+    // up to the diagonal and their mirror images.
     void tabulateColumn(int outgoing) const {
-        const bool mirrors = mBrdf.isReciprocal();
-        const int end = mirrors ? outgoing + 1 : int(mTable.directions.size());
+        const auto image = [&](const Permutation& symmetry) { return symmetry[size_t(outgoing)]; };
+        if (std::ranges::any_of(mSymmetries, [&](const auto& by) { return image(by) < outgoing; })) return;
+        const bool isMirrored = mBrdf.isReciprocal() && mSymmetries.size() == 1;
+        const int end = isMirrored ? outgoing + 1 : int(mTable.directions.size());
         for (int i = 0; i < end; i++) {
-            const vec3 value = mValue == TexelValue::Mean ? mean(i, outgoing)
-                                                          : evaluate(mTable.directions[size_t(i)],
-                                                                     mTable.directions[size_t(outgoing)]);
+            const vec3 value = valueOf(i, outgoing);
             for (int c = 0; c < 3; c++) {
                 RELUME_CHECK_LE(0.0f, value[c]); // fails for NaN, too
                 RELUME_CHECK_LT(value[c], std::numeric_limits<float>::infinity());
                 mTable.channels[size_t(c)](i, outgoing) = value[c];
-                if (mirrors) mTable.channels[size_t(c)](outgoing, i) = value[c];
+                if (isMirrored) mTable.channels[size_t(c)](outgoing, i) = value[c];
             }
         }
+        for (const Permutation& symmetry : std::span(mSymmetries).subspan(1))
+            for (Eigen::MatrixXf& channel : mTable.channels)
+                for (int i = 0; i < end; i++)
+                    channel(symmetry[size_t(i)], image(symmetry)) = channel(i, outgoing);
     }
 
   private:
-    vec3 evaluate(vec3 incoming, vec3 outgoing) const {
+    // Two directions, whose numbers rise, and which of both the light comes from.
+    struct Pair {
+        int first, second;
+        bool isSwapped;
+    };
+
+    // Returns the image of a pair that stands for all of them; if swapped, it comes from the second. So all
+    // have the same value, and a reciprocal BRDF has a symmetric table.
+    Pair representative(int incoming, int outgoing) const {
+        Pair least{std::numeric_limits<int>::max(), 0, false};
+        for (const Permutation& symmetry : mSymmetries) {
+            const int in = symmetry[size_t(incoming)], out = symmetry[size_t(outgoing)];
+            const Pair image{std::min(in, out), std::max(in, out), in > out && !mBrdf.isReciprocal()};
+            if (std::tie(image.first, image.second) < std::tie(least.first, least.second)) least = image;
+        }
+        return least;
+    }
+
+    vec3 valueOf(int incoming, int outgoing) const {
+        const Pair pair = representative(incoming, outgoing);
+        if (mValue == TexelValue::Mean) return mean(pair);
+        return evaluate(mTable.directions[size_t(pair.first)], mTable.directions[size_t(pair.second)],
+                        pair.isSwapped);
+    }
+
+    vec3 evaluate(vec3 first, vec3 second, bool isSwapped) const {
+        const auto [incoming, outgoing] = isSwapped ? std::pair(second, first) : std::pair(first, second);
         if (mPart == BrdfPart::Base) return mBrdf.evaluateBase(incoming, outgoing);
         const vec3 all = mBrdf.evaluate(incoming, outgoing);
         // Rounding must not make a difference negative.
         return mPart == BrdfPart::All ? all : glm::max(all - mBrdf.evaluateBase(incoming, outgoing), vec3(0));
     }
 
-    vec3 mean(int incoming, int outgoing) const {
-        // The points of a swapped pair of texels are swapped, so that nearly reciprocal BRDFs stay nearly
-        // symmetric.
-        const auto [first, second] = std::minmax(incoming, outgoing);
-        const uint64_t bits = mix(uint64_t(first) << 32 | uint64_t(second));
+    // Swapped pairs have the same points, so that nearly reciprocal BRDFs stay nearly symmetric.
+    vec3 mean(const Pair& pair) const {
+        const uint64_t bits = mix(uint64_t(pair.first) << 32 | uint64_t(pair.second));
         glm::dvec4 place(bits & 0xffff, bits >> 16 & 0xffff, bits >> 32 & 0xffff, bits >> 48);
         place /= 65536.0;
         glm::dvec3 sum(0);
         double weights = 0;
-        for (int sample = 0; sample < kMeanSamples; sample++, place = glm::fract(place + kLattice)) {
-            vec3 wi = directionIn(first, vec2(place.x, place.y)),
-                 wo = directionIn(second, vec2(place.z, place.w));
-            if (incoming != first) std::swap(wi, wo);
-            const double weight = double(wi.z) * double(wo.z);
-            sum += weight * glm::dvec3(evaluate(wi, wo));
+        const int samples = mSymmetries.size() > 1 ? kSymmetricMeanSamples : kMeanSamples;
+        for (int sample = 0; sample < samples; sample++, place = glm::fract(place + kLattice)) {
+            const vec3 first = directionIn(pair.first, vec2(place.x, place.y)),
+                       second = directionIn(pair.second, vec2(place.z, place.w));
+            const double weight = double(first.z) * double(second.z);
+            sum += weight * glm::dvec3(evaluate(first, second, pair.isSwapped));
             weights += weight;
         }
         return vec3(sum / weights);
@@ -101,15 +163,22 @@ class Tabulator {
     BrdfPart mPart;
     TexelValue mValue;
     BrdfTable& mTable;
+    std::vector<Permutation> mSymmetries; // under which the BRDF stays the same; the identity first
 };
 
-// Returns ‖M - Mᵀ‖ / ‖M‖, summed in double precision column by column.
+// Returns ‖M - Mᵀ‖ / ‖M‖, summed in double precision, in tiles that fit into a cache.
 float asymmetryOf(const Eigen::MatrixXf& matrix) {
+    constexpr Eigen::Index kTile = 64;
     double difference = 0, total = 0;
-    for (Eigen::Index i = 0; i < matrix.cols(); i++) {
-        difference += (matrix.col(i) - matrix.row(i).transpose()).cast<double>().squaredNorm();
-        total += matrix.col(i).cast<double>().squaredNorm();
-    }
+    for (Eigen::Index column = 0; column < matrix.cols(); column += kTile)
+        for (Eigen::Index row = 0; row < matrix.rows(); row += kTile) {
+            const Eigen::Index rows = std::min(kTile, matrix.rows() - row),
+                               columns = std::min(kTile, matrix.cols() - column);
+            const Eigen::MatrixXf tile = matrix.block(row, column, rows, columns),
+                                  mirrored = matrix.block(column, row, columns, rows).transpose();
+            difference += (tile - mirrored).cast<double>().squaredNorm();
+            total += tile.cast<double>().squaredNorm();
+        }
     return total > 0 ? float(std::sqrt(difference / total)) : 0.0f;
 }
 
