@@ -12,7 +12,7 @@ namespace relume {
 // Version of everything besides a bake's inputs and options that determines the bytes of bases: choice of the
 // sample, derivation of the scale, encoding of clusters. Raised with every change to these, so that blocks of
 // different programs never meet in one bake.
-constexpr uint32_t kLayoutEncoderVersion = 3;
+constexpr uint32_t kLayoutEncoderVersion = 4;
 
 struct LayoutScale {
     std::vector<float> norms; // per set, over all parts: normalization by transportNorm()

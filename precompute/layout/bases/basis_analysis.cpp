@@ -69,6 +69,32 @@ LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Ind
     return leading;
 }
 
+// The rows of one kind, without the columns that are empty in them. Where light bounces, color is that of
+// bounced light alone, which has a third of the columns.
+struct KindRows {
+    std::vector<Eigen::Index> columns; // those that remain, ascending
+    Eigen::MatrixXf values;
+};
+
+KindRows rowsOfKind(const ClusterMatrix& matrix, Eigen::Index kind) {
+    const auto own = matrix.values.middleRows(kind * matrix.vertices, matrix.vertices);
+    KindRows rows;
+    for (Eigen::Index column = 0; column < own.cols(); column++)
+        if ((own.col(column).array() != 0).any()) rows.columns.push_back(column);
+    rows.values = own(Eigen::all, rows.columns);
+    return rows;
+}
+
+// Adds valuesᵀ · values to the lower triangle of `gram`.
+void addGram(const KindRows& rows, Eigen::MatrixXf& gram) {
+    const auto size = Eigen::Index(rows.columns.size());
+    Eigen::MatrixXf own = Eigen::MatrixXf::Zero(size, size);
+    own.selfadjointView<Eigen::Lower>().rankUpdate(rows.values.transpose());
+    for (Eigen::Index column = 0; column < size; column++)
+        for (Eigen::Index row = column; row < size; row++)
+            gram(rows.columns[size_t(row)], rows.columns[size_t(column)]) += own(row, column);
+}
+
 // Neighboring lambdas.
 struct Lambdas {
     double low, high;
@@ -99,6 +125,9 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
     analysis.importance = matrix.importance;
     analysis.columns = matrix.columns;
     analysis.energy = matrix.energy;
+    std::vector<KindRows> kinds;
+    for (Eigen::Index kind = 0; kind < matrix.energy.size(); kind++)
+        kinds.push_back(rowsOfKind(matrix, kind));
     if (values.size() > 0) {
         const bool isWide = values.rows() < values.cols();
         const Eigen::Index size = std::min(values.rows(), values.cols());
@@ -106,7 +135,7 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
         if (isWide)
             gram.selfadjointView<Eigen::Lower>().rankUpdate(values);
         else
-            gram.selfadjointView<Eigen::Lower>().rankUpdate(values.transpose());
+            for (const KindRows& rows : kinds) addGram(rows, gram);
         const LeadingEigenvectors leading =
             leadingEigenvectors(gram, std::min(size, mostVectors(matrix.kinds())));
         analysis.vectors = leading.vectors;
@@ -114,11 +143,12 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
             analysis.vectors =
                 values.transpose() * leading.vectors * leading.values.cwiseSqrt().cwiseInverse().asDiagonal();
     }
-    const Eigen::MatrixXf along = values * analysis.vectors;
-    analysis.vectorEnergy.resize(Eigen::Index(matrix.kinds()), along.cols());
-    for (Eigen::Index kind = 0; kind < analysis.vectorEnergy.rows(); kind++)
-        analysis.vectorEnergy.row(kind) =
-            along.middleRows(kind * matrix.vertices, matrix.vertices).colwise().squaredNorm().cast<double>();
+    analysis.vectorEnergy.resize(matrix.energy.size(), analysis.vectors.cols());
+    for (size_t kind = 0; kind < kinds.size(); kind++) {
+        const Eigen::MatrixXf own = analysis.vectors(kinds[kind].columns, Eigen::all);
+        analysis.vectorEnergy.row(Eigen::Index(kind)) =
+            (kinds[kind].values * own).colwise().squaredNorm().cast<double>();
+    }
     return analysis;
 }
 

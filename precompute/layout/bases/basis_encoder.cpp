@@ -88,13 +88,14 @@ EncodedCluster encodeBases(const ClusterMatrix& matrix, const BasisAnalysis& ana
         quantizeBasis(analysis.vectors(cut.columns, Eigen::seqN(0, vectors)), weights, cut.components);
     cluster.basis = std::move(basis.values);
 
-    const Eigen::MatrixXf gram = basis.vectors.transpose() * basis.vectors, sides = values * basis.vectors;
+    const Eigen::MatrixXf gram = basis.vectors.transpose() * basis.vectors;
     for (size_t kind = 0; kind < kinds.size(); kind++) {
         const uint32_t count = cut.counts[kind];
         if (count == 0) continue;
         const Eigen::Index own = std::max<Eigen::Index>(1, Eigen::Index(count) - kFirstComponents + 1);
-        const auto side =
-            sides.middleRows(Eigen::Index(kind) * matrix.vertices, matrix.vertices).leftCols(own);
+        const Eigen::MatrixXf side =
+            values.middleRows(Eigen::Index(kind) * matrix.vertices, matrix.vertices) *
+            basis.vectors.leftCols(own);
         Eigen::MatrixXf metric = gram.topLeftCorner(own, own);
         metric.diagonal().array() += 1e-6f * metric.trace() / float(own);
         const Eigen::MatrixXf fitted = metric.ldlt().solve(side.transpose()).transpose();
