@@ -164,6 +164,7 @@ void Commands::dispatchBytes(const ComputeProgram& program, std::initializer_lis
 
 void Commands::bindBytes(const Program& program, VkPipelineBindPoint point,
                          std::initializer_list<Binding> bindings, std::span<const std::byte> push) {
+    RELUME_CHECK(program.pipeline());
     RELUME_CHECK_EQ(bindings.size(), program.bindings().size());
     // An empty struct has a size of one byte, so programs without push constants accept any size.
     if (program.pushConstantBytes() > 0) RELUME_CHECK_EQ(push.size(), size_t(program.pushConstantBytes()));

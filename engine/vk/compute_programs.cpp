@@ -15,4 +15,9 @@ ComputeProgram ComputePrograms::add(Source source, ComputeProgram program) {
     return mPrograms.try_emplace(std::move(source), std::move(program)).first->second;
 }
 
+void ComputePrograms::clear() {
+    const std::lock_guard lock(mMutex);
+    mPrograms.clear();
+}
+
 } // namespace relume::vk

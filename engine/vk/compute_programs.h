@@ -10,8 +10,10 @@
 
 namespace relume::vk {
 
-// Keeps every compute program that was made on a device until the device goes, since a driver takes 10 to 150
-// ms for one and each part of a scene needs the same. Any thread may use it.
+// Keeps the compute programs that were made on a device, since a driver takes 10 to 150 ms for one and each
+// part of a scene needs the same. They stay until the device goes or shaders are replaced; a device that
+// bakes many scenes has one more for each depth of an occluder's hierarchy and each number of terms. Any
+// thread may use it.
 class ComputePrograms {
   public:
     // What a program is made from.
@@ -28,6 +30,9 @@ class ComputePrograms {
 
     // Keeps `program`, and returns it, or the one of `source` that another thread added first.
     ComputeProgram add(Source source, ComputeProgram program);
+
+    // Forgets all programs. Those in use stay usable.
+    void clear();
 
   private:
     mutable std::mutex mMutex;

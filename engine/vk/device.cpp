@@ -348,6 +348,7 @@ size_t Device::replaceShaders(std::span<const ShaderReplacement> replacements) {
         mReplacedShaders[replacement.builtIn.data()] = replacement.spirv;
         changed++;
     }
+    if (changed > 0) mComputePrograms->clear();
     return changed;
 }
 

@@ -46,7 +46,8 @@ class Program {
     std::shared_ptr<const Objects> mObjects;
 };
 
-// A compute pipeline. Those that are made from the same SPIR-V and constants are one (compute_programs.h).
+// A compute pipeline. Those that are made on a device from the same SPIR-V, constants and subgroups are one,
+// with the name of the first (compute_programs.h).
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;

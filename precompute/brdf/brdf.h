@@ -26,8 +26,7 @@ class Brdf {
     // Returns whether f(ωi, ωo) = f(ωo, ωi) by construction.
     virtual bool isReciprocal() const { return true; }
 
-    // Returns whether turning both directions about the normal changes nothing, and neither does reflecting
-    // both on a plane through it.
+    // Returns whether rotating both directions about the normal changes nothing.
     virtual bool isIsotropic() const { return true; }
 
     // Returns JSON from which makeBrdf() makes the same BRDF: {"model": NAME, every parameter that has an

@@ -32,35 +32,34 @@ void listDirections(BrdfTable& table) {
 // A permutation of the directions' numbers.
 using Permutation = std::vector<int>;
 
-// Returns the turns and reflections of the square that map directions to directions; the identity is the
-// first. An isotropic BRDF has the same value for a pair of directions and for its images. Polar maps have
-// other symmetries, which are not used.
-std::vector<Permutation> squareSymmetries(const BrdfTable& table) {
+// Returns the quarter turns of an orthographic or equal-area map, as far as they map directions to
+// directions; the identity comes first. An isotropic BRDF has the same value for a pair of directions and for
+// its images. Measured ones need not be the same in a mirror. Polar maps have other turns, which are not
+// used.
+std::vector<Permutation> quarterTurns(const BrdfTable& table) {
     const int size = table.size, count = int(table.directions.size());
     std::vector<int> numbers(size_t(size) * size_t(size), -1); // by texel
     for (int i = 0; i < count; i++) {
         const ivec2 texel = table.texels[size_t(i)];
         numbers[size_t(texel.y * size + texel.x)] = i;
     }
-    std::vector<Permutation> symmetries;
-    const int most = isPolar(table.mapping) ? 1 : 8;
-    for (int symmetry = 0; symmetry < most; symmetry++) {
-        Permutation& images = symmetries.emplace_back();
+    std::vector<Permutation> turns;
+    const int most = isPolar(table.mapping) ? 1 : 4;
+    for (int turn = 0; turn < most; turn++) {
+        Permutation& images = turns.emplace_back();
         for (ivec2 texel : table.texels) {
-            if (symmetry & 1) texel.x = size - 1 - texel.x;
-            if (symmetry & 2) texel.y = size - 1 - texel.y;
-            if (symmetry & 4) std::swap(texel.x, texel.y);
+            for (int i = 0; i < turn; i++) texel = {size - 1 - texel.y, texel.x};
             images.push_back(numbers[size_t(texel.y * size + texel.x)]);
         }
         // Rounding may put one of two opposite texels at the rim outside the disk.
-        if (std::ranges::count(images, -1) > 0) symmetries.pop_back();
+        if (std::ranges::count(images, -1) > 0) turns.pop_back();
     }
-    return symmetries;
+    return turns;
 }
 
 // For a mean, points of two texels are paired by a rank-1 lattice (Roberts' R4), shifted randomly per pair of
-// texels. Where symmetries leave an eighth of the pairs to evaluate, each has twice the points.
-constexpr int kMeanSamples = 4, kSymmetricMeanSamples = 8;
+// texels.
+constexpr int kMeanSamples = 4;
 constexpr glm::dvec4 kLattice(0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101);
 
 // The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
@@ -73,16 +72,16 @@ uint64_t mix(uint64_t x) {
 class Tabulator {
   public:
     Tabulator(const Brdf& brdf, BrdfPart part, TexelValue value, BrdfTable& table)
-        : mBrdf(brdf), mPart(part), mValue(value), mTable(table), mSymmetries(squareSymmetries(table)) {
-        if (!brdf.isIsotropic()) mSymmetries.resize(1);
+        : mBrdf(brdf), mPart(part), mValue(value), mTable(table), mTurns(quarterTurns(table)) {
+        if (!brdf.isIsotropic()) mTurns.resize(1);
     }
 
-    // Tabulates one outgoing direction and its images; for a reciprocal BRDF without symmetries, the values
+    // Tabulates one outgoing direction and its images; for a reciprocal BRDF without turns, the values
     // up to the diagonal and their mirror images.
     void tabulateColumn(int outgoing) const {
-        const auto image = [&](const Permutation& symmetry) { return symmetry[size_t(outgoing)]; };
-        if (std::ranges::any_of(mSymmetries, [&](const auto& by) { return image(by) < outgoing; })) return;
-        const bool isMirrored = mBrdf.isReciprocal() && mSymmetries.size() == 1;
+        const auto image = [&](const Permutation& turn) { return turn[size_t(outgoing)]; };
+        if (std::ranges::any_of(mTurns, [&](const auto& by) { return image(by) < outgoing; })) return;
+        const bool isMirrored = mBrdf.isReciprocal() && mTurns.size() == 1;
         const int end = isMirrored ? outgoing + 1 : int(mTable.directions.size());
         for (int i = 0; i < end; i++) {
             const vec3 value = valueOf(i, outgoing);
@@ -93,10 +92,9 @@ class Tabulator {
                 if (isMirrored) mTable.channels[size_t(c)](outgoing, i) = value[c];
             }
         }
-        for (const Permutation& symmetry : std::span(mSymmetries).subspan(1))
+        for (const Permutation& turn : std::span(mTurns).subspan(1))
             for (Eigen::MatrixXf& channel : mTable.channels)
-                for (int i = 0; i < end; i++)
-                    channel(symmetry[size_t(i)], image(symmetry)) = channel(i, outgoing);
+                for (int i = 0; i < end; i++) channel(turn[size_t(i)], image(turn)) = channel(i, outgoing);
     }
 
   private:
@@ -110,8 +108,8 @@ class Tabulator {
     // have the same value, and a reciprocal BRDF has a symmetric table.
     Pair representative(int incoming, int outgoing) const {
         Pair least{std::numeric_limits<int>::max(), 0, false};
-        for (const Permutation& symmetry : mSymmetries) {
-            const int in = symmetry[size_t(incoming)], out = symmetry[size_t(outgoing)];
+        for (const Permutation& turn : mTurns) {
+            const int in = turn[size_t(incoming)], out = turn[size_t(outgoing)];
             const Pair image{std::min(in, out), std::max(in, out), in > out && !mBrdf.isReciprocal()};
             if (std::tie(image.first, image.second) < std::tie(least.first, least.second)) least = image;
         }
@@ -140,8 +138,7 @@ class Tabulator {
         place /= 65536.0;
         glm::dvec3 sum(0);
         double weights = 0;
-        const int samples = mSymmetries.size() > 1 ? kSymmetricMeanSamples : kMeanSamples;
-        for (int sample = 0; sample < samples; sample++, place = glm::fract(place + kLattice)) {
+        for (int sample = 0; sample < kMeanSamples; sample++, place = glm::fract(place + kLattice)) {
             const vec3 first = directionIn(pair.first, vec2(place.x, place.y)),
                        second = directionIn(pair.second, vec2(place.z, place.w));
             const double weight = double(first.z) * double(second.z);
@@ -163,7 +160,7 @@ class Tabulator {
     BrdfPart mPart;
     TexelValue mValue;
     BrdfTable& mTable;
-    std::vector<Permutation> mSymmetries; // under which the BRDF stays the same; the identity first
+    std::vector<Permutation> mTurns; // under which the BRDF stays the same; the identity first
 };
 
 // Returns ‖M - Mᵀ‖ / ‖M‖, summed in double precision, in tiles that fit into a cache.

@@ -30,12 +30,13 @@ constexpr int kMinMapSize = 4, kMaxMapSize = 64;
 enum class BrdfPart { All, Rest, Base };
 
 // The value that represents f over a pair of texels: the value at their centers, or the mean of f cosθi cosθo
-// over four or eight pairs of points in them, divided by the mean of cosθi cosθo. Means take that many times
-// as long; ridges of f near grazing that are narrower than a texel then do not fill it.
+// over four pairs of points in them, divided by the mean of cosθi cosθo. Means take four times as long;
+// ridges of f near grazing that are narrower than a texel then do not fill it.
 enum class TexelValue { Center, Mean };
 
-// Tabulates a BRDF. Entries of an isotropic one that turning or reflecting a square map exchanges are equal:
-// an eighth is evaluated. Throws UsageError if `size` is outside kMinMapSize to kMaxMapSize.
+// Tabulates a BRDF. Entries of an isotropic one that quarter turns of an orthographic or equal-area map
+// exchange are equal: one of each four is evaluated. Throws UsageError if `size` is outside kMinMapSize to
+// kMaxMapSize.
 BrdfTable tabulate(const Brdf& brdf, int size, DiskMapping mapping, TexelValue value = TexelValue::Center,
                    BrdfPart part = BrdfPart::All);
 

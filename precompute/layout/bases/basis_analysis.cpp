@@ -69,8 +69,8 @@ LeadingEigenvectors leadingEigenvectors(const Eigen::MatrixXf& lower, Eigen::Ind
     return leading;
 }
 
-// The rows of one kind, without the columns that are empty in them. Where light bounces, color is that of
-// bounced light alone, which has a third of the columns.
+// The rows of one kind, without the columns that are empty in them. Where light bounces, kinds other than
+// gray hold bounced light alone, which has a third of the columns.
 struct KindRows {
     std::vector<Eigen::Index> columns; // those that remain, ascending
     Eigen::MatrixXf values;
