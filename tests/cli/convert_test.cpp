@@ -30,7 +30,7 @@ TEST_CASE(
     const Json info = Json::parse(succeed(folder, "info bases.relume --json").out);
     CHECK_EQ(info["parts"][0]["sets"][0]["layout"], "bases");
     CHECK_EQ(info["layout_error"]["wanted_error"], 0.03);
-    CHECK_LE(info["layout_error"]["error"], 0.032); // bytes are rounded after the choice
+    CHECK_LE(info["layout_error"]["error"], 0.032); // rounding to bytes adds to what was asked for
     CHECK_LT(info["total"]["bytes_per_vertex"], rows["total"]["bytes_per_vertex"]);
     const Json verify = Json::parse(succeed(folder, "verify bases.relume --samples 20 --json").out);
     CHECK_EQ(verify["relight_bits"], 0);

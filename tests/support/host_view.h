@@ -1,4 +1,4 @@
-// The view pass on the host, as images of two parts are held against it.
+// The view pass's twin on the host, against which tests hold images of two parts.
 #pragma once
 
 #include "engine/math/tangent_frame.h"
@@ -20,7 +20,7 @@ struct HostPixel {
     vec3 radiance;
 };
 
-// Radiance in a direction from the eye, by ray tracing and the definitions of section 9 of the method.
+// Finds the radiance in a direction from the eye by ray tracing and the definitions in docs/method.md.
 class HostView {
   public:
     HostView(const vk::Device& device, const Asset& asset, const LightVector& light,
@@ -36,14 +36,14 @@ class HostView {
                  part.materialMap ? makeMipLevels(*part.materialMap) : std::vector<Texture>()});
     }
 
-    // At a place of an image, in pixels from its upper left corner.
+    // Returns what is seen at `place` of an image, in pixels from its upper left corner.
     HostPixel at(const Camera& camera, vec2 place, ivec2 size) const {
         const auto hit = mTracer.intersect(camera.eye, camera.directionAt(place, size.x, size.y));
         if (!hit) return {false, false, vec3(0)};
         return at(camera, place, size, *hit);
     }
 
-    // A pixel of several samples, as the shaders group them. It is steady if its samples are.
+    // Returns a pixel of several samples, grouped as the shaders do, and whether all its samples are steady.
     std::pair<vec4, bool> at(const Camera& camera, ivec2 pixel, ivec2 size, int samples) const {
         std::vector<std::optional<RayHit>> hits;
         std::vector<uint32_t> seen;
@@ -83,7 +83,7 @@ class HostView {
     }
 
   private:
-    // Where a ray meets the plane of the triangle that another has hit.
+    // Returns the weights of the place where a ray meets the plane of the triangle that another ray has hit.
     vec3 planeWeightsAt(const RayHit& hit, vec3 eye, vec3 direction) const {
         const Mesh& mesh = mAsset.parts[hit.mesh].mesh;
         const uvec3 corners = mesh.triangles[hit.triangle];
@@ -93,7 +93,7 @@ class HostView {
         return {1 - solved.x - solved.y, vec2(solved)};
     }
 
-    // The same, moved to the triangle's nearest edge.
+    // Returns the same weights, moved to the triangle's nearest edge if they are outside.
     vec3 weightsAt(const RayHit& hit, vec3 eye, vec3 direction) const {
         const vec3 weights = planeWeightsAt(hit, eye, direction);
         vec2 yz = glm::clamp(vec2(weights.y, weights.z), 0.0f, 1.0f);
@@ -101,7 +101,7 @@ class HostView {
         return {1 - yz.x - yz.y, yz};
     }
 
-    // How far the texture coordinates of the next pixel are away.
+    // Returns the change of the texture coordinates towards the pixel that is `next` away.
     vec2 uvStep(const Camera& camera, vec2 place, ivec2 size, const RayHit& hit, vec2 next) const {
         const Mesh& mesh = mAsset.parts[hit.mesh].mesh;
         if (mesh.uvs.empty()) return vec2(0);
@@ -115,7 +115,7 @@ class HostView {
         return step;
     }
 
-    // Of a surface that is seen at a place of the image.
+    // Returns the pixel at `place`, where the surface `seen` is seen.
     HostPixel at(const Camera& camera, vec2 place, ivec2 size, const RayHit& seen) const {
         const vec3 direction = camera.directionAt(place, size.x, size.y);
         const RayHit* const hit = &seen;
@@ -154,7 +154,7 @@ class HostView {
 
     const MaterialSet& setOf(size_t part) const { return mAsset.parts[part].sets[mAppearance[part].set]; }
 
-    // How much of every layer of the bound set, worked out from the definitions in appearance.h.
+    // Returns the weight of every layer of the bound set, from the definitions in appearance.h.
     std::vector<vec3> layerWeights(size_t index, std::optional<vec4> baseColor, std::optional<vec4> map,
                                    vec4 color) const {
         const MaterialSet& set = setOf(index);
