@@ -16,7 +16,7 @@ namespace relume::vk {
 // thread may use it.
 class ComputePrograms {
   public:
-    // What a program is made from.
+    // A source is all that decides what a program does.
     struct Source {
         std::vector<uint32_t> spirv;
         Constants constants;

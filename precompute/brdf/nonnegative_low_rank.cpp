@@ -57,7 +57,7 @@ void sweep(Eigen::Ref<ThinMatrix> factor, const Eigen::Ref<const ThinMatrix>& pr
     }
 }
 
-// Some columns of a block, which a thread works on, and its sums over them.
+// A range of a block's columns, on which one thread works, and the sums over it.
 struct Range {
     const MatrixXf& block;
     ThinMatrix& right;
@@ -65,7 +65,7 @@ struct Range {
     ThinMatrix product, gram; // block · right, rightᵀ · right
 };
 
-// The ranges do not depend on the number of threads, and so neither does any sum.
+// Returns ranges that cover all blocks. They do not depend on the number of threads, so neither does any sum.
 std::vector<Range> makeRanges(Blocks blocks, std::vector<ThinMatrix>& right) {
     constexpr Index kTogether = 128;
     std::vector<Range> ranges;

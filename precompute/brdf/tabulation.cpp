@@ -29,13 +29,12 @@ void listDirections(BrdfTable& table) {
         }
 }
 
-// A permutation of the directions' numbers.
+// Maps the number of every direction to that of its image.
 using Permutation = std::vector<int>;
 
-// Returns the quarter turns of an orthographic or equal-area map, as far as they map directions to
-// directions; the identity comes first. An isotropic BRDF has the same value for a pair of directions and for
-// its images. Measured ones need not be the same in a mirror. Polar maps have other turns, which are not
-// used.
+// Returns the quarter turns of an orthographic or equal-area map, the identity first. An isotropic BRDF has
+// the same value for a pair of directions and for its images. Reflections would not do: measured BRDFs need
+// not be the same in a mirror. Polar maps have other turns, which are not used.
 std::vector<Permutation> quarterTurns(const BrdfTable& table) {
     const int size = table.size, count = int(table.directions.size());
     std::vector<int> numbers(size_t(size) * size_t(size), -1); // by texel
@@ -51,7 +50,8 @@ std::vector<Permutation> quarterTurns(const BrdfTable& table) {
             for (int i = 0; i < turn; i++) texel = {size - 1 - texel.y, texel.x};
             images.push_back(numbers[size_t(texel.y * size + texel.x)]);
         }
-        // Rounding may put one of two opposite texels at the rim outside the disk.
+        // Rounding may put one of two opposite texels at the rim outside the disk. The turns that remain are
+        // a group.
         if (std::ranges::count(images, -1) > 0) turns.pop_back();
     }
     return turns;
@@ -76,8 +76,8 @@ class Tabulator {
         if (!brdf.isIsotropic()) mTurns.resize(1);
     }
 
-    // Tabulates one outgoing direction and its images; for a reciprocal BRDF without turns, the values
-    // up to the diagonal and their mirror images.
+    // Tabulates an outgoing direction and its images, unless it is the image of an earlier one. Without
+    // turns, the values of a reciprocal BRDF up to the diagonal suffice for those beyond.
     void tabulateColumn(int outgoing) const {
         const auto image = [&](const Permutation& turn) { return turn[size_t(outgoing)]; };
         if (std::ranges::any_of(mTurns, [&](const auto& by) { return image(by) < outgoing; })) return;
@@ -98,14 +98,15 @@ class Tabulator {
     }
 
   private:
-    // Two directions, whose numbers rise, and which of both the light comes from.
+    // Two directions, in rising order of their numbers. Light comes from the first, or if swapped from the
+    // second.
     struct Pair {
         int first, second;
         bool isSwapped;
     };
 
-    // Returns the image of a pair that stands for all of them; if swapped, it comes from the second. So all
-    // have the same value, and a reciprocal BRDF has a symmetric table.
+    // Returns the pair's image of least numbers. It is evaluated for all images, so that they have the same
+    // value and the table of a reciprocal BRDF is symmetric.
     Pair representative(int incoming, int outgoing) const {
         Pair least{std::numeric_limits<int>::max(), 0, false};
         for (const Permutation& turn : mTurns) {
@@ -160,7 +161,7 @@ class Tabulator {
     BrdfPart mPart;
     TexelValue mValue;
     BrdfTable& mTable;
-    std::vector<Permutation> mTurns; // under which the BRDF stays the same; the identity first
+    std::vector<Permutation> mTurns; // the identity alone if the BRDF is not isotropic
 };
 
 // Returns ‖M - Mᵀ‖ / ‖M‖, summed in double precision, in tiles that fit into a cache.

@@ -126,7 +126,7 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
     analysis.columns = matrix.columns;
     analysis.energy = matrix.energy;
     std::vector<KindRows> kinds;
-    for (Eigen::Index kind = 0; kind < matrix.energy.size(); kind++)
+    for (Eigen::Index kind = 0; kind < Eigen::Index(matrix.kinds()); kind++)
         kinds.push_back(rowsOfKind(matrix, kind));
     if (values.size() > 0) {
         const bool isWide = values.rows() < values.cols();
@@ -143,7 +143,7 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
             analysis.vectors =
                 values.transpose() * leading.vectors * leading.values.cwiseSqrt().cwiseInverse().asDiagonal();
     }
-    analysis.vectorEnergy.resize(matrix.energy.size(), analysis.vectors.cols());
+    analysis.vectorEnergy.resize(Eigen::Index(matrix.kinds()), analysis.vectors.cols());
     for (size_t kind = 0; kind < kinds.size(); kind++) {
         const Eigen::MatrixXf own = analysis.vectors(kinds[kind].columns, Eigen::all);
         analysis.vectorEnergy.row(Eigen::Index(kind)) =
