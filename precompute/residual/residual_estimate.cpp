@@ -9,8 +9,7 @@ namespace relume {
 
 namespace {
 
-constexpr float kLeastShare = 0.25f;                      // least estimate, relative to r E
-constexpr float kLeastOfGray = 0.8f, kMostOfGray = 1.25f; // bounds of a channel's ratio over luminance's
+constexpr float kLeastShare = 0.25f; // least estimate, relative to r E
 
 } // namespace
 
@@ -40,13 +39,8 @@ vec3 differenceEstimate(const EstimateSums& sums, bool isBounced) {
 
 vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced) {
     const vec3 all = sums.terms + leastView * sums.unlit, lit = sums.shadowed + leastView * sums.lit;
-    if (isBounced)
-        return sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1)) +
-               glm::max(sums.shadowed - sums.terms, vec3(0));
-    const float gray = std::max(litShare(lit, all), kLeastShare * litShare(sums.lit, sums.unlit));
-    const vec3 ratio =
-        glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(kLeastOfGray * gray), vec3(kMostOfGray * gray));
-    return sums.exact * glm::min(ratio, vec3(1));
+    const vec3 estimate = sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1));
+    return isBounced ? estimate + glm::max(sums.shadowed - sums.terms, vec3(0)) : estimate;
 }
 
 } // namespace relume

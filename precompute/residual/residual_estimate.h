@@ -29,11 +29,9 @@ vec3 keyLeastView(std::span<const vec3> views);
 // estimate may exceed E by as much as T exceeds S.
 vec3 differenceEstimate(const EstimateSums& sums, bool isBounced = false);
 
-// Returns the estimate for nonnegative terms, the ratio E T / S. `leastView` is added to every view map: the
-// more, the more the sums of the tuples give the ratio. Each channel's ratio is clamped to [0.8, 1.25] of the
-// luminance's and to at most 1, the luminance's to at least a quarter of the irradiance's, since storage
-// errors would otherwise color and darken faint light. With `isBounced`, ratios are only clamped to [0, 1],
-// and the excess of T over S is added.
+// Returns the estimate for nonnegative terms, the ratio E T / S, where T / S is at most 1; with `isBounced`
+// what T exceeds S by is added. `leastView` is added to every view map: the more, the more the sums of the
+// tuples give the ratio.
 vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced = false);
 
 } // namespace relume

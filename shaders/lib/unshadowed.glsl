@@ -96,19 +96,14 @@ vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms, bool
     return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, most);
 }
 
-// Estimates radiance with nonnegative terms, by the ratio E T / S. `leastView` is added to every view map: the more,
-// the more the sums of the tuples, which do not depend on the view, give the ratio. Each channel's ratio is clamped to a
-// range around that of luminance, and that from below by a part of the irradiance's: storage errors would color and
-// blacken places that little light reaches. Bounced light has its own colors, so that the excess of T over S is added
-// instead.
-const float kLeastOfGray = 0.8, kMostOfGray = 1.25;
+// Estimates radiance with nonnegative terms, by the ratio E T / S, where T / S is at most 1; with bounced light what T
+// exceeds S by is added. `leastView` is added to every view map: the more, the more the sums of the tuples, which do
+// not depend on the view, give the ratio.
 vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples, bool isBounced,
                    vec3 leastView) {
     const vec3 all = terms + leastView * unshadowedTuples, lit = shadowed + leastView * tuples;
-    const vec3 ratio = lit / max(all, vec3(1e-30));
-    if (isBounced) return exact * clamp(ratio, 0, 1) + max(shadowed - terms, 0);
-    const float gray = max(litShare(lit, all), kLeastShare * litShare(tuples, unshadowedTuples));
-    return exact * min(clamp(ratio, kLeastOfGray * gray, kMostOfGray * gray), 1);
+    const vec3 estimate = exact * clamp(lit / max(all, vec3(1e-30)), 0, 1);
+    return isBounced ? estimate + max(shadowed - terms, 0) : estimate;
 }
 
 #endif
