@@ -167,6 +167,22 @@ std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
     return first;
 }
 
+// Scales the view maps of every layer and direction, so that the terms reflect as much of an even light as
+// the matrix. Least squares alone leave anisotropic BRDFs a seventh too bright from above, and a third too
+// dark at grazing angles, which bounced light shows.
+void matchAlbedo(const BrdfTable& table, const std::vector<const MatrixXf*>& matrices,
+                 ChannelFactors& factors) {
+    VectorXf irradiance(Index(table.directions.size())); // by a radiance of 1 from each direction
+    for (Index i = 0; i < irradiance.size(); i++)
+        irradiance[i] = table.directions[size_t(i)].z * table.solidAngles[size_t(i)];
+    const VectorXf light = factors.light.transpose() * irradiance;
+    for (size_t j = 0; j < matrices.size(); j++) {
+        const VectorXf wanted = matrices[j]->transpose() * irradiance, found = factors.view[j] * light;
+        for (Index o = 0; o < wanted.size(); o++)
+            if (found[o] > 0) factors.view[j].row(o) *= wanted[o] / found[o];
+    }
+}
+
 // Factors all channels with one set of gray light maps. Nonnegative factorization has many local optima:
 // channels factored separately end in different ones, and errors of their terms then tint gray materials.
 // Transport of gray light maps also takes less than half the bytes.
@@ -177,7 +193,8 @@ std::array<ChannelFactors, 3> factorizeTogether(std::span<const BrdfTable> table
     for (const BrdfTable& table : tables)
         for (size_t c = 0; c < 3; c++)
             if (first[c] == c) matrices.push_back(&table.channels[c]);
-    const ChannelFactors all = factorizeGeneral(matrices, weights, Factorization::NonNegative, terms);
+    ChannelFactors all = factorizeGeneral(matrices, weights, Factorization::NonNegative, terms);
+    matchAlbedo(tables[0], matrices, all);
     const size_t distinct = matrices.size() / tables.size();
     std::array<ChannelFactors, 3> factors;
     size_t next = 0; // index of the next factored channel

@@ -236,6 +236,23 @@ TEST_CASE("factorization: nonnegative terms have gray light maps, and what is ne
         CHECK(glm::length(value / vec3(0.527f, 0.509f, 0.491f) * 0.509f - vec3(value.y)) < 0.04f * largest);
 }
 
+TEST_CASE("factorization: nonnegative terms reflect as much of an even light as f, into any view") {
+    const std::vector<BrdfTable> tables = {tableOf("ashikhmin-shirley", 12, DiskMapping::EqualArea),
+                                           tableOf("gold", 12, DiskMapping::EqualArea)};
+    const FactoredBrdf brdf = factorize(tables, {.terms = 4, .method = Factorization::NonNegative});
+    for (int layer = 0; layer < 2; layer++) {
+        const BrdfTable& table = tables[size_t(layer)];
+        Eigen::VectorXf irradiance(Eigen::Index(table.directions.size()));
+        for (Eigen::Index i = 0; i < irradiance.size(); i++)
+            irradiance[i] = table.directions[size_t(i)].z * table.solidAngles[size_t(i)];
+        for (int channel = 0; channel < 3; channel++) {
+            const Eigen::VectorXf wanted = table.channels[size_t(channel)].transpose() * irradiance,
+                                  found = reconstruct(brdf, table, channel, layer).transpose() * irradiance;
+            CHECK((found - wanted).cwiseQuotient(wanted).cwiseAbs().maxCoeff() < 1e-4f);
+        }
+    }
+}
+
 TEST_CASE("factorization: term counts out of range are refused") {
     const BrdfTable table = tableOf("clay", 4);
     for (int terms : {-1, 0, 33}) CHECK_THROWS_AS(factorize(table, {terms}), UsageError);
