@@ -23,7 +23,7 @@ namespace relume {
 namespace {
 
 // Sources, the transport that lights others, have the smallest sizes that the kernels support.
-constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 96;
+constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 192;
 
 // Returns a low-resolution plan of the bound sets alone, without an occluder yet.
 BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
