@@ -2,6 +2,7 @@
 
 #include "engine/base/printable.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
 #include <unistd.h>
@@ -55,6 +56,7 @@ void Progress::update(const State& state) {
         if (state.done < mTotal && secondsBetween(mLastPrint, now) < kRedrawSeconds) return;
     } else {
         const auto tenths = uint64_t(state.fraction * 10);
+        mNextTenth = std::min(mNextTenth, tenths + 1); // less where the total turned out to be larger
         if (tenths < mNextTenth) return;
         mNextTenth = tenths + 1;
     }

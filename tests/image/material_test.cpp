@@ -20,14 +20,14 @@ using namespace relume::test;
 
 namespace {
 
-constexpr int kMaterialWidth = 64, kMaterialHeight = 48;
+constexpr int kMaterialWidth = 64, kMaterialHeight = 48, kMaterialFaceSize = 32;
 
 class MaterialTest {
   public:
     MaterialTest(Scene scene, int terms, const Camera& camera)
         : mAsset(bake(mDevice, std::move(scene), optionsOf(terms))), mCamera(camera),
-          mSky(sampleEnvironment(prepareForSampling(makeSky()), 64, 0)), mLight(mDevice, 64),
-          mRelighter(mDevice, mAsset),
+          mSky(sampleEnvironment(prepareForSampling(makeSky()), kMaterialFaceSize, 0)),
+          mLight(mDevice, kMaterialFaceSize), mRelighter(mDevice, mAsset),
           mView(mDevice, mAsset, {.width = kMaterialWidth, .height = kMaterialHeight, .samples = 1}) {
         mLight.setCube(mSky);
     }
@@ -57,6 +57,7 @@ class MaterialTest {
     static BakeOptions optionsOf(int terms) {
         BakeOptions options;
         options.factorization.terms = terms;
+        options.faceSize = kMaterialFaceSize;
         options.visibilitySize = 64;
         options.coefficients = 192;
         return options;
