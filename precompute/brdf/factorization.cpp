@@ -168,7 +168,7 @@ std::array<size_t, 3> firstEqualChannels(std::span<const BrdfTable> tables) {
 }
 
 // Scales the view maps of every layer and direction, so that the terms reflect as much of an even light as
-// the matrix. Least squares alone leave anisotropic BRDFs a seventh too bright from above, and a third too
+// the matrix. Least squares alone leave Ashikhmin-Shirley a seventh too bright from above and up to 40 % too
 // dark at grazing angles, which bounced light shows.
 void matchAlbedo(const BrdfTable& table, const std::vector<const MatrixXf*>& matrices,
                  ChannelFactors& factors) {
