@@ -390,40 +390,30 @@ bool isOfPart(uint triangleId) { return triangleId - push.firstTriangleId < push
 #ifdef MULTISAMPLED
 
 // Sums the part's groups of samples, each times its share of the pixel. A group is the first sample left, with all
-// whose triangles share a vertex with its own.
-vec4 shadeEdge(uint seen[kSamples]) {
+// whose triangles share a vertex with its own; all samples of an inner pixel are one.
+void main() {
+    uint seen[kSamples], left = 0;
     uvec3 corners[kSamples];
-    uint left = 0;
-    for (uint i = 0; i < kSamples; i++) {
+    for (int i = 0; i < (kEdges ? kSamples : 1); i++) {
+        seen[i] = texelFetch(triangleIds, ivec3(gl_FragCoord.xy, 0), i).x;
         const bool isOwn = isOfPart(seen[i]);
-        corners[i] = texelOf(triangles, isOwn ? int(seen[i] - push.firstTriangleId) : 0).xyz;
+        if (kEdges) corners[i] = texelOf(triangles, isOwn ? int(seen[i] - push.firstTriangleId) : 0).xyz;
         left |= uint(isOwn) << i;
     }
     if (left == 0) discard;
-    vec4 sum = vec4(0);
-    while (left != 0) {
+    radiance = vec4(0);
+    // It is a loop for both, since it takes a driver twice as long to compile shadeAt() where it is called twice.
+    do {
         const uint first = findLSB(left);
-        uint members = 0;
-        for (uint i = 0; i < kSamples; i++) members |= uint(shareVertex(corners[first], corners[i])) << i;
-        members &= left;
-        const SampleGroup group = groupOf(members);
-        sum += group.share * shadeAt(seen[first] - push.firstTriangleId, floor(gl_FragCoord.xy) + group.position);
-        left &= ~members;
-    }
-    return sum;
-}
-
-void main() {
-    if (kEdges) {
-        uint seen[kSamples];
-        readSamples(seen);
-        radiance = shadeEdge(seen);
-        return;
-    }
-    // All samples are one group, whose mean position is the center.
-    const uint triangleId = texelFetch(triangleIds, ivec3(gl_FragCoord.xy, 0), 0).x;
-    if (!isOfPart(triangleId)) discard;
-    radiance = shadeAt(triangleId - push.firstTriangleId, gl_FragCoord.xy);
+        SampleGroup group = SampleGroup(left, vec2(0.5), 1);
+        if (kEdges) {
+            uint members = 0;
+            for (uint i = 0; i < kSamples; i++) members |= uint(shareVertex(corners[first], corners[i])) << i;
+            group = groupOf(members & left);
+        }
+        radiance += group.share * shadeAt(seen[first] - push.firstTriangleId, floor(gl_FragCoord.xy) + group.position);
+        left &= ~group.members;
+    } while (kEdges && left != 0);
 }
 
 #else

@@ -17,8 +17,8 @@ Model::Model(const vk::Device& device, const std::filesystem::path& path, Asset 
     : file(path), isSketch(isUnshadowed), asset(std::move(whole)), bounds(objectBounds(asset)),
       groundFade(makeGroundFade(asset, GroundStyle::Shadow)), appearance(defaultAppearance(asset)),
       light(device, asset.faceSize), relighter(device, asset, {}),
-      view(device, asset, {.isUnshadowed = isUnshadowed}), surfaces(partMeshes(asset)),
-      occluder(asset.occluder, asset.visibilitySize) {}
+      view(device, asset, {.isUnshadowed = isUnshadowed, .preparesAllMaterials = !isUnshadowed}),
+      surfaces(partMeshes(asset)), occluder(asset.occluder, asset.visibilitySize) {}
 
 int termsOf(const Model& model) {
     int terms = 0;

@@ -107,7 +107,7 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source,
     const int lengths[] = {int(text.size())};
     const char* const names[] = {name.c_str()};
 
-    // Options as in shaders/CMakeLists.txt: glslangValidator -V --target-env vulkan1.3 -I…
+    // Options as in shaders/CMakeLists.txt: glslangValidator -V -Os --target-env vulkan1.3 -I…
     glslang::TShader shader(stage);
     shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
     std::string preamble;
@@ -124,8 +124,11 @@ std::vector<uint32_t> compileShader(const std::filesystem::path& source,
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(kMessages)) throw Error(fmt::format("{}: {}", name, errorsIn(program.getInfoLog())));
+    glslang::SpvOptions options;
+    options.disableOptimizer = false;
+    options.optimizeSize = true;
     std::vector<uint32_t> spirv;
-    glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
+    glslang::GlslangToSpv(*program.getIntermediate(stage), spirv, &options);
     return spirv;
 }
 

@@ -39,8 +39,8 @@ class ShadePrograms {
     ShadePrograms(const vk::Device& device, VkFormat depthFormat)
         : mDevice(device), mDepthFormat(depthFormat) {}
 
-    // Makes those of the programs that are missing, side by side: a driver takes about a tenth of a second
-    // for each.
+    // Makes those of the programs that are missing, side by side: a driver takes a tenth to three tenths of a
+    // second for each.
     void make(std::span<const ShadeVariant> variants);
 
     // Returns a program, which is made if it is missing. It stays where it is.

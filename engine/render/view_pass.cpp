@@ -45,6 +45,12 @@ std::set<uint32_t> harmonicsOf(const MaterialSet& set, const ResidualSet* residu
     return harmonics;
 }
 
+uint32_t boundHarmonics(const ViewPart& part, const ResidualSet* residual) {
+    if (!residual || part.look != shared::kSingleLook) return mostHarmonics(residual);
+    const size_t layer = part.boundLayers[0].firstMap / part.boundSet().viewMaps.imagesPerLayer;
+    return uint32_t(residual->layers[layer]->harmonics);
+}
+
 float medianAreaOf(const Asset& asset) {
     std::vector<float> areas;
     for (const AssetPart& part : asset.parts)
@@ -62,7 +68,8 @@ float medianAreaOf(const Asset& asset) {
 
 ViewPass::ViewPass(const vk::Device& device, const Asset& asset, const ViewOptions& options)
     : mDevice(device), mAsset(asset), mBounds(boundsOf(asset)), mDepthFormat(viewDepthFormat(device)),
-      mShadePrograms(device, mDepthFormat), mIsUnshadowed(options.isUnshadowed) {
+      mShadePrograms(device, mDepthFormat), mIsUnshadowed(options.isUnshadowed),
+      mPreparesAllMaterials(options.preparesAllMaterials) {
     constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     mPixelSampler = {device, kClamp, kClamp, "triangle ids", VK_FILTER_NEAREST};
     mDiskSampler = {device, kClamp, kClamp, "view maps"};
@@ -114,22 +121,27 @@ void ViewPass::makePrograms() {
 
 void ViewPass::makeShadePrograms(const Relighter& relighter) {
     std::vector<ShadeVariant> variants;
-    for (size_t p = 0; p < mParts.size(); p++)
-        for (size_t s = 0; s < mParts[p].sets.size(); s++) {
+    const auto add = [&](size_t p, size_t s, uint32_t look, const ResidualSet* residual, uint32_t harmonics) {
+        for (const ShadedPixels pixels : {ShadedPixels::All, ShadedPixels::Inner, ShadedPixels::Edges})
+            if ((pixels == ShadedPixels::All) == (mSamples == 1))
+                variants.push_back(variantOf(p, mParts[p].sets[s], look, true, residual, harmonics, pixels));
+    };
+    for (size_t p = 0; p < mParts.size(); p++) {
+        const ViewPart& part = mParts[p];
+        if (part.triangleCount == 0) continue;
+        if (!mPreparesAllMaterials) {
+            const ResidualSet* residual = residualOf(p, part.bound.set, relighter);
+            add(p, part.bound.set, part.look, residual, boundHarmonics(part, residual));
+            continue;
+        }
+        for (size_t s = 0; s < part.sets.size(); s++) {
             const ResidualSet* residual = residualOf(p, s, relighter);
             const MaterialSet& source = mAsset.parts[p].sets[s];
-            for (const uint32_t look : looksOf(mAsset.parts[p], source)) {
-                // An unshadowed asset is soon replaced, and its first image must not wait for programs that
-                // may not be needed.
-                if (mIsUnshadowed && (s != mParts[p].bound.set || look != mParts[p].look)) continue;
+            for (const uint32_t look : looksOf(mAsset.parts[p], source))
                 for (const uint32_t harmonics : harmonicsOf(source, residual, look))
-                    for (const ShadedPixels pixels :
-                         {ShadedPixels::All, ShadedPixels::Inner, ShadedPixels::Edges})
-                        if ((pixels == ShadedPixels::All) == (mSamples == 1))
-                            variants.push_back(
-                                variantOf(p, mParts[p].sets[s], look, true, residual, harmonics, pixels));
-            }
+                    add(p, s, look, residual, harmonics);
         }
+    }
     mShadePrograms.make(variants);
 }
 
@@ -336,8 +348,8 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                                      spheres.fillSlots(),
                                      fades ? vec4(mGroundFade->center, mGroundFade->inner, mGroundFade->outer)
                                            : vec4(0)};
-    const uint32_t harmonics = isSingle && residual ? part.boundLayers[0].harmonics : mostHarmonics(residual);
-    commands.bind(mShadePrograms.get(variantOf(number, set, part.look, usesAll, residual, harmonics, pixels)),
+    commands.bind(mShadePrograms.get(variantOf(number, set, part.look, usesAll, residual,
+                                               boundHarmonics(part, residual), pixels)),
                   {{mTriangleIds, mPixelSampler},
                    vk::Binding::texelsOf(part.triangles, VK_FORMAT_R32G32B32A32_UINT),
                    vk::Binding::texelsOf(part.vertices, VK_FORMAT_R32G32B32A32_SFLOAT),

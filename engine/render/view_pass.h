@@ -20,6 +20,9 @@ struct ViewOptions {
     int samples = kDefaultSamples; // see setSamples()
     // Draws parts with a residual as if nothing shadowed them, whatever their transport.
     bool isUnshadowed = false;
+    // Makes the programs of all materials before the first image, so that no swap waits for its own.
+    // Otherwise each is made when it is first drawn.
+    bool preparesAllMaterials = false;
 };
 
 // What an image shows instead of radiance: edges of triangles; normals, colored as in normal maps; or
@@ -113,8 +116,7 @@ class ViewPass {
     void inspect(vk::Commands& commands, const Frame& frame, const ViewPart& part);
     // Returns none if the bounds are not seen.
     static std::optional<shared::ViewRays> raysOf(const Frame& frame, const Bounds& bounds);
-    // Makes the programs of all sets and their looks early, so that no change of materials waits; for an
-    // unshadowed asset those of the bound materials.
+    // Makes the programs of the bound materials, or of all, side by side.
     void makeShadePrograms(const Relighter& relighter);
 
     const vk::Device& mDevice;
@@ -134,7 +136,7 @@ class ViewPass {
         mSurfaceSampler; // mPolarSampler repeats in x, mSurfaceSampler in x and y
     std::vector<ViewPart> mParts;
     int mTerms = 0;
-    bool mIsUnshadowed;
+    bool mIsUnshadowed, mPreparesAllMaterials;
     bool mAddsResidual = true, mHasShadePrograms = false;
     std::optional<GroundFade> mGroundFade;
     Inspect mInspect = Inspect::Off;

@@ -2,10 +2,10 @@
 
 #include "engine/base/check.h"
 #include "engine/base/log.h"
-#include "engine/vk/compute_programs.h"
 #include "engine/vk/device_list.h"
 #include "engine/vk/features.h"
 #include "engine/vk/pipeline_cache.h"
+#include "engine/vk/programs.h"
 #include "engine/vk/result.h"
 #include "engine/vk/shader_replacement.h"
 #include "shaders/portable_shaders.h"
@@ -126,7 +126,7 @@ Device::Device(const DeviceOptions& options) {
         pickPhysicalDevice(options.select, options.leastFeatures);
         createDevice(!options.surfaceExtensions.empty());
         mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, options.pipelineCache);
-        mComputePrograms = std::make_unique<ComputePrograms>();
+        mPrograms = std::make_unique<Programs>();
     } catch (...) {
         destroy();
         throw;
@@ -156,19 +156,19 @@ Device::Device(const HostDevice& host) : mIsHosts(true), mInstance(host.instance
     loadDebugUtils();
     mMemoryPool = std::make_unique<MemoryPool>(mDevice);
     mPipelineCache = std::make_unique<PipelineCache>(mDevice, mProperties, std::filesystem::path());
-    mComputePrograms = std::make_unique<ComputePrograms>();
+    mPrograms = std::make_unique<Programs>();
 }
 
 void Device::destroy() {
     if (mIsHosts) {
-        mComputePrograms.reset();
+        mPrograms.reset();
         mPipelineCache.reset();
         mMemoryPool.reset();
         return;
     }
     if (mDevice) {
         vkDeviceWaitIdle(mDevice);
-        mComputePrograms.reset();
+        mPrograms.reset();
         mPipelineCache.reset();
         mMemoryPool.reset();
         vkDestroyDevice(mDevice, nullptr);
@@ -348,7 +348,7 @@ size_t Device::replaceShaders(std::span<const ShaderReplacement> replacements) {
         mReplacedShaders[replacement.builtIn.data()] = replacement.spirv;
         changed++;
     }
-    if (changed > 0) mComputePrograms->clear();
+    if (changed > 0) mPrograms->clear();
     return changed;
 }
 

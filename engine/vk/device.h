@@ -16,7 +16,7 @@
 
 namespace relume::vk {
 
-class ComputePrograms;
+class Programs;
 class PipelineCache;
 struct ShaderReplacement;
 
@@ -141,8 +141,8 @@ class Device {
     void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
 
-    // Returns the compute programs that were made so far.
-    ComputePrograms& computePrograms() const { return *mComputePrograms; }
+    // Returns the programs that were made so far.
+    Programs& programs() const { return *mPrograms; }
 
     // Returns the cache that every pipeline is created with; any thread may use it.
     VkPipelineCache pipelineCache() const;
@@ -186,7 +186,7 @@ class Device {
     DeviceInfo mInfo{};
     std::unique_ptr<MemoryPool> mMemoryPool;
     std::unique_ptr<PipelineCache> mPipelineCache;
-    std::unique_ptr<ComputePrograms> mComputePrograms;
+    std::unique_ptr<Programs> mPrograms;
     mutable std::mutex mShaderMutex;
     std::map<const uint32_t*, std::vector<uint32_t>> mReplacedShaders; // by the built-in array
     std::atomic<int> mValidationMessages = 0;

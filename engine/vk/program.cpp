@@ -2,8 +2,8 @@
 
 #include "engine/base/check.h"
 #include "engine/math/vector.h"
-#include "engine/vk/compute_programs.h"
 #include "engine/vk/image.h"
+#include "engine/vk/programs.h"
 #include "engine/vk/result.h"
 
 #include <algorithm>
@@ -99,19 +99,18 @@ Program::makeLayouts(const Device& device, std::span<const ShaderInterface> shad
 
 ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> spirv,
                                const Constants& constants, std::string_view name, Subgroups subgroups) {
-    ComputePrograms::Source source{device.shader(spirv), constants, subgroups};
-    if (const std::optional<ComputeProgram> made = device.computePrograms().find(source)) {
-        *this = *made;
-        return;
-    }
-    const ShaderInterface interface = reflect(source.spirv, constants);
+    Programs::Source source{
+        .shaders = {device.shader(spirv)}, .constants = constants, .subgroups = subgroups};
+    static_cast<Program&>(*this) = device.programs().find(source);
+    if (pipeline()) return;
+    const ShaderInterface interface = reflect(source.shaders[0], constants);
     const std::array<uint32_t, 3>& groupSize = interface.groupSize;
     RELUME_CHECK_LE(groupSize[0] * groupSize[1] * groupSize[2],
                     device.limits().maxComputeWorkGroupInvocations);
     const std::shared_ptr<Objects> objects = makeLayouts(device, {&interface, 1}, name);
     objects->groupSize = groupSize;
 
-    const Module module(device, source.spirv, name);
+    const Module module(device, source.shaders[0], name);
     const Specialization specialization(constants);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialization.info);
@@ -128,18 +127,22 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
                                        &objects->pipeline));
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(objects->pipeline), name);
     mObjects = objects;
-    *this = device.computePrograms().add(std::move(source), *this);
+    static_cast<Program&>(*this) = device.programs().add(std::move(source), *this);
 }
 
 GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t> vertexSpirv,
                                  std::span<const uint32_t> fragmentSpirv, const Constants& constants,
                                  const GraphicsOptions& options, std::string_view name) {
-    const std::vector<uint32_t> usedVertex = device.shader(vertexSpirv);
-    const std::vector<uint32_t> usedFragment = device.shader(fragmentSpirv);
-    const ShaderInterface interfaces[] = {reflect(usedVertex, constants), reflect(usedFragment, constants)};
+    Programs::Source source{.shaders = {device.shader(vertexSpirv), device.shader(fragmentSpirv)},
+                            .constants = constants,
+                            .options = options};
+    static_cast<Program&>(*this) = device.programs().find(source);
+    if (pipeline()) return;
+    const ShaderInterface interfaces[] = {reflect(source.shaders[0], constants),
+                                          reflect(source.shaders[1], constants)};
     const std::shared_ptr<Objects> objects = makeLayouts(device, interfaces, name);
 
-    const Module vertex(device, usedVertex, name), fragment(device, usedFragment, name);
+    const Module vertex(device, source.shaders[0], name), fragment(device, source.shaders[1], name);
     const Specialization specialization(constants);
     const VkPipelineShaderStageCreateInfo stages[] = {
         vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, specialization.info),
@@ -214,6 +217,7 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
                                         &objects->pipeline));
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(objects->pipeline), name);
     mObjects = objects;
+    static_cast<Program&>(*this) = device.programs().add(std::move(source), *this);
 }
 
 } // namespace relume::vk

@@ -7,7 +7,8 @@
 namespace relume::vk {
 
 // The base of compute and graphics programs: a pipeline and its layouts, which have descriptor set 0 only.
-// Copies share them; an empty program has none.
+// Copies share them; an empty program has none. Those that are made on a device from the same SPIR-V,
+// constants and options are one, with the name of the first (programs.h).
 class Program {
   public:
     Program() = default;
@@ -46,14 +47,14 @@ class Program {
     std::shared_ptr<const Objects> mObjects;
 };
 
-// A compute pipeline. Those that are made on a device from the same SPIR-V, constants and subgroups are one,
-// with the name of the first (compute_programs.h).
+// With Subgroups::Full every subgroup has DeviceInfo::subgroupSize invocations; the group size must be a
+// multiple of that.
+enum class Subgroups { Any, Full };
+
+// A compute pipeline.
 class ComputeProgram : public Program {
   public:
     ComputeProgram() = default;
-    // With Subgroups::Full every subgroup has DeviceInfo::subgroupSize invocations; the group size must be a
-    // multiple of that.
-    enum class Subgroups { Any, Full };
     ComputeProgram(const Device& device, std::span<const uint32_t> spirv, const Constants& constants,
                    std::string_view name, Subgroups subgroups = Subgroups::Any);
 };
@@ -76,6 +77,8 @@ struct GraphicsOptions {
     uint32_t samples = 1;        // per pixel of the target
     bool writesColor = true;
     bool addsColor = false; // adds to the target's color; otherwise replaces it
+
+    auto operator<=>(const GraphicsOptions&) const = default;
 };
 
 // A graphics pipeline that draws triangle lists, with dynamic viewport and scissor. Vertex shaders read

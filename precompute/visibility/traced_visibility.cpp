@@ -46,7 +46,7 @@ TracedVisibility::TracedVisibility(const vk::Device& device, const Mesh& occlude
               visibility_trace_comp_spirv,
               {size, tileHeight, stackSize, lanes},
               "visibility trace",
-              vk::ComputeProgram::Subgroups::Full};
+              vk::Subgroups::Full};
 }
 
 Kernels TracedVisibility::kernels() { return {visibility_trace_comp_spirv}; }

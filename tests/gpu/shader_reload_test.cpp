@@ -198,10 +198,12 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
         sources.edit(file, old, text);
         return complaint(file, sources.compile(file));
     };
-    // Unused ones count: the sets are made of what is declared.
+    const Sources more;
+    more.edit("display.frag", "layout(location = 0)",
+              "layout(binding = 1) uniform sampler2D other;\nlayout(location = 0)");
+    more.edit("display.frag", kShowBackground, "? texture(other, vec2(0)).rgb :");
     CHECK(contains(
-        edited("display.frag", "layout(location = 0)",
-               "layout(binding = 1) uniform sampler2D other;\nlayout(location = 0)"),
+        complaint("display.frag", more.compile("display.frag")),
         "binding 1: found sampled image of float, dimension 1, but this program was built for nothing"));
     CHECK(
         contains(edited("display.frag", "layout(binding = 0)", "layout(set = 1, binding = 0)"), "binding 0"));

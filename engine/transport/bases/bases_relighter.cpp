@@ -117,7 +117,7 @@ BasesRelighter::BasesRelighter(const vk::Device& device, const BasisTransport& t
     const bool isPortable = info.takesPortableShaders();
     // A subgroup; 8 or 32 invocations for portable shaders.
     const uint32_t lanes = !isPortable ? info.subgroupSize : info.isSoftware ? 8 : 32;
-    using enum vk::ComputeProgram::Subgroups;
+    using enum vk::Subgroups;
     mProject = {device, relight_project_comp_spirv, {lanes}, "relight project", isPortable ? Any : Full};
     mCombine = {device, relight_combine_comp_spirv, {lanes}, "relight combine"};
     mGroupsPerTerm = divideUp(kBasisVertices / kVerticesPerLane, lanes);

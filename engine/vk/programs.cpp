@@ -1,21 +1,21 @@
-#include "engine/vk/compute_programs.h"
+#include "engine/vk/programs.h"
 
 #include <utility>
 
 namespace relume::vk {
 
-std::optional<ComputeProgram> ComputePrograms::find(const Source& source) const {
+Program Programs::find(const Source& source) const {
     const std::lock_guard lock(mMutex);
     const auto found = mPrograms.find(source);
-    return found == mPrograms.end() ? std::nullopt : std::optional(found->second);
+    return found == mPrograms.end() ? Program() : found->second;
 }
 
-ComputeProgram ComputePrograms::add(Source source, ComputeProgram program) {
+Program Programs::add(Source source, Program program) {
     const std::lock_guard lock(mMutex);
     return mPrograms.try_emplace(std::move(source), std::move(program)).first->second;
 }
 
-void ComputePrograms::clear() {
+void Programs::clear() {
     const std::lock_guard lock(mMutex);
     mPrograms.clear();
 }
