@@ -7,7 +7,7 @@
 namespace relume {
 
 // Raised whenever bounced light comes out differently, which invalidates older checkpoints and shards.
-constexpr uint32_t kBouncesVersion = 6;
+constexpr uint32_t kBouncesVersion = 7;
 
 // Rows of bounced light per part and set.
 class BouncedTransport {

@@ -68,45 +68,70 @@ SparseTransport bounceRows(const SparseTransport& rows, int faceSize) {
 // A thread's buffers, reused from vertex to vertex.
 struct BounceGather::Room {
     explicit Room(int mostTerms)
-        : values(size_t(mostTerms)), light(groupsFor(mostTerms)), total(light.size() * kBounceCoefficients),
-          sum(kBounceCoefficients) {}
+        : values(size_t(mostTerms)), light(BounceHits::kRays * groupsFor(mostTerms)),
+          views(BounceHits::kRays * kMostTerms), weights(groupsFor(mostTerms)),
+          total(weights.size() * kBounceCoefficients), sum(kBounceCoefficients) {}
 
-    std::vector<vec3> values;     // of a ray: g of each term, times the ray's weight
-    std::vector<TermGroup> light; // the same
-    std::vector<TermGroup> total; // per group and coefficient: bounced light
-    RowSum sum;                   // of what leaves a hit; then of a row
+    // The vertex whose rows a ray brings, and the number of the ray among those with a hit.
+    struct Source {
+        uint32_t part, vertex, ray;
+        auto operator<=>(const Source&) const = default;
+    };
+
+    std::vector<Source> sources;
+    std::vector<vec3> values;       // of a ray: g of each term, times the ray's weight
+    std::vector<TermGroup> light;   // the same, per ray and group
+    std::vector<vec3> views;        // per ray and term of its hit
+    std::vector<TermGroup> weights; // per group: of a row
+    std::vector<TermGroup> total;   // per group and coefficient: bounced light
+    RowSum sum;                     // of a row
 };
 
 void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const SparseTransport> from,
                                 Room& room, std::span<SparseTransport> rows) const {
     const auto terms = size_t(termCount(mHits.asset().parts[number]));
     const size_t groups = groupsFor(int(terms));
-    std::fill_n(room.light.begin(), groups, TermGroup{});
+    room.sources.clear();
     std::fill_n(room.total.begin(), groups * kBounceCoefficients, TermGroup{});
-    bool isAny = false;
     mHits.find(number, vertex, [&](const BounceHit& hit) {
-        isAny = true;
+        const size_t ray = room.sources.size();
+        room.sources.push_back({hit.part, hit.vertex, uint32_t(ray)});
+        std::fill_n(&room.light[ray * groups], groups, TermGroup{});
         mHits.lookupLight(number, hit.direction, std::span(room.values).first(terms));
         for (size_t term = 0; term < terms; term++)
-            room.light[term / TermGroup::kTerms].set(term % TermGroup::kTerms, room.values[term]);
-        const SparseTransport& sources = from[hit.part];
-        for (uint32_t term = 0; term < sources.terms; term++) {
-            const size_t source = size_t(hit.vertex) * sources.terms + term;
-            const vec3 step = hit.views[term] * sources.scales[source] * kCoefficientUnit;
-            for (uint64_t i = sources.rowStarts[source]; i < sources.rowStarts[source + 1]; i++)
-                room.sum.add(sources.indices[i], step * vec3(unpackCoefficient(sources.values[i])));
-        }
-        room.sum.drain([&](size_t coefficient, vec3 radiance) {
-            for (size_t group = 0; group < groups; group++)
-                room.total[group * kBounceCoefficients + coefficient].add(room.light[group], radiance);
-        });
+            room.light[ray * groups + term / TermGroup::kTerms].set(term % TermGroup::kTerms,
+                                                                    room.values[term]);
+        std::ranges::copy(hit.views, &room.views[ray * kMostTerms]);
     });
+    // Rows are added once for all rays that meet their vertex.
+    std::ranges::sort(room.sources);
+    for (auto first = room.sources.begin(), end = first; first != room.sources.end(); first = end) {
+        const auto [part, source, ray] = *first;
+        end = std::find_if(first, room.sources.end(),
+                           [&](const Room::Source& s) { return s.part != part || s.vertex != source; });
+        const SparseTransport& sent = from[part];
+        for (uint32_t term = 0; term < sent.terms; term++) {
+            const size_t row = size_t(source) * sent.terms + term;
+            std::fill_n(room.weights.begin(), groups, TermGroup{});
+            for (auto met = first; met != end; ++met) {
+                const vec3 step =
+                    room.views[met->ray * kMostTerms + term] * (sent.scales[row] * kCoefficientUnit);
+                for (size_t group = 0; group < groups; group++)
+                    room.weights[group].add(room.light[met->ray * groups + group], step);
+            }
+            for (uint64_t i = sent.rowStarts[row]; i < sent.rowStarts[row + 1]; i++) {
+                const vec3 value(unpackCoefficient(sent.values[i]));
+                for (size_t group = 0; group < groups; group++)
+                    room.total[group * kBounceCoefficients + sent.indices[i]].add(room.weights[group], value);
+            }
+        }
+    }
 
     size_t row = 0;
     for (SparseTransport& own : rows) {
         for (uint32_t term = 0; term < own.terms; term++, row++) {
             const TermGroup* total = &room.total[row / TermGroup::kTerms * kBounceCoefficients];
-            if (isAny)
+            if (!room.sources.empty())
                 for (size_t i = 0; i < kBounceCoefficients; i++)
                     room.sum.add(i, total[i].get(row % TermGroup::kTerms));
             appendRow(own, room.sum.pack(kBounceKept));
