@@ -1,5 +1,6 @@
 // The materials that are bound to the parts of an asset. A change within a set takes effect in the next draw,
-// at no further cost. After a change of set, its tuples must be relit first.
+// at no further cost but for programs that are not made yet (ViewOptions::preparesAllMaterials). After a
+// change of set, its tuples must be relit first.
 #pragma once
 
 #include "engine/transport/asset.h"

@@ -124,7 +124,8 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
     const auto add = [&](size_t p, size_t s, uint32_t look, const ResidualSet* residual, uint32_t harmonics) {
         for (const ShadedPixels pixels : {ShadedPixels::All, ShadedPixels::Inner, ShadedPixels::Edges})
             if ((pixels == ShadedPixels::All) == (mSamples == 1))
-                variants.push_back(variantOf(p, mParts[p].sets[s], look, true, residual, harmonics, pixels));
+                variants.push_back(variantOf(p, mParts[p].sets[s], look, usesAllTerms(mParts[p].sets[s]),
+                                             residual, harmonics, pixels));
     };
     for (size_t p = 0; p < mParts.size(); p++) {
         const ViewPart& part = mParts[p];
@@ -148,6 +149,7 @@ void ViewPass::makeShadePrograms(const Relighter& relighter) {
 void ViewPass::setAppearance(const Appearance& appearance) {
     RELUME_CHECK_EQ(appearance.size(), mParts.size());
     for (size_t i = 0; i < mParts.size(); i++) mParts[i].bind(mAsset.parts[i], appearance[i]);
+    if (!mPreparesAllMaterials) mHasShadePrograms = false;
 }
 
 void ViewPass::resize(int width, int height) {
@@ -329,7 +331,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
     };
     const std::optional<shared::ViewRays> rays = raysOf(frame, part.bounds);
     if (!rays || part.triangleCount == 0) return;
-    const bool usesAll = mTerms <= 0 || uint32_t(mTerms) >= set.terms;
+    const bool usesAll = usesAllTerms(set);
     const bool isSingle = part.look == shared::kSingleLook;
     const bool fades = mGroundFade && mGroundFade->part == number;
     const uint32_t firstTuples = spheres.firstTuples(number, part.bound.set).value_or(0);

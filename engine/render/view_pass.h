@@ -46,7 +46,7 @@ class ViewPass {
     int samples() const { return mSamples; }
 
     // Binds materials to parts from the next record() on; until then the default appearance is bound. Does
-    // not wait: the change travels with the commands.
+    // not wait: the change travels with the commands. The next record() makes programs that are missing.
     void setAppearance(const Appearance& appearance);
 
     // Draws the first `terms` of K terms only, from the next record() on; 0, or K and more, draws all.
@@ -106,6 +106,7 @@ class ViewPass {
                ShadedPixels pixels);
     // Returns shared::kTermsAlone and so on.
     uint32_t estimateOf(size_t part, const ResidualSet* residual) const;
+    bool usesAllTerms(const ViewSet& set) const { return mTerms <= 0 || uint32_t(mTerms) >= set.terms; }
     // Returns the program that shades pixels of a part with this set bound.
     ShadeVariant variantOf(size_t part, const ViewSet& set, uint32_t look, bool allTerms,
                            const ResidualSet* residual, uint32_t harmonics, ShadedPixels pixels) const;

@@ -149,11 +149,14 @@ class Device {
     // Writes DeviceOptions::pipelineCache atomically; logs a warning if it cannot be written.
     void savePipelineCache() const;
 
-    // Returns the SPIR-V from which programs are made for `builtIn`, an array of a generated shaders/*.h: its
-    // replacement if it has one, else its portable version if this device takes those, else `builtIn` itself.
+    // Returns the portable version of `builtIn`, an array of a generated shaders/*.h, if this device takes
+    // those; else `builtIn` itself.
+    std::span<const uint32_t> fitting(std::span<const uint32_t> builtIn) const;
+    // Returns the SPIR-V from which programs are made for `builtIn`: its replacement if it has one, else the
+    // fitting one.
     std::vector<uint32_t> shader(std::span<const uint32_t> builtIn) const;
     // Replaces shaders in all programs that are made from now on, by any thread. Throws Error, and replaces
-    // none, if the interface of one differs from that of the shader it replaces. Returns the number of
+    // none, if one cannot take the place of the shader it replaces. Returns the number of
     // shaders that differ from those in use before.
     size_t replaceShaders(std::span<const ShaderReplacement> replacements);
 
@@ -169,7 +172,6 @@ class Device {
     void pickPhysicalDevice(const std::string& select, bool leastFeatures);
     void setPhysicalDevice(VkPhysicalDevice physical, uint32_t queueFamily);
     void createDevice(bool showsImages);
-    std::span<const uint32_t> fitting(std::span<const uint32_t> builtIn) const;
     void destroy();
 
     bool mIsHosts = false; // whether a host program owns instance and device

@@ -103,7 +103,8 @@ ComputeProgram::ComputeProgram(const Device& device, std::span<const uint32_t> s
         .shaders = {device.shader(spirv)}, .constants = constants, .subgroups = subgroups};
     static_cast<Program&>(*this) = device.programs().find(source);
     if (pipeline()) return;
-    const ShaderInterface interface = reflect(source.shaders[0], constants);
+    // A replacement may read less than the built-in shader, which says what is bound.
+    const ShaderInterface interface = reflect(device.fitting(spirv), constants);
     const std::array<uint32_t, 3>& groupSize = interface.groupSize;
     RELUME_CHECK_LE(groupSize[0] * groupSize[1] * groupSize[2],
                     device.limits().maxComputeWorkGroupInvocations);
@@ -138,8 +139,8 @@ GraphicsProgram::GraphicsProgram(const Device& device, std::span<const uint32_t>
                             .options = options};
     static_cast<Program&>(*this) = device.programs().find(source);
     if (pipeline()) return;
-    const ShaderInterface interfaces[] = {reflect(source.shaders[0], constants),
-                                          reflect(source.shaders[1], constants)};
+    const ShaderInterface interfaces[] = {reflect(device.fitting(vertexSpirv), constants),
+                                          reflect(device.fitting(fragmentSpirv), constants)};
     const std::shared_ptr<Objects> objects = makeLayouts(device, interfaces, name);
 
     const Module vertex(device, source.shaders[0], name), fragment(device, source.shaders[1], name);

@@ -10,9 +10,9 @@
 namespace relume::vk {
 
 // Keeps the programs that were made on a device, since a driver takes 10 to 300 ms for one, and parts of a
-// scene and views of assets need the same. They stay until the device goes or shaders are replaced; a device
-// that bakes many scenes has one more for each depth of an occluder's hierarchy and each number of terms. Any
-// thread may use it.
+// scene and views of assets need the same. They stay until the device goes or shaders are replaced, with some
+// 100 KB of SPIR-V each: one more for each depth of an occluder's hierarchy, each number of terms, and each
+// way of shading that was drawn. Any thread may use it.
 class Programs {
   public:
     // A source is all that decides what a program does.
@@ -20,8 +20,8 @@ class Programs {
         std::vector<std::vector<uint32_t>>
             shaders; // SPIR-V of the compute shader, or the vertex and fragment one
         Constants constants;
-        Subgroups subgroups;     // of compute programs
-        GraphicsOptions options; // of graphics programs
+        Subgroups subgroups = Subgroups::Any; // of compute programs
+        GraphicsOptions options;              // of graphics programs
 
         auto operator<=>(const Source&) const = default;
     };

@@ -20,7 +20,8 @@ struct ShaderReplacement {
 // cannot be read.
 std::map<std::string, std::string> describeInterface(std::span<const uint32_t> spirv);
 
-// Throws Error unless `spirv` can replace `builtIn`. The text says what differs in the shader called `name`.
+// Throws Error unless `spirv` can replace `builtIn`, of which it may read less. The text says what differs in
+// the shader called `name`.
 void expectSameInterface(const std::string& name, std::span<const uint32_t> builtIn,
                          std::span<const uint32_t> spirv);
 

@@ -101,12 +101,12 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
         for (size_t term = 0; term < terms; term++)
             room.light[ray * groups + term / TermGroup::kTerms].set(term % TermGroup::kTerms,
                                                                     room.values[term]);
-        std::ranges::copy(hit.views, &room.views[ray * kMostTerms]);
+        std::copy_n(hit.views.begin(), from[hit.part].terms, &room.views[ray * kMostTerms]);
     });
     // Rows are added once for all rays that meet their vertex.
     std::ranges::sort(room.sources);
     for (auto first = room.sources.begin(), end = first; first != room.sources.end(); first = end) {
-        const auto [part, source, ray] = *first;
+        const uint32_t part = first->part, source = first->vertex;
         end = std::find_if(first, room.sources.end(),
                            [&](const Room::Source& s) { return s.part != part || s.vertex != source; });
         const SparseTransport& sent = from[part];

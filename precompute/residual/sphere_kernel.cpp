@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
@@ -19,44 +20,55 @@ constexpr int kViewAzimuths = 2 * (kHarmonics + 1); // over half a turn, after w
 constexpr int kSamplesPerSide = 2;                  // per side of a cell of the light
 
 // Directions in the tangent frame of a normal whose mirror direction is at angle ρ from the view direction,
-// which has azimuth a in that frame. incoming() is the direction of light at (ρ', φ' - φ).
+// which has azimuth 0 in that frame. incoming() is the direction of light at (ρ', φ' - φ).
 struct Geometry {
     float sine, cosine; // of half of ρ, which is the view's angle to the normal
 
     explicit Geometry(float mirrorAngle)
         : sine(std::sin(mirrorAngle / 2)), cosine(std::cos(mirrorAngle / 2)) {}
-    vec3 outgoing(float azimuth) const {
-        return liftAboveHorizon({sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
-    }
+    vec3 outgoing() const { return liftAboveHorizon({sine, 0, cosine}); }
     // Returns a direction above the horizon if its z > 0.
-    vec3 incoming(float angle, float azimuth, float viewAzimuth) const {
+    vec3 incoming(float angle, float azimuth) const {
         const float s = std::sin(angle), c = std::cos(angle);
-        const float x = -cosine * s * std::cos(azimuth) + sine * c, y = -s * std::sin(azimuth);
-        const float cosA = std::cos(viewAzimuth), sinA = std::sin(viewAzimuth);
-        return {x * cosA - y * sinA, x * sinA + y * cosA, sine * s * std::cos(azimuth) + cosine * c};
+        return glm::normalize(vec3(-cosine * s * std::cos(azimuth) + sine * c, -s * std::sin(azimuth),
+                                   sine * s * std::cos(azimuth) + cosine * c));
     }
+};
+
+// A rotation about the normal.
+struct Turn {
+    float sine, cosine;
+
+    explicit Turn(float angle) : sine(std::sin(angle)), cosine(std::cos(angle)) {}
+    vec3 operator()(vec3 v) const { return {v.x * cosine - v.y * sine, v.x * sine + v.y * cosine, v.z}; }
 };
 
 float ringAngle(float ring) { return ring * kPi / float(kRings); }
 float azimuthAngle(float azimuth) { return azimuth * 2 * kPi / float(kAzimuths); }
 
-// Returns the mean of f cos over a cell of the light, by side² samples.
-template <typename Function>
-vec3 cellMean(const Geometry& geometry, int ring, int azimuth, float viewAzimuth, int side,
-              Function&& reflected) {
-    vec3 sum(0);
-    float weights = 0;
-    for (int j = 0; j < side; j++) {
-        const float angle = ringAngle(float(ring) + (float(j) + 0.5f) / float(side)),
-                    weight = std::sin(angle);
-        for (int i = 0; i < side; i++) {
-            weights += weight;
-            const vec3 incoming = geometry.incoming(
-                angle, azimuthAngle(float(azimuth) - 0.5f + (float(i) + 0.5f) / float(side)), viewAzimuth);
-            if (incoming.z > kGrazingCosine) sum += weight * incoming.z * reflected(glm::normalize(incoming));
+// A direction of light, with the factor of f in the mean of f cos over a cell.
+struct LightSample {
+    vec3 incoming;
+    float weight; // 0 at and below the horizon
+};
+
+// Returns directions in a cell of the light, in the frame where the view's azimuth is 0.
+std::array<LightSample, kSamplesPerSide * kSamplesPerSide> cellSamples(const Geometry& geometry, int ring,
+                                                                       int azimuth) {
+    std::array<LightSample, kSamplesPerSide * kSamplesPerSide> samples;
+    const auto place = [](int i) { return (float(i) + 0.5f) / float(kSamplesPerSide); };
+    float sum = 0;
+    for (int j = 0; j < kSamplesPerSide; j++) {
+        const float angle = ringAngle(float(ring) + place(j)), solidAngle = std::sin(angle);
+        for (int i = 0; i < kSamplesPerSide; i++) {
+            const vec3 incoming = geometry.incoming(angle, azimuthAngle(float(azimuth) - 0.5f + place(i)));
+            sum += solidAngle;
+            samples[size_t(j * kSamplesPerSide + i)] = {
+                incoming, incoming.z > kGrazingCosine ? solidAngle * incoming.z : 0};
         }
     }
-    return sum / weights;
+    for (LightSample& sample : samples) sample.weight /= sum;
+    return samples;
 }
 
 // All components that the sampled azimuths resolve, before small ones are dropped.
@@ -82,17 +94,21 @@ class WholeKernel {
     void fill(const Reflectance& exact, int views, int row) {
         const Geometry geometry(ringAngle(float(row) + 0.5f));
         Samples samples(views * kRings * 3, kAzimuths);
-        for (int view = 0; view < views; view++) {
-            const float viewAzimuth = float(view) * kPi / float(views);
-            const vec3 outgoing = geometry.outgoing(viewAzimuth);
-            for (int ring = 0; ring < kRings; ring++)
-                for (int azimuth = 0; azimuth < kAzimuths; azimuth++) {
-                    const vec3 mean = cellMean(geometry, ring, azimuth, viewAzimuth, kSamplesPerSide,
-                                               [&](vec3 incoming) { return exact(incoming, outgoing); });
+        std::vector<Turn> turns;
+        for (int view = 0; view < views; view++) turns.emplace_back(float(view) * kPi / float(views));
+        for (int ring = 0; ring < kRings; ring++)
+            for (int azimuth = 0; azimuth < kAzimuths; azimuth++) {
+                const auto cell = cellSamples(geometry, ring, azimuth);
+                for (int view = 0; view < views; view++) {
+                    const Turn& turn = turns[size_t(view)];
+                    const vec3 outgoing = turn(geometry.outgoing());
+                    vec3 mean(0);
+                    for (const LightSample& sample : cell)
+                        if (sample.weight > 0) mean += sample.weight * exact(turn(sample.incoming), outgoing);
                     for (int channel = 0; channel < 3; channel++)
                         samples((view * kRings + ring) * 3 + channel, azimuth) = mean[channel];
                 }
-        }
+            }
         transform(samples, views, row);
     }
 
@@ -107,21 +123,27 @@ class WholeKernel {
                 sines(azimuth, m) = std::sin(phase);
             }
         const Samples real = samples * cosines, imaginary = samples * sines;
-        for (int harmonic = 0; harmonic <= (views == 1 ? 0 : kHarmonics); harmonic++)
-            for (int m = -kFrequencies; m <= kFrequencies; m++) {
-                std::vector<vec3>& values = mValues[size_t(harmonic)][size_t(m + kFrequencies)];
-                for (int view = 0; view < views; view++) {
-                    const float phase = 2 * kPi * float(harmonic * view) / float(views);
-                    const float c = std::cos(phase) / float(views),
-                                s = (m < 0 ? -1 : 1) * std::sin(phase) / float(views);
-                    for (int ring = 0; ring < kRings; ring++)
-                        for (int channel = 0; channel < 3; channel++) {
-                            const int sample = (view * kRings + ring) * 3 + channel;
-                            values[size_t(row * kRings + ring)][channel] +=
-                                c * real(sample, std::abs(m)) + s * imaginary(sample, std::abs(m));
-                        }
-                }
+        const int harmonics = views == 1 ? 1 : kHarmonics + 1;
+        Eigen::MatrixXf viewCosines(harmonics, views), viewSines(harmonics, views);
+        for (int harmonic = 0; harmonic < harmonics; harmonic++)
+            for (int view = 0; view < views; view++) {
+                const float phase = 2 * kPi * float(harmonic * view) / float(views);
+                viewCosines(harmonic, view) = std::cos(phase) / float(views);
+                viewSines(harmonic, view) = std::sin(phase) / float(views);
             }
+        // By view azimuth: [view azimuth][rings · channels · frequencies].
+        const int components = kRings * 3 * (kFrequencies + 1);
+        const Eigen::Map<const Samples> realByView(real.data(), views, components),
+            imaginaryByView(imaginary.data(), views, components);
+        const Samples even = viewCosines * realByView, odd = viewSines * imaginaryByView;
+        for (int harmonic = 0; harmonic < harmonics; harmonic++)
+            for (int m = -kFrequencies; m <= kFrequencies; m++)
+                for (int ring = 0; ring < kRings; ring++)
+                    for (int channel = 0; channel < 3; channel++) {
+                        const int i = (ring * 3 + channel) * (kFrequencies + 1) + std::abs(m);
+                        mValues[size_t(harmonic)][size_t(m + kFrequencies)][size_t(row * kRings + ring)]
+                               [channel] = even(harmonic, i) + (m < 0 ? -odd(harmonic, i) : odd(harmonic, i));
+                    }
     }
 
     // [harmonic][frequency + kFrequencies][ring of the mirror direction · rings + ring of the light]

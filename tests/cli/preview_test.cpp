@@ -29,7 +29,7 @@ TEST_CASE("preview: killed at a write, a bake leaves a file that is whole, and g
         const std::string whole = contents(undisturbed.path() / "out.relume");
         int call = 1, previews = 0;
         // Not at every write: each costs two bakes.
-        for (;; call += says(layout, "rows") ? 5 : 23) {
+        for (;; call += says(layout, "rows") ? 7 : 29) {
             CAPTURE(call);
             const BakeFolder folder;
             const auto output = folder.path() / "out.relume";

@@ -78,7 +78,7 @@ TEST_CASE("advise: a refined ground is preferred where it needs fewer bytes") {
     };
     BakeObserver observer;
     const Advice advice =
-        advise(device, {onGround(100), onGround(8), 0.1, adviceOptions(), 160}, sky(), observer);
+        advise(device, {onGround(60), onGround(8), 0.1, adviceOptions(), 160}, sky(), observer);
     REQUIRE(advice.refined);
     CHECK(advice.refined->vertices < advice.plain.vertices / 2);
     REQUIRE(advice.best());

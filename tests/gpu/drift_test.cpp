@@ -103,6 +103,7 @@ Asset bakeTwoParts(const vk::Device& device) {
     options.factorization.terms = 3;
     options.visibilitySize = 64;
     options.coefficients = 96;
+    options.mapSize = 24;
     return bake(device, twoParts(), options);
 }
 

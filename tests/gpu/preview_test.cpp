@@ -33,6 +33,7 @@ BakeOptions smallOptions(TransportLayout layout = TransportLayout::Rows) {
     options.visibilitySize = 64;
     options.faceSize = 32;
     options.coefficients = 48;
+    options.mapSize = 24;
     options.factorization.terms = 2;
     return options;
 }

@@ -215,6 +215,8 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
                           "in float triangleId;\n#define triangleId uint(triangleId)"),
                    "input 0"));
     CHECK_EQ(edited("display.frag", kShowBackground, kShowInverse), "");
+    // What is no longer read is left out.
+    CHECK_EQ(edited("display.frag", "texelFetch(image, ivec3(gl_FragCoord.xy, 0), 0)", "vec4(1)"), "");
 }
 
 TEST_CASE("shader reload: programs made afterwards draw with what changed") {
@@ -231,6 +233,10 @@ TEST_CASE("shader reload: programs made afterwards draw with what changed") {
     CHECK_EQ(reloadShaders(device, sources.folder()), 1);
     CHECK_EQ(shown(), doctest::Approx(0.8f));
     CHECK_EQ(reloadShaders(device, sources.folder()), 0); // they are in use
+    CHECK_EQ(shown(), doctest::Approx(0.8f));
+    sources.edit("display.frag", "texelFetch(image, ivec3(gl_FragCoord.xy, 0), 0)",
+                 "vec4(min(push.scale, 0))");
+    CHECK_EQ(reloadShaders(device, sources.folder()), 1); // reads no image
     CHECK_EQ(shown(), doctest::Approx(0.8f));
     CHECK_EQ(reloadShaders(device, shaderFolder()), 1); // as they were built
     CHECK_EQ(shown(), doctest::Approx(0.2f));

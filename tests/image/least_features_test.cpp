@@ -18,13 +18,14 @@ namespace {
 
 Asset bakeKnot(const vk::Device& device, VisibilityMethod method) {
     Scene scene;
-    scene.parts.push_back({"knot", makeKnot(1000), "gold", "built-in knot", ""});
+    scene.parts.push_back({"knot", makeKnot(400), "gold", "built-in knot", ""});
     BakeOptions options;
     options.visibilityMethod = method;
     options.visibilitySize = 64;
     options.faceSize = 32;
     options.layout = {.layout = TransportLayout::Rows};
     options.coefficients = 48;
+    options.mapSize = 24;
     return bake(device, std::move(scene), options);
 }
 

@@ -60,6 +60,7 @@ class MaterialTest {
         options.faceSize = kMaterialFaceSize;
         options.visibilitySize = 64;
         options.coefficients = 192;
+        options.mapSize = 24;
         return options;
     }
 
@@ -110,7 +111,7 @@ TEST_CASE("image: a glTF file's two textured materials are its reference") {
 // A sphere with waves in its normals, lit from all sides.
 Scene wavySphere(const std::string& material) {
     Scene scene;
-    scene.parts.push_back({"sphere", makeSphere(4, true), material, "", ""});
+    scene.parts.push_back({"sphere", makeSphere(3, true), material, "", ""});
     Texture waves{64, 64, {}};
     for (int i = 0; i < 64 * 64; i++) {
         const float x = 0.5f * std::sin(2 * kPi * float(i % 64) / 16),

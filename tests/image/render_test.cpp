@@ -15,9 +15,12 @@ using namespace relume;
 
 namespace {
 
-constexpr int kRenderWidth = 120, kRenderHeight = 90;
+constexpr int kRenderWidth = 80, kRenderHeight = 60, kRenderFaceSize = 32;
+constexpr int kAllCoefficients = 6 * kRenderFaceSize * kRenderFaceSize;
 
-Asset bakeKnot(const vk::Device& device, const std::string& material, const BakeOptions& options) {
+Asset bakeKnot(const vk::Device& device, const std::string& material, BakeOptions options) {
+    options.faceSize = kRenderFaceSize;
+    options.visibilitySize = 128;
     Scene scene;
     scene.parts.push_back({"knot", makeKnot(3000), material, "built-in knot", ""});
     return bake(device, std::move(scene), options);
@@ -67,9 +70,9 @@ double relativeRmse(const vk::Device& device, const Asset& asset, const LightCub
 
 TEST_CASE("image: a diffuse knot under the sky is its reference") {
     const TestDevice device;
-    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kRenderFaceSize, 0);
     // What remains at all coefficients is interpolation between vertices and facets against smooth normals.
-    CHECK_LE(relativeRmse(device, bakeDiffuseKnot(device, 6 * 64 * 64), sky, ReferenceBrdf::Exact, 0, 2),
+    CHECK_LE(relativeRmse(device, bakeDiffuseKnot(device, kAllCoefficients), sky, ReferenceBrdf::Exact, 0, 2),
              0.02 + silhouetteError(device));
     CHECK_LE(
         relativeRmse(device, bakeDiffuseKnot(device, 96), sky, ReferenceBrdf::Exact, kPaperLightThreshold),
@@ -78,8 +81,8 @@ TEST_CASE("image: a diffuse knot under the sky is its reference") {
 
 TEST_CASE("image: edges are as the reference has them") {
     const TestDevice device;
-    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
-    const Asset asset = bakeDiffuseKnot(device, 6 * 64 * 64);
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kRenderFaceSize, 0);
+    const Asset asset = bakeDiffuseKnot(device, kAllCoefficients);
     const Image image = relit(device, asset, sky, 0, kDefaultSamples);
     for (const int samples : {1, kDefaultSamples}) {
         const Image reference = renderReference(
@@ -106,7 +109,7 @@ TEST_CASE("image: edges are as the reference has them") {
 
 TEST_CASE("image: a glossy knot baked the paper's way is the reference of its factors") {
     const TestDevice device;
-    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kRenderFaceSize, 0);
     CHECK_LE(relativeRmse(device, bakeKnot(device, "ashikhmin-shirley", presetOptions(BakePreset::Paper)),
                           sky, ReferenceBrdf::Factored, kPaperLightThreshold),
              0.08 + silhouetteError(device));

@@ -22,14 +22,17 @@ using namespace relume;
 
 namespace {
 
-constexpr int kResidualWidth = 96, kResidualHeight = 72;
+constexpr int kResidualWidth = 96, kResidualHeight = 72, kResidualFaceSize = 32;
 
-Asset bakeKnot(const vk::Device& device, const std::string& material, Factorization method) {
+Asset bakeKnot(const vk::Device& device, const std::string& material, Factorization method,
+               int faceSize = kResidualFaceSize) {
     Scene scene;
     scene.parts.push_back({"knot", makeKnot(2000), material, "built-in knot", ""});
     BakeOptions options;
     options.factorization.terms = 5;
     options.factorization.method = method;
+    options.faceSize = faceSize;
+    options.visibilitySize = 128;
     return bake(device, std::move(scene), options);
 }
 
@@ -69,7 +72,7 @@ Image reference(const Asset& asset, const LightCube& cube, ReferenceBrdf brdf) {
 
 TEST_CASE("image: the residual makes up for what K terms miss") {
     const TestDevice device;
-    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kResidualFaceSize, 0);
     for (const Factorization method : {Factorization::Environment, Factorization::NonNegative}) {
         const Asset asset = bakeKnot(device, "gold", method);
         const std::shared_ptr<const ResidualSet> residual = asset.parts[0].sets[0].residual;
@@ -93,7 +96,7 @@ TEST_CASE("image: the residual makes up for what K terms miss") {
 
 TEST_CASE("image: where a sun is shadowed, the sky is reflected all the same") {
     const TestDevice device;
-    const Asset asset = bakeKnot(device, "gold", Factorization::NonNegative);
+    const Asset asset = bakeKnot(device, "gold", Factorization::NonNegative, 64);
     LightCube sun{asset.faceSize, std::vector<vec3>(6 * size_t(asset.faceSize) * size_t(asset.faceSize))};
     LightCube light = sun;
     for (vec3& radiance : light.radiance) radiance = {0.4f, 0.5f, 0.7f};
@@ -156,15 +159,17 @@ TEST_CASE("image: parts with tangents share no residual with parts without") {
 
 TEST_CASE("image: brushed metal follows its tangents, however they are turned") {
     const TestDevice device;
-    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), 64, 0);
+    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kResidualFaceSize, 0);
     std::vector<Image> images;
     for (const float degrees : {0.0f, 60.0f}) {
         CAPTURE(degrees);
         Scene scene;
-        scene.parts.push_back({"sphere", makeSphere(4), "brushed-steel", "built-in sphere", ""});
+        scene.parts.push_back({"sphere", makeSphere(3), "brushed-steel", "built-in sphere", ""});
         scene.parts.back().brushRotation = degrees;
         BakeOptions options;
         options.factorization.method = Factorization::NonNegative;
+        options.faceSize = kResidualFaceSize;
+        options.visibilitySize = 64;
         const Asset asset = bake(device, std::move(scene), options);
         REQUIRE(asset.parts[0].mesh.tangents.size() == asset.parts[0].mesh.vertexCount());
         const Image drawn = relitWith(device, asset, sky),
@@ -184,7 +189,8 @@ TEST_CASE("image: a diffuse material has no residual, and light that is none giv
     const Asset diffuse = bakeKnot(device, "gray-diffuse", Factorization::Environment);
     CHECK_FALSE(diffuse.parts[0].sets[0].residual);
     const Asset gold = bakeKnot(device, "gold", Factorization::NonNegative);
-    const LightCube dark{64, std::vector<vec3>(6 * 64 * 64, vec3(0))};
+    const LightCube dark{kResidualFaceSize,
+                         std::vector<vec3>(6 * kResidualFaceSize * kResidualFaceSize, vec3(0))};
     for (const vec4& pixel : relitWith(device, gold, dark).pixels) CHECK(vec3(pixel) == vec3(0));
 }
 

@@ -18,7 +18,7 @@ constexpr int kSessionWidth = 480, kSessionHeight = 360;
 class ViewerSession {
   public:
     ViewerSession() {
-        std::ofstream(path("ring.obj")) << sampleObj(makeTorus(1, 0.4f, 40, 20));
+        std::ofstream(path("ring.obj")) << sampleObj(makeTorus(1, 0.4f, 24, 12));
         Image room(64, 32);
         for (int y = 0; y < room.height; y++)
             for (int x = 0; x < room.width; x++) {
