@@ -73,7 +73,7 @@ TEST_CASE("image: a diffuse knot under the sky is its reference") {
     const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kRenderFaceSize, 0);
     // What remains at all coefficients is interpolation between vertices and facets against smooth normals.
     CHECK_LE(relativeRmse(device, bakeDiffuseKnot(device, kAllCoefficients), sky, ReferenceBrdf::Exact, 0, 2),
-             0.02 + silhouetteError(device));
+             0.015 + silhouetteError(device));
     CHECK_LE(
         relativeRmse(device, bakeDiffuseKnot(device, 96), sky, ReferenceBrdf::Exact, kPaperLightThreshold),
         0.05 + silhouetteError(device));
