@@ -176,8 +176,8 @@ TEST_CASE("image: brushed metal follows its tangents, however they are turned") 
                     exact = reference(asset, sky, ReferenceBrdf::Exact);
         const double error = compareImages(drawn, exact).relativeRmse;
         MESSAGE("turned by ", degrees, " degrees: ", error);
-        // Without interpolation of turns it is 0.031 and 0.039, with the phase of the pixel's view alone 0.026
-        // for the second.
+        // Without interpolation of turns it is 0.031 and 0.039, with the phase of the pixel's view alone
+        // 0.026 for the second.
         CHECK_LE(error, 0.024 + silhouetteError(device));
         images.push_back(drawn);
     }
