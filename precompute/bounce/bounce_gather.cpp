@@ -83,7 +83,7 @@ struct BounceGather::Room {
     std::vector<TermGroup> light;   // the same, per ray and group
     std::vector<vec3> views;        // per ray and term of its hit
     std::vector<TermGroup> weights; // per group: of a row
-    std::vector<TermGroup> total;   // per group and coefficient: bounced light
+    std::vector<TermGroup> total;   // per coefficient and group: bounced light
     RowSum sum;                     // of a row
 };
 
@@ -121,8 +121,8 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
             }
             for (uint64_t i = sent.rowStarts[row]; i < sent.rowStarts[row + 1]; i++) {
                 const vec3 value(unpackCoefficient(sent.values[i]));
-                for (size_t group = 0; group < groups; group++)
-                    room.total[group * kBounceCoefficients + sent.indices[i]].add(room.weights[group], value);
+                TermGroup* total = &room.total[sent.indices[i] * groups];
+                for (size_t group = 0; group < groups; group++) total[group].add(room.weights[group], value);
             }
         }
     }
@@ -130,10 +130,10 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
     size_t row = 0;
     for (SparseTransport& own : rows) {
         for (uint32_t term = 0; term < own.terms; term++, row++) {
-            const TermGroup* total = &room.total[row / TermGroup::kTerms * kBounceCoefficients];
+            const TermGroup* total = &room.total[row / TermGroup::kTerms];
             if (!room.sources.empty())
                 for (size_t i = 0; i < kBounceCoefficients; i++)
-                    room.sum.add(i, total[i].get(row % TermGroup::kTerms));
+                    room.sum.add(i, total[i * groups].get(row % TermGroup::kTerms));
             appendRow(own, room.sum.pack(kBounceKept));
         }
         own.vertices++;
