@@ -402,7 +402,7 @@ void main() {
     }
     if (left == 0) discard;
     radiance = vec4(0);
-    // It is a loop for both, since it takes a driver twice as long to compile shadeAt() where it is called twice.
+    // One loop serves inner pixels and edges: drivers take twice as long to compile two calls of shadeAt().
     do {
         const uint first = findLSB(left);
         SampleGroup group = SampleGroup(left, vec2(0.5), 1);

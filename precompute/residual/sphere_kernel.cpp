@@ -93,6 +93,7 @@ class WholeKernel {
     // Fills a row. `views` is the number of view azimuths over half a turn; 1 for an isotropic BRDF.
     void fill(const Reflectance& exact, int views, int row) {
         const Geometry geometry(ringAngle(float(row) + 0.5f));
+        const vec3 outgoing = geometry.outgoing();
         Samples samples(views * kRings * 3, kAzimuths);
         std::vector<Turn> turns;
         for (int view = 0; view < views; view++) turns.emplace_back(float(view) * kPi / float(views));
@@ -101,10 +102,10 @@ class WholeKernel {
                 const auto cell = cellSamples(geometry, ring, azimuth);
                 for (int view = 0; view < views; view++) {
                     const Turn& turn = turns[size_t(view)];
-                    const vec3 outgoing = turn(geometry.outgoing());
+                    const vec3 turned = turn(outgoing);
                     vec3 mean(0);
                     for (const LightSample& sample : cell)
-                        if (sample.weight > 0) mean += sample.weight * exact(turn(sample.incoming), outgoing);
+                        if (sample.weight > 0) mean += sample.weight * exact(turn(sample.incoming), turned);
                     for (int channel = 0; channel < 3; channel++)
                         samples((view * kRings + ring) * 3 + channel, azimuth) = mean[channel];
                 }

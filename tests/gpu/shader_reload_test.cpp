@@ -215,7 +215,7 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
                           "in float triangleId;\n#define triangleId uint(triangleId)"),
                    "input 0"));
     CHECK_EQ(edited("display.frag", kShowBackground, kShowInverse), "");
-    // What is no longer read is left out.
+    // A shader may stop reading an image that is bound to it.
     CHECK_EQ(edited("display.frag", "texelFetch(image, ivec3(gl_FragCoord.xy, 0), 0)", "vec4(1)"), "");
 }
 
