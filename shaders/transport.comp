@@ -18,10 +18,9 @@
 layout(constant_id = 0) const uint kFaceSize = 64; // F, lighting texels along a side
 layout(constant_id = 1) const uint kVisibilitySize = 256; // a multiple of F, at most 8 F
 layout(constant_id = 2) const uint kSamplesPerSide = 1; // evaluations along a lighting texel's side
-layout(constant_id = 3) const uint kMapSize = 48;
-layout(constant_id = 4) const uint kMapping = 0;
-layout(constant_id = 5) const uint kTerms = 4; // K, of all dispatches
-layout(local_size_x_id = 6) in;
+layout(constant_id = 3) const uint kMapping = 0;
+layout(constant_id = 4) const uint kMostTerms = 8; // of a dispatch, or more
+layout(local_size_x_id = 5) in;
 
 layout(push_constant, scalar) uniform Push { TransportPush push; };
 layout(binding = 0, scalar) readonly buffer Points { BakePoint points[]; };
@@ -44,12 +43,12 @@ const uint kCell = kRatio / kSamplesPerSide; // visibility texels along a side o
 const uint kBlockBits = 4 * kRatio; // visibility texels along a side of a block
 const uint kWordsPerLine = kVisibilitySize / 32;
 // Without a loop over terms, the places of all 16 lookups need not be stored, which is a quarter faster on lavapipe.
-const bool kOneTerm = kTerms == 1;
+const bool kOneTerm = kMostTerms == 1;
 
 // The face's blocks: those that light reaches from the front, in any order, the others from the back.
 shared uint blockList[kFaceBlocks];
 shared uint reachedBlocks, otherBlocks;
-shared vec3 averages[kTerms * kCoarseBlocks]; // of the second stage
+shared vec3 averages[kMostTerms * kCoarseBlocks]; // of the second stage
 uint lines[kBlockBits]; // a block's visibility: a word per line, in its lowest bits
 
 // The corners of a lookup in `corners`, and their weights.
@@ -68,10 +67,10 @@ Place placeOf(uvec2 block, uvec2 cell, uint face, mat3 frame) {
     const vec3 local = normalize(frame * vec3(uv, 1));
     const float fraction = float(count) / float(kCell * kCell);
     const float weight = max(local.z, 0) * cubeSolidAngle(uv, cellWidth) * fraction;
-    const vec2 place = diskMapCoordinates(kMapping, local) * float(kMapSize) - 0.5;
+    const vec2 place = diskMapCoordinates(kMapping, local) * float(push.mapSize) - 0.5;
     const vec2 corner = floor(place), right = place - corner, left = 1 - right;
-    const ivec2 first = clamp(ivec2(corner) + 1, ivec2(0), ivec2(kMapSize));
-    return Place((first.y * int(kMapSize + 1) + first.x) * int(3 * kTerms),
+    const ivec2 first = clamp(ivec2(corner) + 1, ivec2(0), ivec2(push.mapSize));
+    return Place((first.y * int(push.mapSize + 1) + first.x) * int(3 * push.allTerms),
                  weight * vec4(left.x * left.y, right.x * left.y, left.x * right.y, right.x * right.y));
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <span>
 
 namespace relume {
@@ -135,7 +134,7 @@ LightFootprints makeLightFootprints(int width, int height, int size) {
     LightFootprints all{.width = width, .height = height, .size = size, .starts = {0}, .pixels = {}};
     for (const LightFootprints& face : faces) {
         const auto before = uint32_t(all.pixels.size());
-        for (const uint32_t start : face.starts | std::views::drop(1)) all.starts.push_back(before + start);
+        for (const uint32_t start : std::span(face.starts).subspan(1)) all.starts.push_back(before + start);
         all.pixels.insert(all.pixels.end(), face.pixels.begin(), face.pixels.end());
     }
     return all;

@@ -7,6 +7,7 @@
 #include "shaders/transport_portable_comp.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fmt/core.h>
 #include <thread>
@@ -77,11 +78,15 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
     mPacking.emplace(device, options.faceSize, options.coefficients, uint64_t(capacity) * termsTogether,
                      uint64_t(mTogether) * termsTogether, tuning.lanes);
     mCorners = makeCorners(device, brdf);
+    mTerms = terms;
+    mMapSize = uint32_t(brdf.size);
     const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
+    // Few numbers of terms, since every program takes seconds to compile on a software device.
+    const uint32_t mostTerms = termsTogether == 1 ? 1 : std::max(8u, std::bit_ceil(termsTogether));
     mTransport = {device,
                   transport_comp_spirv,
                   {uint32_t(options.faceSize), uint32_t(options.visibilitySize), samplesPerSide,
-                   uint32_t(brdf.size), uint32_t(brdf.mapping), terms, tuning.lanes},
+                   uint32_t(brdf.mapping), mostTerms, tuning.lanes},
                   "transport"};
 }
 
@@ -107,7 +112,7 @@ void TransportPass::recordGroup(vk::Commands& commands, const TermGroup& group, 
             commands.dispatch(mTransport,
                               {points, bits, vk::Binding::texelsOf(mCorners, VK_FORMAT_R32G32B32A32_SFLOAT),
                                mPacking->coefficients(), mPacking->summaries()},
-                              shared::TransportPush{group.firstTerm, group.terms, first},
+                              shared::TransportPush{group.firstTerm, group.terms, first, mTerms, mMapSize},
                               {6 * mTransport.groupSize()[0], pointCount, 1});
         });
         mPacking->recordSelection(commands, group.rows, pointCount * group.terms, first * group.terms);

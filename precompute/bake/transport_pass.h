@@ -59,6 +59,8 @@ class TransportPass {
     void recordGroup(vk::Commands& commands, const TermGroup& group, const vk::Buffer& points, uint32_t count,
                      const vk::Buffer& bits) const;
 
+    uint32_t mTerms;    // K
+    uint32_t mMapSize;  // S
     uint32_t mTogether; // points
     vk::Buffer mCorners;
     std::vector<TermGroup> mGroups;

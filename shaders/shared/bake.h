@@ -64,8 +64,10 @@ struct TransportPush {
     uint firstTerm; // first term of this dispatch; its rows are ordered by point, then term
     uint terms;
     uint firstPoint; // of this dispatch
+    uint allTerms;   // K, of all dispatches
+    uint mapSize;    // S
 };
-RELUME_SHARED_SIZE(TransportPush, 12)
+RELUME_SHARED_SIZE(TransportPush, 20)
 
 struct RowsPush {
     uint rows;

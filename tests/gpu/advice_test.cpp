@@ -72,13 +72,14 @@ TEST_CASE("advise: a bake of its options has about the error and the bytes that 
 TEST_CASE("advise: a refined ground is preferred where it needs fewer bytes") {
     const TestDevice device;
     const auto onGround = [](int quads) {
-        Scene scene = knot();
+        Scene scene;
+        scene.parts.push_back({"ball", makeSphere(2), "clay", "built-in sphere", ""});
         addGround(scene, {.tessellation = quads}, "white-diffuse");
         return scene;
     };
     BakeObserver observer;
     const Advice advice =
-        advise(device, {onGround(60), onGround(8), 0.1, adviceOptions(), 160}, sky(), observer);
+        advise(device, {onGround(40), onGround(8), 0.1, adviceOptions(), 80}, sky(), observer);
     REQUIRE(advice.refined);
     CHECK(advice.refined->vertices < advice.plain.vertices / 2);
     REQUIRE(advice.best());

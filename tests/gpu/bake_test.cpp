@@ -49,6 +49,7 @@ TEST_CASE("bake: the same scene gives the same bytes") {
     const TestDevice device;
     BakeOptions options;
     options.visibilitySize = 64;
+    options.mapSize = 24;
     options.coefficients = 32;
     const std::vector<std::byte> once = encodeAsset(bake(device, smallScene("clay"), options));
     CHECK(encodeAsset(bake(device, smallScene("clay"), options)) == once);
@@ -61,6 +62,7 @@ TEST_CASE("bake: a file baked block by block has the bytes of the asset baked in
     options.layout = {.layout = TransportLayout::Rows};
     options.visibilitySize = 64;
     options.faceSize = 32;
+    options.mapSize = 24;
     options.coefficients = 1500; // blocks of 32 vertices
     options.factorization.terms = 16;
     const std::vector<std::byte> whole = encodeAsset(bake(device, smallScene("ashikhmin-shirley"), options));
@@ -79,7 +81,7 @@ TEST_CASE("bake: bases are as good as a conversion of the rows, block by block o
     const TestDevice device;
     const TemporaryFolder folder;
     Scene scene;
-    scene.parts.push_back({"knot", makeKnot(1500), "ashikhmin-shirley", "built-in knot", ""});
+    scene.parts.push_back({"knot", makeKnot(1100), "ashikhmin-shirley", "built-in knot", ""});
     addGround(scene, {.tessellation = 24}, "white-diffuse");
     BakeOptions options;
     options.visibilitySize = 64;

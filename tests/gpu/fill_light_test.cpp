@@ -78,7 +78,9 @@ TEST_CASE("fill light: sets with a residual have its tuples, in every layout, fr
         scene.parts.push_back({"ground", makePlane(4, 4), "white-diffuse", "built-in plane", ""});
         BakeOptions options;
         options.factorization.terms = 3;
+        options.faceSize = 32;
         options.visibilitySize = 64;
+        options.mapSize = 24;
         options.layout.layout = layout;
         options.coefficients = 96;
         const Asset asset = bake(device, std::move(scene), options);

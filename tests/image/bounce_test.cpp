@@ -41,7 +41,7 @@ BakeOptions bounceOptions(int bounces) {
     BakeOptions options;
     options.bounces = bounces;
     options.faceSize = 32;
-    options.visibilitySize = 128;
+    options.visibilitySize = 64;
     options.mapSize = 24;
     options.factorization.terms = 4;
     return options;
@@ -50,7 +50,7 @@ BakeOptions bounceOptions(int bounces) {
 Asset bakeBowl(const vk::Device& device, float albedo, int bounces) {
     Scene scene;
     scene.parts.push_back(
-        {"bowl", makeBowl(32, 12), fmt::format(R"({{"model":"diffuse","albedo":{}}})", albedo), "bowl", ""});
+        {"bowl", makeBowl(24, 10), fmt::format(R"({{"model":"diffuse","albedo":{}}})", albedo), "bowl", ""});
     return bake(device, std::move(scene), bounceOptions(bounces));
 }
 

@@ -32,7 +32,7 @@ Asset bakeKnot(const vk::Device& device, const std::string& material, Factorizat
     options.factorization.terms = 5;
     options.factorization.method = method;
     options.faceSize = faceSize;
-    options.visibilitySize = 128;
+    options.visibilitySize = 2 * faceSize;
     return bake(device, std::move(scene), options);
 }
 

@@ -50,7 +50,8 @@ TEST_CASE("examples build against what is installed, and draw what relume render
     const std::string foreignFrame = (folder.path() / "build/foreign_frame").string(),
                       turningLight = (folder.path() / "build/turning_light").string();
     run(folder, RELUME_PROGRAM,
-        "bake sphere --ground --ground-tessellation 10 -m gold -K 2 --visibility-size 64 -o bake.relume");
+        "bake " + ballIn(folder) +
+            " --ground --ground-tessellation 10 -m gold -K 2 --visibility-size 64 -o bake.relume");
 
     // In a foreign frame, to the bit; the validation layer has nothing to say.
     CHECK(run(folder, foreignFrame, "bake.relume frame.pfm",

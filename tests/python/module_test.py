@@ -247,28 +247,28 @@ class ModuleTest(unittest.TestCase):
         self.assertIn(relume.device(), relume.devices())
 
     def test_errors_are_those_of_the_command_line(self):
-        ours = relume.errors(self.asset, relume.Light.lamp(40, 50, 20, [1, 1, 1]), size=(16, 12))
+        ours = relume.errors(self.asset, relume.Light.lamp(40, 50, 20, [1, 1, 1]), size=(8, 6))
         light = self.file("lamp.light.json")
         with open(light, "w") as file:
             json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
-        theirs = run_json("errors", self.path, "--light", light, "--size", "16x12")
+        theirs = run_json("errors", self.path, "--light", light, "--size", "8x6")
         self.assertEqual(ours, theirs)
         self.assertEqual([part["name"] for part in ours["parts"]], self.asset.parts)
         self.assertEqual(sum(part["points"] for part in ours["parts"]), ours["points"])
-        both = relume.errors(self.asset, [relume.Light.lamp(40, 50, 20, [1, 1, 1]), self.light], size=(16, 12),
+        both = relume.errors(self.asset, [relume.Light.lamp(40, 50, 20, [1, 1, 1]), self.light], size=(8, 6),
                              passes=0, images=True)
         self.assertEqual(both[0]["sources"], ours["sources"])
         self.assertEqual(both[1]["measured"], 0)
-        self.assertEqual(both[1]["images"]["interpolation"].shape, (12, 16, 4))
+        self.assertEqual(both[1]["images"]["interpolation"].shape, (6, 8, 4))
         self.assertEqual(len(both[1]["images"]), 4 + len(ours["sources"]))
 
     def test_advice_is_that_of_the_command_line(self):
-        ours = relume.advise(relume.Scene().add(self.mesh, material="clay"), relume.Light.lamp(40, 50, 20, [1, 1, 1]),
+        ours = relume.advise(relume.Scene().add(self.mesh, material="white-diffuse"), relume.Light.lamp(40, 50, 20, [1, 1, 1]),
                              error=0.1, points=40, as_is=True)
         light = self.file("advise.light.json")
         with open(light, "w") as file:
             json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
-        theirs = run_json("advise", self.mesh, "-m", "clay", "--light", light, "--error", 0.1, "--points", 40,
+        theirs = run_json("advise", self.mesh, "-m", "white-diffuse", "--light", light, "--error", 0.1, "--points", 40,
                           "--as-is")
         for advice in (ours, theirs):  # seconds are measured
             for layout in ("bases", "rows"):

@@ -26,6 +26,9 @@ inline std::string contents(const std::filesystem::path& path) {
     return stream.str();
 }
 
+// Returns how many calls apart a test lets one fail: `stride`, or 1 if RELUME_EVERY_FAULT is set.
+inline int faultStride(int stride) { return std::getenv("RELUME_EVERY_FAULT") ? 1 : stride; }
+
 struct Outcome {
     int exitCode; // 128 + the signal that ended it, as a shell says
     std::string out, err;
@@ -58,11 +61,11 @@ struct BakeFolder : TemporaryFolder {
     BakeFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
 };
 
-// Writes a ball of 642 vertices to the folder and returns the arguments with which `relume bake` takes it
+// Writes a ball of 162 vertices to the folder and returns the arguments with which `relume bake` takes it
 // unrefined.
 inline std::string ballIn(const TemporaryFolder& folder) {
     if (!std::filesystem::exists(folder.path() / "ball.obj"))
-        folder.write("ball.obj", sampleObj(makeSphere(3)));
+        folder.write("ball.obj", sampleObj(makeSphere(2)));
     return "ball.obj --refine off";
 }
 

@@ -35,11 +35,11 @@ class Sweep {
         for (const char* image : kImages) mWhole.push_back(mSession.bytes(image));
     }
 
-    // Fails every `stride`-th call, of all functions or of one; each if RELUME_EVERY_FAULT is set. The number
-    // of frames, and with it of calls, differs a little from run to run. What a failed call leaves is null,
-    // since GLFW and Dear ImGui use it.
+    // Fails every `stride`-th call (faultStride()), of all functions or of one. The number of frames, and
+    // with it of calls, differs a little from run to run. What a failed call leaves is null, since GLFW and
+    // Dear ImGui use it.
     Tally fail(const std::string& result, int stride, const std::string& function = "") {
-        if (std::getenv("RELUME_EVERY_FAULT")) stride = 1;
+        stride = faultStride(stride);
         const auto faulty = [&](int call) {
             return run(kFaults + ("RELUME_FAULT_VULKAN_NULL=1 RELUME_FAULT_VULKAN=" + result) +
                        " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call) +
@@ -113,10 +113,10 @@ class Sweep {
 
 TEST_CASE("viewer surroundings: lost images and surfaces are made again, and a lost device is an error") {
     Sweep sweep;
-    const Tally outOfDate = sweep.fail("out-of-date", 11);
+    const Tally outOfDate = sweep.fail("out-of-date", 14);
     CHECK_GT(outOfDate.failed, 2);
     CHECK_EQ(outOfDate.recovered, outOfDate.failed);
-    const Tally surface = sweep.fail("surface-lost", 13);
+    const Tally surface = sweep.fail("surface-lost", 19);
     CHECK_GT(surface.recovered, 1);
     CHECK_EQ(surface.told, 0);
     CHECK_GT(sweep.fail("lost", 97).refused, 1);
@@ -181,7 +181,7 @@ TEST_CASE(
         CAPTURE(output);
         const bool isNamed = output[0] != '.';
         int call = 1;
-        for (;; call++) {
+        for (;; call += faultStride(2)) {
             CAPTURE(call);
             if (isNamed) session.folder().write(output, "precious");
             const Outcome outcome = session.replay(
