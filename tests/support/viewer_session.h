@@ -55,7 +55,8 @@ class ViewerSession {
                               " XDG_STATE_HOME=" + path("state").string() +
                               " MESA_SHADER_CACHE_DIR=\"${HOME:-/tmp}/.cache\""
                               " " +
-                              kNoThreads + " timeout 300 env " + environment);
+                              kNoThreads + " timeout " + (std::getenv("RELUME_SOAK") ? "6h" : "300") +
+                              " env " + environment);
     }
     Outcome relume(const std::string& arguments) { return runRelume(mFolder, arguments, kNoThreads); }
 
