@@ -19,7 +19,7 @@ layout(constant_id = 0) const uint kFaceSize = 64; // F, lighting texels along a
 layout(constant_id = 1) const uint kVisibilitySize = 256; // a multiple of F, at most 8 F
 layout(constant_id = 2) const uint kSamplesPerSide = 1; // evaluations along a lighting texel's side
 layout(constant_id = 3) const uint kMapping = 0;
-layout(constant_id = 4) const uint kMostTerms = 8; // of a dispatch, or more
+layout(constant_id = 4) const uint kTermCapacity = 8; // at least the terms of every dispatch
 layout(local_size_x_id = 5) in;
 
 layout(push_constant, scalar) uniform Push { TransportPush push; };
@@ -43,12 +43,12 @@ const uint kCell = kRatio / kSamplesPerSide; // visibility texels along a side o
 const uint kBlockBits = 4 * kRatio; // visibility texels along a side of a block
 const uint kWordsPerLine = kVisibilitySize / 32;
 // Without a loop over terms, the places of all 16 lookups need not be stored, which is a quarter faster on lavapipe.
-const bool kOneTerm = kMostTerms == 1;
+const bool kOneTerm = kTermCapacity == 1;
 
 // The face's blocks: those that light reaches from the front, in any order, the others from the back.
 shared uint blockList[kFaceBlocks];
 shared uint reachedBlocks, otherBlocks;
-shared vec3 averages[kMostTerms * kCoarseBlocks]; // of the second stage
+shared vec3 averages[kTermCapacity * kCoarseBlocks]; // of the second stage
 uint lines[kBlockBits]; // a block's visibility: a word per line, in its lowest bits
 
 // The corners of a lookup in `corners`, and their weights.

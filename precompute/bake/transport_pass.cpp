@@ -81,12 +81,12 @@ TransportPass::TransportPass(const vk::Device& device, const FactoredBrdf& brdf,
     mTerms = terms;
     mMapSize = uint32_t(brdf.size);
     const auto samplesPerSide = uint32_t(std::lround(std::sqrt(options.transportSamples)));
-    // Few numbers of terms, since every program takes seconds to compile on a software device.
-    const uint32_t mostTerms = termsTogether == 1 ? 1 : std::max(8u, std::bit_ceil(termsTogether));
+    // Programs are made for few capacities, since each takes seconds to compile on a software device.
+    const uint32_t termCapacity = termsTogether == 1 ? 1 : std::max(8u, std::bit_ceil(termsTogether));
     mTransport = {device,
                   transport_comp_spirv,
                   {uint32_t(options.faceSize), uint32_t(options.visibilitySize), samplesPerSide,
-                   uint32_t(brdf.mapping), mostTerms, tuning.lanes},
+                   uint32_t(brdf.mapping), termCapacity, tuning.lanes},
                   "transport"};
 }
 

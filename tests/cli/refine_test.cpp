@@ -109,6 +109,7 @@ TEST_CASE("refine: by itself a bake adds vertices to coarse parts alone") {
     folder.write("fine.obj", sampleObj(relume::makePlane(2, 99)));
     bake("fine.obj", "fine.relume");
     CHECK_FALSE(folder.info("fine.relume").contains("refinement"));
+    CHECK_EQ(folder.info("fine.relume")["total"]["vertices"], 100 * 100);
 }
 
 TEST_CASE("refine: its event") {
