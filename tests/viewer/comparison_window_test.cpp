@@ -1,5 +1,4 @@
-// Ray tracing beside the relit view, as the window shows it. Tests that wait for the reference are named in
-// run_alone.cmake.
+// Ray tracing beside the relit view, as the window shows it.
 #include "engine/render/tone_map.h"
 #include "tests/support/viewer_session.h"
 #include "tests/support/window_image.h"
