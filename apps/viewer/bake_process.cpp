@@ -64,7 +64,7 @@ BakeProcess::BakeProcess(const std::filesystem::path& input, const std::filesyst
     if (mProcess == 0) {
         dup2(events[1], STDOUT_FILENO);
         dup2(errors[1], STDERR_FILENO);
-        setpriority(PRIO_PROCESS, 0, 10); // frames have priority, as over Comparison's threads
+        setpriority(PRIO_PROCESS, 0, 10); // frames go first; see comparison.cpp
         execv(arguments[0], arguments.data());
         _exit(127);
     }
