@@ -70,7 +70,7 @@ TEST_CASE("glTF extensions: factors become parameters of the model") {
                 "ior"));
 }
 
-TEST_CASE("glTF extensions: factors are clamped; textures and other extensions are told") {
+TEST_CASE("glTF extensions: factors are clamped, textures and other extensions are told") {
     const LogCapture log;
     const GltfPart part = decodeMaterial(R"("extensions":{"KHR_materials_ior":{"ior":1e9},
         "KHR_materials_specular":{"specularFactor":-1,"specularColorFactor":[-1,1e9,0],"specularTexture":{"index":0},

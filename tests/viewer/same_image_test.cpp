@@ -212,8 +212,9 @@ TEST_CASE("viewer: a session is drawn by `relume render`, and opened again as it
     }
 }
 
-TEST_CASE("viewer: a session of a bake that is open, but not shown, shows it; the residual is no matter of a "
-          "sketch") {
+TEST_CASE(
+    "viewer: a session of a bake that is open, but not shown, shows it, and the residual is no matter of a "
+    "sketch") {
     ViewerSession& session = sharedSession();
     session.bake("other.relume", "-m clay");
     std::ofstream(session.path("back.json"))
