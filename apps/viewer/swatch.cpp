@@ -1,7 +1,6 @@
 #include "apps/viewer/swatch.h"
 
-#include "engine/light/light_cube.h"
-#include "engine/math/cubemap.h"
+#include "engine/light/environment.h"
 #include "engine/math/disk_map.h"
 #include "engine/math/tangent_frame.h"
 #include "precompute/brdf/brdf.h"
@@ -12,21 +11,22 @@ namespace relume {
 
 namespace {
 
-constexpr int kLightSize = 12; // texels per side of the cube that lights it
+constexpr int kLightColumns = 48; // of the map that lights it
 
 struct Ray {
     vec3 direction, energy;
 };
 
 std::vector<Ray> skyRays() {
-    const LightCube sky = sampleEnvironment(prepareForSampling(makeSky()), kLightSize, 0);
+    const Environment sky = prepareForSampling(makeSky(), kLightColumns);
     std::vector<Ray> rays;
-    for (int face = 0; face < kCubeFaces; face++)
-        for (int y = 0; y < kLightSize; y++)
-            for (int x = 0; x < kLightSize; x++)
-                rays.push_back({cubeTexelDirection(face, x, y, kLightSize),
-                                sky.radiance[size_t(cubeTexelIndex(face, x, y, kLightSize))] *
-                                    cubeTexelSolidAngle(x, y, kLightSize)});
+    for (int y = 0; y < sky.height; y++) {
+        const float pixel = 2 * kPi / float(sky.width); // wide and high, in radians
+        const float solidAngle = pixel * 2 * std::sin(pixel / 2) * std::sin(pixel * (float(y) + 0.5f));
+        for (int x = 0; x < sky.width; x++)
+            rays.push_back({sky.direction(float(x) + 0.5f, float(y) + 0.5f),
+                            sky.radiance[size_t(y) * size_t(sky.width) + size_t(x)] * solidAngle});
+    }
     return rays;
 }
 

@@ -67,10 +67,14 @@ Environment makeSky(int width) {
     Environment sky{width, width / 2, std::vector<vec3>(size_t(width) * size_t(width / 2))};
     const vec3 sun(std::sin(kSunLongitude) * std::cos(kSunElevation), std::sin(kSunElevation),
                    std::cos(kSunLongitude) * std::cos(kSunElevation));
+    std::vector<vec3> columns; // directions at the horizon
+    for (int x = 0; x < width; x++)
+        columns.push_back(sky.direction(float(x) + 0.5f, float(sky.height) / 2));
     parallelFor(size_t(sky.height), [&](size_t y) {
+        const vec3 row = sky.direction(float(width) / 2, float(y) + 0.5f); // at longitude 0: x is 0
         for (size_t x = 0; x < size_t(width); x++)
             sky.radiance[y * size_t(width) + x] =
-                skyRadiance(sky.direction(float(x) + 0.5f, float(y) + 0.5f), sun);
+                skyRadiance({columns[x].x * row.z, row.y, columns[x].z * row.z}, sun);
     });
     return sky;
 }

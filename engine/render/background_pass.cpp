@@ -1,6 +1,7 @@
 #include "engine/render/background_pass.h"
 
 #include "engine/base/check.h"
+#include "engine/base/parallel.h"
 #include "engine/render/view_image.h"
 #include "engine/vk/upload.h"
 #include "shaders/background_frag.h"
@@ -18,10 +19,11 @@ namespace {
 constexpr float kLargestHalf = 65504;
 
 vk::Image uploadMap(const vk::Device& device, const Environment& map) {
-    std::vector<uint64_t> texels;
-    texels.reserve(map.radiance.size());
-    for (const vec3& radiance : map.radiance)
-        texels.push_back(glm::packHalf4x16(vec4(glm::min(radiance, vec3(kLargestHalf)), 1)));
+    std::vector<uint64_t> texels(map.radiance.size());
+    parallelFor(size_t(map.height), [&](size_t y) {
+        for (size_t i = y * size_t(map.width); i < (y + 1) * size_t(map.width); i++)
+            texels[i] = glm::packHalf4x16(vec4(glm::min(map.radiance[i], vec3(kLargestHalf)), 1));
+    });
     return vk::uploadImage(device,
                            {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                             .width = uint32_t(map.width),
