@@ -75,13 +75,22 @@ std::array<LightSample, kSamplesPerSide * kSamplesPerSide> cellSamples(const Geo
 class WholeKernel {
   public:
     WholeKernel(const Reflectance& exact, bool isIsotropic)
-        : mValues(kHarmonics + 1, std::vector<std::vector<vec3>>(2 * kFrequencies + 1)) {
+        : mValues(isIsotropic ? 1 : kHarmonics + 1, std::vector<std::vector<vec3>>(2 * kFrequencies + 1)),
+          mCosines(kAzimuths, kFrequencies + 1), mSines(kAzimuths, kFrequencies + 1) {
         for (auto& harmonic : mValues)
             for (auto& component : harmonic) component.resize(size_t(kRings) * kRings);
+        for (int m = 0; m <= kFrequencies; m++)
+            for (int azimuth = 0; azimuth < kAzimuths; azimuth++) {
+                const float phase = azimuthAngle(float(m * azimuth % kAzimuths));
+                mCosines(azimuth, m) = std::cos(phase);
+                mSines(azimuth, m) = std::sin(phase);
+            }
         const int views = isIsotropic ? 1 : kViewAzimuths;
         tbb::parallel_for(0, kRings, [&](int row) { fill(exact, views, row); });
     }
 
+    // An isotropic BRDF has none but the first, 0.
+    int harmonics() const { return int(mValues.size()); }
     const std::vector<vec3>& component(int harmonic, int frequency) const {
         return mValues[size_t(harmonic)][size_t(frequency + kFrequencies)];
     }
@@ -116,17 +125,9 @@ class WholeKernel {
     // Computes Fourier coefficients Σ_δ f e^(imδ) over the light's azimuth, then e^(-2ica) over the view's.
     // Keeps their real part, which is everything if the BRDF has mirror symmetry.
     void transform(const Samples& samples, int views, int row) {
-        Eigen::MatrixXf cosines(kAzimuths, kFrequencies + 1), sines(kAzimuths, kFrequencies + 1);
-        for (int m = 0; m <= kFrequencies; m++)
-            for (int azimuth = 0; azimuth < kAzimuths; azimuth++) {
-                const float phase = azimuthAngle(float(m * azimuth % kAzimuths));
-                cosines(azimuth, m) = std::cos(phase);
-                sines(azimuth, m) = std::sin(phase);
-            }
-        const Samples real = samples * cosines, imaginary = samples * sines;
-        const int harmonics = views == 1 ? 1 : kHarmonics + 1;
-        Eigen::MatrixXf viewCosines(harmonics, views), viewSines(harmonics, views);
-        for (int harmonic = 0; harmonic < harmonics; harmonic++)
+        const Samples real = samples * mCosines, imaginary = samples * mSines;
+        Eigen::MatrixXf viewCosines(harmonics(), views), viewSines(harmonics(), views);
+        for (int harmonic = 0; harmonic < harmonics(); harmonic++)
             for (int view = 0; view < views; view++) {
                 const float phase = 2 * kPi * float(harmonic * view) / float(views);
                 viewCosines(harmonic, view) = std::cos(phase) / float(views);
@@ -137,7 +138,7 @@ class WholeKernel {
         const Eigen::Map<const Samples> realByView(real.data(), views, components),
             imaginaryByView(imaginary.data(), views, components);
         const Samples even = viewCosines * realByView, odd = viewSines * imaginaryByView;
-        for (int harmonic = 0; harmonic < harmonics; harmonic++)
+        for (int harmonic = 0; harmonic < harmonics(); harmonic++)
             for (int m = -kFrequencies; m <= kFrequencies; m++)
                 for (int ring = 0; ring < kRings; ring++)
                     for (int channel = 0; channel < 3; channel++) {
@@ -149,17 +150,19 @@ class WholeKernel {
 
     // [harmonic][frequency + kFrequencies][ring of the mirror direction · rings + ring of the light]
     std::vector<std::vector<std::vector<vec3>>> mValues;
+    Eigen::MatrixXf mCosines, mSines; // [azimuth][frequency]
 };
 
 // Returns the squared sum over both rings, weighted by their solid angles.
 double energyOf(const std::vector<vec3>& component) {
+    std::array<float, kRings> solidAngles;
+    for (int ring = 0; ring < kRings; ring++)
+        solidAngles[size_t(ring)] = std::sin(ringAngle(float(ring) + 0.5f));
     double energy = 0;
-    for (int row = 0; row < kRings; row++)
-        for (int ring = 0; ring < kRings; ring++) {
-            const vec3 value = component[size_t(row * kRings + ring)];
-            energy +=
-                double(std::sin(ringAngle(float(row) + 0.5f)) * std::sin(ringAngle(float(ring) + 0.5f))) *
-                double(glm::dot(value, value));
+    for (size_t row = 0; row < kRings; row++)
+        for (size_t ring = 0; ring < kRings; ring++) {
+            const vec3 value = component[row * kRings + ring];
+            energy += double(solidAngles[row] * solidAngles[ring]) * double(glm::dot(value, value));
         }
     return energy;
 }
@@ -170,7 +173,7 @@ std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact, b
     const WholeKernel whole(exact, isIsotropic);
     double all = 0;
     std::vector<double> byHarmonic(kHarmonics + 1, 0), byFrequency(kFrequencies + 1, 0);
-    for (int harmonic = 0; harmonic <= kHarmonics; harmonic++)
+    for (int harmonic = 0; harmonic < whole.harmonics(); harmonic++)
         for (int m = -kFrequencies; m <= kFrequencies; m++) {
             // Harmonic -c is the conjugate of harmonic c.
             const double energy = (harmonic == 0 ? 1 : 2) * energyOf(whole.component(harmonic, m));

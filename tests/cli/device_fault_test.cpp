@@ -1,10 +1,12 @@
 // Every call of Vulkan that may fail does so once: the program goes on to the same output, or says what
 // failed and what to do, and leaves the output that was there.
+#include "engine/import/image_file.h"
 #include "tests/support/run_relume.h"
 
 #include <doctest/doctest.h>
 #include <set>
 
+using namespace relume;
 using namespace relume::test;
 
 namespace {
@@ -20,7 +22,8 @@ const std::string kSmallBake =
     "--map-size 8 -q --validation core,sync -o out.relume ";
 const Command kFaultyBake{kSmallBake + "--bounces 0 --layout rows", "out.relume"};
 const Command kBounces{kSmallBake + "--bounces 1 --ground --ground-tessellation 3", "out.relume"};
-const Command kPicture{"render in.relume --size 16x12 --validation core,sync -o out.png", "out.png"};
+const Command kPicture{"render in.relume -e room.exr --size 16x12 --validation core,sync -o out.png",
+                       "out.png"};
 
 // Counts what became of the calls that failed, one in each run.
 struct Tally {
@@ -28,7 +31,12 @@ struct Tally {
 };
 
 struct FaultFolder : TemporaryFolder {
-    FaultFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
+    FaultFolder() {
+        write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+        Image room(16, 8);
+        for (vec4& pixel : room.pixels) pixel = vec4(1);
+        writeExr(path() / "room.exr", room);
+    }
 };
 
 // Fails one call in each run, and of all calls every `stride`-th (faultStride()).
@@ -98,8 +106,8 @@ class Sweep {
         std::set<std::string> left;
         for (const auto& file : std::filesystem::directory_iterator(mFolder.path()))
             left.insert(file.path().filename());
-        CHECK(
-            (left == std::set<std::string>{"mesh.obj", "in.relume", mCommand.output, "out.txt", "err.txt"}));
+        CHECK((left == std::set<std::string>{"mesh.obj", "room.exr", "in.relume", mCommand.output, "out.txt",
+                                             "err.txt"}));
     }
 
     const Command& mCommand;

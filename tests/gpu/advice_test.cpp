@@ -40,7 +40,7 @@ double errorOf(const vk::Device& device, const Asset& asset, const StudiedLight&
                                           glm::radians(35.0f), 4.0f / 3);
         const ErrorStudies studies =
             studyErrors(device, asset, defaultAppearance(asset), std::span(&light, 1),
-                        {.view = {camera, 20, 15}, .mostPasses = 32});
+                        {.view = {camera, 16, 12}, .mostPasses = 32});
         squares += std::pow(studies.lights[0].budget.total, 2);
     }
     return std::sqrt(squares / 2);
@@ -53,7 +53,7 @@ TEST_CASE("advise: a bake of its options has about the error and the bytes that 
     const StudiedLight light = sky();
     BakeObserver observer;
     constexpr double kWanted = 0.06;
-    const Advice advice = advise(device, {knot(), {}, kWanted, adviceOptions(), 160}, light, observer);
+    const Advice advice = advise(device, {knot(), {}, kWanted, adviceOptions(), 80}, light, observer);
     CHECK(!advice.refined);
     CHECK(advice.best() == &*advice.plain.bases);
     for (const auto& advised : {advice.plain.bases, advice.plain.rows}) {
@@ -79,7 +79,7 @@ TEST_CASE("advise: a refined ground is preferred where it needs fewer bytes") {
     };
     BakeObserver observer;
     const Advice advice =
-        advise(device, {onGround(40), onGround(8), 0.1, adviceOptions(), 80}, sky(), observer);
+        advise(device, {onGround(40), onGround(8), 0.1, adviceOptions(), 40}, sky(), observer);
     REQUIRE(advice.refined);
     CHECK(advice.refined->vertices < advice.plain.vertices / 2);
     REQUIRE(advice.best());

@@ -147,10 +147,10 @@ TEST_CASE("lit spheres: the device makes those of the twin") {
                 CHECK(relativeError(spheres.readTuples(i, 0, lit),
                                     unshadowedTuples(lights, i == 0 ? gold.factors : steel.factors,
                                                      hasTangents)) < 2e-3);
-                for (const uint32_t node : {40u, 79u})
-                    CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node, lit),
-                                        litSpheres(kernel, polarLight(cube, gridDirection(node)))) <
-                          filtering);
+                const uint32_t node =
+                    hasTangents ? 40 : 79; // of the first that are made together, and the last
+                CHECK(relativeError(spheres.readSphere(spheres.kernel(&kernel), node, lit),
+                                    litSpheres(kernel, polarLight(cube, gridDirection(node)))) < filtering);
             }
         }
     }

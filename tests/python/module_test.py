@@ -132,10 +132,10 @@ class ModuleTest(unittest.TestCase):
             np.testing.assert_allclose(2 * once, twice, rtol=1e-6, atol=1e-7)
 
     def test_reference_is_that_of_the_command_line(self):
-        image = relume.reference(self.asset, self.light, size=(40, 30))
-        run("reference", self.path, "--size", "40x30", "-o", self.file("truth.exr"))
+        image = relume.reference(self.asset, self.light, size=(24, 18))
+        run("reference", self.path, "--size", "24x18", "-o", self.file("truth.exr"))
         np.testing.assert_array_equal(image, relume.load_image(self.file("truth.exr")))
-        drawn = relume.Renderer(self.asset, (40, 30)).render(self.light)
+        drawn = relume.Renderer(self.asset, (24, 18)).render(self.light)
         drawn.save(self.file("drawn.exr"))
         ours = relume.compare(drawn, image)
         theirs = run_json("compare", self.file("drawn.exr"), self.file("truth.exr"))
@@ -143,9 +143,9 @@ class ModuleTest(unittest.TestCase):
         self.assertAlmostEqual(ours["flip"], theirs["flip"], places=9)
 
     def test_references_take_rays_terms_and_plans(self):
-        factored = [relume.reference(self.asset, self.light, size=(40, 30), samples=1, rays=1, brdf="factored",
+        factored = [relume.reference(self.asset, self.light, size=(24, 18), samples=1, rays=1, brdf="factored",
                                      terms=terms) for terms in (1, 2, None)]
-        run("reference", self.path, "--size", "40x30", "--samples", 1, "--rays", 1, "--brdf", "factored", "-o",
+        run("reference", self.path, "--size", "24x18", "--samples", 1, "--rays", 1, "--brdf", "factored", "-o",
             self.file("factored.exr"))
         np.testing.assert_array_equal(factored[2], relume.load_image(self.file("factored.exr")))
         np.testing.assert_array_equal(factored[1], factored[2])
@@ -154,7 +154,7 @@ class ModuleTest(unittest.TestCase):
         scene = relume.Scene().add(self.mesh, material="gold")
         scene.add_ground(tessellation=10)
         np.testing.assert_array_equal(
-            relume.reference(relume.plan(scene, **OPTIONS), self.light, size=(40, 30), samples=1, rays=1,
+            relume.reference(relume.plan(scene, **OPTIONS), self.light, size=(24, 18), samples=1, rays=1,
                              brdf="factored"), factored[2])
         for wrong in (dict(rays=3), dict(terms=1)):
             with self.assertRaises(relume.UsageError):
@@ -247,19 +247,19 @@ class ModuleTest(unittest.TestCase):
         self.assertIn(relume.device(), relume.devices())
 
     def test_errors_are_those_of_the_command_line(self):
-        ours = relume.errors(self.asset, relume.Light.lamp(40, 50, 20, [1, 1, 1]), size=(8, 6))
+        ours = relume.errors(self.asset, relume.Light.lamp(40, 50, 20, [1, 1, 1]), size=(4, 3))
         light = self.file("lamp.light.json")
         with open(light, "w") as file:
             json.dump({"lamps": [{"azimuth": 40, "elevation": 50, "radius": 20, "radiance": [1, 1, 1]}]}, file)
-        theirs = run_json("errors", self.path, "--light", light, "--size", "8x6")
+        theirs = run_json("errors", self.path, "--light", light, "--size", "4x3")
         self.assertEqual(ours, theirs)
         self.assertEqual([part["name"] for part in ours["parts"]], self.asset.parts)
         self.assertEqual(sum(part["points"] for part in ours["parts"]), ours["points"])
-        both = relume.errors(self.asset, [relume.Light.lamp(40, 50, 20, [1, 1, 1]), self.light], size=(8, 6),
+        both = relume.errors(self.asset, [relume.Light.lamp(40, 50, 20, [1, 1, 1]), self.light], size=(4, 3),
                              passes=0, images=True)
         self.assertEqual(both[0]["sources"], ours["sources"])
         self.assertEqual(both[1]["measured"], 0)
-        self.assertEqual(both[1]["images"]["interpolation"].shape, (6, 8, 4))
+        self.assertEqual(both[1]["images"]["interpolation"].shape, (3, 4, 4))
         self.assertEqual(len(both[1]["images"]), 4 + len(ours["sources"]))
 
     def test_advice_is_that_of_the_command_line(self):

@@ -9,7 +9,8 @@ TEST_CASE("viewer: B goes from bake to bake, and the same mesh stays where it is
     ViewerSession& session = sharedSession();
     session.bake("coarse.relume", "-m clay");
     const Outcome baked =
-        session.relume("bake sphere -m clay -K 2 -N 24 --bounces 0 --visibility-size 64 --face-size 32 "
+        session.relume("bake " + ballIn(session.folder()) +
+                       " -m clay -K 2 -N 24 --bounces 0 --visibility-size 64 --face-size 32 "
                        "--map-size 16 -q -o ball.relume");
     REQUIRE_MESSAGE(baked.exitCode == 0, baked.err);
     const Outcome outcome = session.replay({{{"wait", "settled"}},
