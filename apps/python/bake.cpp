@@ -19,7 +19,16 @@ class GivenOptions {
 
     template <typename T>
     void take(const char* name, T& option) {
-        if (const py::object value = pop(name); !value.is_none()) option = value.cast<T>();
+        if (const py::object value = pop(name); !value.is_none()) option = as<T>(name, value);
+    }
+    template <typename T>
+    static T as(const char* name, const py::object& value) {
+        try {
+            return value.cast<T>();
+        } catch (const py::cast_error&) {
+            throw py::type_error(fmt::format("bake(): {}: an object of type {} cannot be taken", name,
+                                             Py_TYPE(value.ptr())->tp_name));
+        }
     }
     py::object pop(const char* name) { return mGiven.attr("pop")(name, py::none()); }
 
@@ -52,7 +61,7 @@ void takeLayout(GivenOptions& given, BakeOptions& options) {
     if (kept != options.layout.layout) options.layout = {.layout = kept};
     given.take("budget", options.layout.bytesPerVertex);
     if (const py::object error = given.pop("error"); !error.is_none()) {
-        options.layout.error = error.cast<double>();
+        options.layout.error = GivenOptions::as<double>("error", error);
         options.layout.bytesPerVertex.reset();
     }
     options.coefficients = defaultCoefficients(kept);
@@ -63,7 +72,7 @@ void takeVisibility(GivenOptions& given, BakeOptions& options) {
     const py::object name = given.pop("visibility");
     if (name.is_none()) return;
     for (const VisibilityMethod method : {VisibilityMethod::Raster, VisibilityMethod::Traced})
-        if (name.cast<std::string>() == visibilityMethodName(method)) {
+        if (GivenOptions::as<std::string>("visibility", name) == visibilityMethodName(method)) {
             options.visibilityMethod = method;
             return;
         }
@@ -79,7 +88,7 @@ void takeRefinement(GivenOptions& given, BakeOptions& options) {
         return;
     }
     RefinementRecord record;
-    record.wanted = refine.cast<decltype(record.wanted)>();
+    record.wanted = GivenOptions::as<decltype(record.wanted)>("refine", refine);
     options.refinement = record;
 }
 
@@ -90,13 +99,13 @@ BakeOptions optionsFrom(const py::kwargs& kwargs) {
     BakeOptions options = presetOptions(presetFrom(preset));
     given.take("terms", options.factorization.terms);
     if (const py::object name = given.pop("factorization"); !name.is_none()) {
-        options.factorization.method =
-            known(factorizationFromName(name.cast<std::string>()), "factorization", name.cast<std::string>());
+        const auto text = GivenOptions::as<std::string>("factorization", name);
+        options.factorization.method = known(factorizationFromName(text), "factorization", text);
         options.mapping = defaultMapping(options.factorization.method);
     }
     takeLayout(given, options);
     if (const py::object bounces = given.pop("bounces"); !bounces.is_none())
-        options.bounces = bounces.cast<int>(), options.areBouncesAuto = false;
+        options.bounces = GivenOptions::as<int>("bounces", bounces), options.areBouncesAuto = false;
     given.take("map_size", options.mapSize);
     given.take("face_size", options.faceSize);
     given.take("visibility_size", options.visibilitySize);
@@ -154,9 +163,15 @@ std::shared_ptr<Asset> planScene(const SceneBuilder& builder, const py::kwargs& 
     return std::make_shared<Asset>(planBake(*on, scene, options, silent).asset);
 }
 
+const AssetPart& partOf(const Asset& asset, size_t part) {
+    if (part >= asset.parts.size())
+        throw py::index_error(fmt::format("part {}: the asset has {} parts", part, asset.parts.size()));
+    return asset.parts[part];
+}
+
 // Returns rows of a part's first set as an array (rows, 6 F²) of RGB coefficients.
 py::array_t<float> coefficientsOfRows(const Asset& asset, size_t part, const std::vector<size_t>& rows) {
-    const Transport& transport = asset.parts.at(part).sets.front().transport;
+    const Transport& transport = partOf(asset, part).sets.front().transport;
     const size_t count = size_t(6 * asset.faceSize * asset.faceSize),
                  all = size_t(verticesOf(transport)) * termsOf(transport);
     std::vector<vec3> values;
@@ -198,7 +213,7 @@ void addBake(py::module_& module) {
                  return parsed(text);
              })
         .def(
-            "mesh", [](const Asset& asset, size_t part) { return asset.parts.at(part).mesh; },
+            "mesh", [](const Asset& asset, size_t part) { return partOf(asset, part).mesh; },
             py::arg("part") = 0)
         .def("coefficients", coefficientsOfRows, py::arg("part"), py::arg("rows"));
     module.def("_bake", bakeScene);

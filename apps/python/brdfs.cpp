@@ -1,4 +1,5 @@
 // Bindings of BRDFs: factorization, evaluation and errors.
+#include "apps/python/checks.h"
 #include "apps/python/module.h"
 #include "engine/base/error.h"
 #include "precompute/brdf/factorization.h"
@@ -50,8 +51,8 @@ py::list factored(const std::vector<std::string>& materials, int terms, const st
                                 : isPublished(method) ? DiskMapping::Orthographic
                                                       : DiskMapping::EqualArea;
     const TexelValue value = texels ? texelsFrom(*texels) : texelValueOf(method);
-    if (terms < 1 || terms > kMostTerms)
-        throw UsageError(fmt::format("terms: expected 1 to {}, found {}", kMostTerms, terms));
+    expectWithin("terms", terms, 1, kMostTerms);
+    if (materials.empty()) throw UsageError("material: expected a material or more, found an empty list");
     FactoredBrdf brdf;
     std::vector<std::vector<float>> frobenius, expected;
     std::vector<RmsErrors> rms;
@@ -113,7 +114,7 @@ std::vector<std::vector<std::vector<float>>> errorsOfRadiance(const std::string&
                                                               const std::vector<Light>& lights,
                                                               int orientations, bool uniform) {
     constexpr int kLightSize = 64; // per side of the cube, as in `relume brdf`
-    if (orientations < 1) throw py::value_error("orientations: expected 1 or more");
+    expectWithin("orientations", orientations, 1, 1 << 20);
     std::vector<FactoredBrdf> brdfs;
     for (const py::dict& one : factors) brdfs.push_back(factorsFrom(one));
     const py::gil_scoped_release unlocked;
@@ -127,7 +128,12 @@ std::vector<std::vector<std::vector<float>>> errorsOfRadiance(const std::string&
 // Returns local directions, lifted above the horizon.
 std::vector<vec3> directionsFrom(const Array<float>& array, const char* name) {
     std::vector<vec3> directions = elementsOf<vec3>(array, name);
-    for (vec3& direction : directions) direction = liftAboveHorizon(glm::normalize(direction));
+    for (vec3& direction : directions) {
+        const float length = glm::length(direction);
+        if (!(length > 0 && std::isfinite(length)))
+            throw UsageError(fmt::format("{}: expected directions that are finite and not 0", name));
+        direction = liftAboveHorizon(direction / length);
+    }
     return directions;
 }
 

@@ -1,4 +1,5 @@
 // Bindings of lights and cameras.
+#include "apps/python/checks.h"
 #include "apps/python/module.h"
 #include "engine/import/environment_file.h"
 #include "engine/import/light_file.h"
@@ -12,12 +13,12 @@ vec3 vectorOf(const std::array<float, 3>& values) { return {values[0], values[1]
 Environment environmentOf(const Array<float>& array) {
     const Image image = imageOf(array, "environment");
     if (image.width != 2 * image.height)
-        throw py::value_error("environment: expected a latlong, twice as wide as high");
+        throw UsageError("environment: expected a latlong, twice as wide as high");
     Environment environment{image.width, image.height, {}};
     environment.radiance.reserve(image.pixels.size());
     for (const vec4& pixel : image.pixels) {
         if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.z >= 0 && pixel.x + pixel.y + pixel.z < 1e30f))
-            throw py::value_error("environment: expected finite radiance of at least 0");
+            throw UsageError("environment: expected finite radiance of at least 0");
         environment.radiance.emplace_back(pixel);
     }
     return environment;
@@ -30,14 +31,26 @@ Light lightOf(Environment environment) {
 }
 
 Light sumOf(Light a, const Light& b) {
-    if (a.sky && b.sky) throw py::value_error("two day skies cannot be added");
+    if (a.sky && b.sky) throw UsageError("two day skies cannot be added");
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(a.environments, b.environments);
     append(a.strokes, b.strokes);
     append(a.lamps, b.lamps);
     append(a.distant, b.distant);
     if (b.sky) a.sky = b.sky;
-    return a;
+    return checked(std::move(a));
+}
+
+Light productOf(const Light& light, float factor) {
+    if (!(factor >= 0)) throw UsageError("a light is scaled by 0 or more");
+    return checked(scaled(light, factor));
+}
+
+// Returns the direction at an azimuth and an elevation in degrees.
+vec3 directionFrom(float azimuth, float elevation) {
+    expectWithin("azimuth", azimuth, -kLargestNumber, kLargestNumber);
+    expectWithin("elevation", elevation, -kLargestNumber, kLargestNumber);
+    return directionAt(azimuth, elevation);
 }
 
 } // namespace
@@ -61,42 +74,39 @@ void addLight(py::module_& module) {
             [](const std::filesystem::path& path, double seconds) {
                 MovingLight light = readLight(path);
                 light.keepPictures();
+                expectWithin("seconds", seconds, 0.0, 1e6);
                 return light.at(seconds);
             },
             py::arg("path"), py::arg("seconds") = 0.0, py::call_guard<py::gil_scoped_release>())
         .def_static(
             "lamp",
             [](float azimuth, float elevation, float radius, std::array<float, 3> radiance) {
-                if (!(radius > 0 && radius <= 180))
-                    throw py::value_error("radius: expected 0 to 180 degrees");
-                return Light{
-                    .lamps = {{directionAt(azimuth, elevation), glm::radians(radius), vectorOf(radiance)}}};
+                expectWithin("radius", radius, kSmallestLampRadius, 180.0f);
+                const float angle = std::min(glm::radians(radius), kPi);
+                return checked(
+                    Light{.lamps = {{directionFrom(azimuth, elevation), angle, vectorOf(radiance)}}});
             },
             py::arg("azimuth"), py::arg("elevation"), py::arg("radius"), py::arg("radiance"))
         .def_static(
             "distant",
             [](float azimuth, float elevation, std::array<float, 3> irradiance) {
-                return Light{.distant = {{directionAt(azimuth, elevation), vectorOf(irradiance)}}};
+                return checked(Light{.distant = {{directionFrom(azimuth, elevation), vectorOf(irradiance)}}});
             },
             py::arg("azimuth"), py::arg("elevation"), py::arg("irradiance"))
         .def(
-            "turned", [](const Light& light, float degrees) { return turned(light, glm::radians(degrees)); },
+            "turned",
+            [](const Light& light, float degrees) {
+                expectWithin("degrees", degrees, -kLargestNumber, kLargestNumber);
+                return checked(turned(light, glm::radians(degrees)));
+            },
             py::arg("degrees"))
-        .def("__mul__",
-             [](const Light& light, float factor) {
-                 if (!(factor >= 0)) throw py::value_error("a light is scaled by 0 or more");
-                 return scaled(light, factor);
-             })
-        .def("__rmul__",
-             [](const Light& light, float factor) {
-                 if (!(factor >= 0)) throw py::value_error("a light is scaled by 0 or more");
-                 return scaled(light, factor);
-             })
+        .def("__mul__", productOf)
+        .def("__rmul__", productOf)
         .def("__add__", [](const Light& a, const Light& b) { return sumOf(a, b); });
 
     py::class_<Camera>(module, "Camera")
         .def(py::init([](std::array<float, 3> eye, std::array<float, 3> target, float fov) {
-                 return Camera{vectorOf(eye), vectorOf(target), glm::radians(fov)};
+                 return checked(Camera{vectorOf(eye), vectorOf(target), glm::radians(fov)});
              }),
              py::arg("eye"), py::arg("target"), py::arg("fov") = 35.0f)
         .def_property_readonly("eye",

@@ -1,4 +1,5 @@
 // Bindings of rendering and relighting.
+#include "apps/python/checks.h"
 #include "apps/python/module.h"
 #include "engine/base/error.h"
 #include "engine/import/image_file.h"
@@ -7,41 +8,63 @@
 #include "engine/render/tone_map.h"
 #include "engine/render/view_pass.h"
 
+#include <limits>
+#include <mutex>
+
 namespace relume::python {
 
 namespace {
 
 Camera cameraOf(const Asset& asset, float azimuth, float elevation, float distance, float fov, float aspect) {
-    return orbitCamera(objectBounds(asset), glm::radians(azimuth), glm::radians(elevation), distance,
-                       glm::radians(fov), aspect);
+    expectWithin("azimuth", azimuth, -kLargestNumber, kLargestNumber);
+    expectWithin("elevation", elevation, -kLargestNumber, kLargestNumber);
+    expectWithin("distance", distance, 1e-6f, kLargestNumber);
+    expectWithin("fov", fov, 1.0f, 170.0f);
+    expectWithin("aspect", aspect, 1e-4f, 1e4f);
+    return checked(orbitCamera(objectBounds(asset), glm::radians(azimuth), glm::radians(elevation), distance,
+                               glm::radians(fov), aspect));
 }
 
+// Its calls may come from several threads.
 class Renderer {
   public:
-    Renderer(std::shared_ptr<const Asset> asset, std::pair<int, int> size, int samples, bool residual)
-        : mDevice(device()), mAsset(std::move(asset)), mLight(*mDevice, mAsset->faceSize),
+    Renderer(std::shared_ptr<const vk::Device> on, std::shared_ptr<const Asset> asset,
+             std::pair<int, int> size, int samples, bool residual)
+        : mDevice(std::move(on)), mAsset(std::move(asset)), mLight(*mDevice, mAsset->faceSize),
           mRelighter(*mDevice, *mAsset, {.residual = residual}),
           mView(*mDevice, *mAsset, {.width = size.first, .height = size.second, .samples = samples}),
           mAppearance(defaultAppearance(*mAsset)), mSize(size) {}
 
     void bind(const std::map<std::string, float>& blend) {
         std::vector<WeightedMaterial> materials;
-        for (const auto& [name, weight] : blend) materials.push_back({name, weight});
+        float sum = 0;
+        for (const auto& [name, weight] : blend) {
+            expectWithin("weight", weight, 0.0f, kLargestNumber);
+            materials.push_back({name, weight});
+            sum += weight;
+        }
+        if (sum == 0) throw UsageError("materials: expected at least one weight above 0");
+        const std::lock_guard lock(mMutex);
         relume::bindMaterials(mAppearance, *mAsset, materials);
         mView.setAppearance(mAppearance);
     }
 
     void setSelection(std::optional<int> threshold, std::optional<int> coefficients) {
+        if (threshold) expectWithin("threshold", *threshold, 0, kLightMaximum);
+        if (coefficients) expectWithin("coefficients", *coefficients, 1, int(kMaximumLightEntries));
+        const std::lock_guard lock(mMutex);
         mSelection = {};
         if (threshold || coefficients) mSelection = {threshold, coefficients.value_or(kDefaultLightCount)};
     }
 
-    void setTerms(int terms) {
-        if (terms < 0) throw py::value_error("terms: expected a number of terms, or 0 for all");
-        mView.setTerms(terms);
+    void setTerms(std::optional<int> terms) {
+        if (terms) expectWithin("terms", *terms, 1, kMostTerms);
+        const std::lock_guard lock(mMutex);
+        mView.setTerms(terms.value_or(0));
     }
 
     Image render(const Light& light, const std::optional<Camera>& camera, bool showsLight) {
+        const std::lock_guard lock(mMutex);
         const Camera eye = camera.value_or(defaultCamera(objectBounds(*mAsset), glm::radians(35.0f),
                                                          float(mSize.first) / float(mSize.second)));
         if (showsLight) {
@@ -62,6 +85,7 @@ class Renderer {
 
     // Returns each part's tuples, vertex after vertex, and its K.
     std::vector<std::pair<std::vector<vec3>, size_t>> relight(const Light& light) {
+        const std::lock_guard lock(mMutex);
         mLight.setLight(light);
         vk::Commands commands(*mDevice, "relight");
         commands.begin();
@@ -78,6 +102,7 @@ class Renderer {
     }
 
   private:
+    std::mutex mMutex;
     std::shared_ptr<const vk::Device> mDevice;
     std::shared_ptr<const Asset> mAsset;
     LightPass mLight;
@@ -109,13 +134,17 @@ float save(const std::filesystem::path& path, const Array<float>& array, std::op
            const std::string& tone) {
     Image image = imageOf(array, "image");
     const std::optional<ToneCurve> curve = toneCurveFromName(tone);
-    if (!curve) throw py::value_error("tone: expected none, aces or agx");
+    if (!curve) throw UsageError("tone: expected none, aces or agx");
+    if (exposure) expectWithin("exposure", *exposure, -100.0f, 100.0f);
     const py::gil_scoped_release unlocked;
     if (path.extension() == ".exr") {
         writeExr(path, image);
         return 0;
     }
     if (path.extension() != ".png") throw UsageError("save: expected a name ending in .exr or .png");
+    for (const vec4& pixel : image.pixels)
+        if (!glm::all(glm::lessThan(glm::abs(pixel), vec4(std::numeric_limits<float>::infinity()))))
+            throw UsageError("image: expected pixels that are finite");
     const float stops = exposure ? *exposure : autoExposure(image);
     for (vec4& pixel : image.pixels) // alpha of .png is not premultiplied
         if (pixel.w > 0 && pixel.w < 1) pixel = vec4(vec3(pixel) / pixel.w, pixel.w);
@@ -138,13 +167,17 @@ py::dict compare(const Array<float>& image, const Array<float>& reference) {
 
 void addRenderer(py::module_& module) {
     py::class_<Renderer>(module, "Renderer")
-        .def(py::init<std::shared_ptr<const Asset>, std::pair<int, int>, int, bool>(), py::arg("asset"),
-             py::arg("size"), py::arg("samples"), py::arg("residual"),
-             py::call_guard<py::gil_scoped_release>())
-        .def("bind", &Renderer::bind)
-        .def("select_terms", &Renderer::setTerms, py::arg("terms"))
-        .def("select_light", &Renderer::setSelection, py::arg("threshold") = py::none(),
-             py::arg("coefficients") = py::none())
+        .def(py::init(
+            [](const std::shared_ptr<Asset>& asset, std::pair<int, int> size, int samples, bool residual) {
+                expectGiven("asset", asset);
+                expectSize(size);
+                std::shared_ptr<const vk::Device> on = device();
+                const py::gil_scoped_release unlocked;
+                return std::make_unique<Renderer>(std::move(on), asset, size, samples, residual);
+            }))
+        .def("bind", &Renderer::bind, py::call_guard<py::gil_scoped_release>())
+        .def("select_terms", &Renderer::setTerms, py::call_guard<py::gil_scoped_release>())
+        .def("select_light", &Renderer::setSelection, py::call_guard<py::gil_scoped_release>())
         .def(
             "render",
             [](Renderer& renderer, const Light& light, const std::optional<Camera>& camera, bool showsLight) {

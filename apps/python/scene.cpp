@@ -1,4 +1,5 @@
 // Bindings of meshes and scenes.
+#include "apps/python/checks.h"
 #include "apps/python/module.h"
 #include "engine/import/mesh_cleanup.h"
 #include "engine/import/mesh_file.h"
@@ -11,18 +12,39 @@ namespace {
 
 const char* const kDefaultMaterial = "gold";
 
+template <typename Index>
+void expectIndices(const py::array& array, size_t positions) {
+    const auto indices = py::cast<Array<Index>>(array);
+    for (py::ssize_t i = 0; i < indices.size(); i++)
+        if (const Index index = indices.data()[i]; index < 0 || uint64_t(index) >= positions)
+            throw UsageError(
+                fmt::format("triangles: expected indices of {} positions, found {}", positions, index));
+}
+
+// Returns triangles from an array, or lists, of integers.
+std::vector<uvec3> trianglesFrom(const py::object& object, size_t positions) {
+    const py::array array = py::array::ensure(object);
+    const char kind = array ? array.dtype().kind() : 'O';
+    if (kind == 'i')
+        expectIndices<int64_t>(array, positions);
+    else if (kind == 'u')
+        expectIndices<uint64_t>(array, positions);
+    else if (!array || array.size() > 0)
+        throw UsageError("triangles: expected an array of integers");
+    return elementsOf<uvec3, uint32_t>(py::cast<Array<uint32_t>>(array), "triangles");
+}
+
 // Makes a mesh from arrays, checked and welded as one from a file.
-Mesh makeMesh(const Array<float>& positions, const Array<uint32_t>& triangles,
+Mesh makeMesh(const Array<float>& positions, const py::object& triangles,
               const std::optional<Array<float>>& normals, const std::optional<Array<float>>& uvs,
               const std::optional<Array<float>>& colors) {
     Mesh mesh;
     mesh.positions = elementsOf<vec3>(positions, "positions");
-    mesh.triangles = elementsOf<uvec3, uint32_t>(triangles, "triangles");
+    mesh.triangles = trianglesFrom(triangles, mesh.positions.size());
     const auto expectCount = [&](size_t count, const char* name) {
         if (count != mesh.positions.size())
-            throw py::value_error(std::string(name) + ": expected one for each of " +
-                                  std::to_string(mesh.positions.size()) + " positions, found " +
-                                  std::to_string(count));
+            throw UsageError(fmt::format("{}: expected one for each of {} positions, found {}", name,
+                                         mesh.positions.size(), count));
     };
     if (normals) expectCount((mesh.normals = elementsOf<vec3>(*normals, "normals")).size(), "normals");
     if (uvs) expectCount((mesh.uvs = elementsOf<vec2>(*uvs, "uvs")).size(), "uvs");
@@ -33,7 +55,7 @@ Mesh makeMesh(const Array<float>& positions, const Array<uint32_t>& triangles,
 
 // Simplifies as bakes simplify occluders, with new normals; drops other attributes.
 Mesh simplified(const Mesh& mesh, size_t triangles) {
-    if (triangles == 0) throw py::value_error("triangles: expected 1 or more");
+    if (triangles == 0) throw UsageError("triangles: expected 1 or more");
     Scene scene;
     scene.parts.emplace_back().mesh = mesh;
     Mesh few = makeOccluder(scene, triangles).mesh;
@@ -49,6 +71,8 @@ py::array_t<uint32_t> trianglesOf(const Mesh& mesh) {
 
 void addFile(SceneBuilder& builder, const std::string& file, const std::optional<std::string>& material,
              bool isZUp, float brushRotation) {
+    expectWithin("brush_rotation", brushRotation, -kLargestBrushRotation, kLargestBrushRotation);
+    if (material) readMaterials(*material);
     const bool takesOwn = !material && hasOwnMaterials(file);
     std::vector<Part> parts =
         loadParts(file, isZUp ? UpAxis::Z : UpAxis::Y,
@@ -61,6 +85,7 @@ void addFile(SceneBuilder& builder, const std::string& file, const std::optional
 
 void addMesh(SceneBuilder& builder, const Mesh& mesh, const std::optional<std::string>& material,
              const std::optional<std::string>& name, float brushRotation) {
+    expectWithin("brush_rotation", brushRotation, -kLargestBrushRotation, kLargestBrushRotation);
     Part part;
     part.name = name.value_or("mesh");
     part.mesh = mesh;
@@ -75,7 +100,7 @@ void addMesh(SceneBuilder& builder, const Mesh& mesh, const std::optional<std::s
 
 Scene SceneBuilder::build(bool isRefined) const {
     Scene whole = scene;
-    if (whole.parts.empty()) throw py::value_error("the scene has no parts; add a mesh");
+    if (whole.parts.empty()) throw UsageError("the scene has no parts; add a mesh");
     if (!ground) return whole;
     GroundOptions options;
     options.extent = ground->extent;

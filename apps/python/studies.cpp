@@ -1,4 +1,5 @@
 // Bindings of references, errors and advice.
+#include "apps/python/checks.h"
 #include "apps/python/module.h"
 #include "precompute/bake/bake_options.h"
 #include "precompute/error/advice.h"
@@ -6,7 +7,10 @@
 #include "precompute/error/study_json.h"
 #include "precompute/reference/reference_image.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 namespace relume::python {
@@ -37,9 +41,11 @@ Asset withTerms(Asset asset, int terms) {
     return asset;
 }
 
-py::array_t<float> reference(const std::shared_ptr<const Asset>& asset, const Light& light,
+py::array_t<float> reference(const std::shared_ptr<Asset>& asset, const Light& light,
                              const std::optional<Camera>& camera, std::pair<int, int> size, int samples,
-                             const std::string& brdf, int rays, int terms, const py::object& progress) {
+                             const std::string& brdf, int rays, std::optional<int> terms,
+                             const py::object& progress) {
+    expectGiven("asset", asset);
     ReferenceOptions options;
     options.width = size.first;
     options.height = size.second;
@@ -53,12 +59,13 @@ py::array_t<float> reference(const std::shared_ptr<const Asset>& asset, const Li
         options.brdf = ReferenceBrdf::Residual;
     else if (brdf != "exact")
         throw UsageError("brdf: expected exact, factored or residual");
-    if (terms < 0 || (terms > 0 && options.brdf != ReferenceBrdf::Factored))
-        throw UsageError("terms: expected a number of terms, with brdf=\"factored\" alone");
+    if (terms) expectWithin("terms", *terms, 1, kMostTerms);
+    if (terms && options.brdf != ReferenceBrdf::Factored)
+        throw UsageError("terms: are those of brdf=\"factored\" alone");
     Image image;
     runLong(progress, [&](const std::function<void(double)>& tell) {
-        const Asset few = terms > 0 ? withTerms(*asset, terms) : Asset();
-        image = renderReference(terms > 0 ? few : *asset, cameraOr(camera, *asset, size),
+        const Asset few = terms ? withTerms(*asset, *terms) : Asset();
+        image = renderReference(terms ? few : *asset, cameraOr(camera, *asset, size),
                                 sampleLight(light, asset->faceSize), options,
                                 [&](int rows) { tell(double(rows) / double(size.second)); });
     });
@@ -74,35 +81,47 @@ LightCube fineLight(Light light, int faceSize) {
     return sampleLight(light, faceSize);
 }
 
-// A progressive reference; keeps alive the asset that it refers to.
+// A progressive reference; keeps alive the asset that it refers to. Its calls may come from several threads.
 class SampledReference {
   public:
-    SampledReference(std::shared_ptr<const Asset> asset, const Light& light,
+    SampledReference(const std::shared_ptr<Asset>& asset, const Light& light,
                      const std::optional<Camera>& camera, std::pair<int, int> size, int samples, int faceSize)
-        : mAsset(std::move(asset)), mReference(*mAsset) {
-        if (size.first < 1 || size.second < 1) throw UsageError("size: expected a pixel or more");
-        if (faceSize < 1 || faceSize > 1024) throw UsageError("face_size: expected 1 to 1024");
+        : mAsset(expectGiven("asset", asset)), mReference(*mAsset) {
+        expectSize(size);
+        expectWithin("face_size", faceSize, 1, 1024);
         mReference.restart(cameraOr(camera, *mAsset, size), fineLight(light, faceSize),
                            defaultAppearance(*mAsset), size.first, size.second, samples);
     }
 
     void addPasses(int count, const py::object& progress) {
+        expectWithin("count", count, 1, std::numeric_limits<int>::max());
         runLong(progress, [&](const std::function<void(double)>& tell) {
             for (int i = 1; i <= count; i++) {
-                mReference.addPass();
+                {
+                    const std::lock_guard lock(mMutex);
+                    mReference.addPass();
+                }
                 tell(double(i) / double(count));
             }
         });
     }
-    int passes() const { return mReference.passes(); }
-    py::array_t<float> mean() const { return arrayOf(mReference.mean()); }
-    std::pair<py::array_t<float>, py::array_t<float>> halves() const {
-        if (passes() < 2) throw py::value_error("halves: add two passes first");
-        auto [even, odd] = mReference.halves();
-        return {arrayOf(std::move(even)), arrayOf(std::move(odd))};
+    int passes() const {
+        const std::lock_guard lock(mMutex);
+        return mReference.passes();
+    }
+    Image mean() const {
+        const std::lock_guard lock(mMutex);
+        if (mReference.passes() < 1) throw UsageError("mean: add a pass first");
+        return mReference.mean();
+    }
+    std::array<Image, 2> halves() const {
+        const std::lock_guard lock(mMutex);
+        if (mReference.passes() < 2) throw UsageError("halves: add two passes first");
+        return mReference.halves();
     }
 
   private:
+    mutable std::mutex mMutex;
     std::shared_ptr<const Asset> mAsset;
     ProgressiveReference mReference;
 };
@@ -118,9 +137,15 @@ py::dict imagesOf(const ErrorStudy& study, const ViewPoints& points) {
     return images;
 }
 
-py::list errors(const std::shared_ptr<const Asset>& asset, const std::vector<Light>& lights,
+py::list errors(const std::shared_ptr<Asset>& asset, const std::vector<Light>& lights,
                 const std::optional<Camera>& camera, std::pair<int, int> size, bool residual, int passes,
                 std::optional<int> bounces, bool withImages, const py::object& progress) {
+    expectGiven("asset", asset);
+    expectSize(size);
+    expectWithin("passes", passes, 0, 1 << 20);
+    if (asset->provenance.bakedShare)
+        throw Error(
+            "the asset is a preview, whose rows are interpolated for the most part: load the finished bake");
     const std::shared_ptr<const vk::Device> on = device();
     ErrorStudies studies;
     runLong(progress, [&](const std::function<void(double)>& tell) {
@@ -143,13 +168,15 @@ py::list errors(const std::shared_ptr<const Asset>& asset, const std::vector<Lig
     return results;
 }
 
-py::object advice(const SceneBuilder& scene, const Light& light, double error, size_t points, bool asIs,
+py::object advice(const SceneBuilder& scene, const Light& light, double error, int points, bool asIs,
                   const py::object& progress) {
+    expectWithin("error", error, 0.001, 1.0);
+    expectWithin("points", points, 40, 40'000);
     const std::shared_ptr<const vk::Device> on = device();
     AdviceRequest request{scene.build(false), {}, error};
     request.options.bounces = presetOptions(BakePreset::Default).bounces;
     request.options.areBouncesAuto = true;
-    request.points = points;
+    request.points = size_t(points);
     if (!asIs) request.refinable = scene.build(true);
     std::string text;
     runLong(progress, [&](const std::function<void(double)>& tell) {
@@ -163,13 +190,29 @@ py::object advice(const SceneBuilder& scene, const Light& light, double error, s
 
 void addStudies(py::module_& module) {
     py::class_<SampledReference>(module, "SampledReference")
-        .def(py::init<std::shared_ptr<const Asset>, const Light&, const std::optional<Camera>&,
-                      std::pair<int, int>, int, int>(),
+        .def(py::init<std::shared_ptr<Asset>, const Light&, const std::optional<Camera>&, std::pair<int, int>,
+                      int, int>(),
              py::call_guard<py::gil_scoped_release>())
         .def("add_passes", &SampledReference::addPasses)
-        .def_property_readonly("passes", &SampledReference::passes)
-        .def("mean", &SampledReference::mean)
-        .def("halves", &SampledReference::halves);
+        .def_property_readonly(
+            "passes", py::cpp_function(&SampledReference::passes, py::call_guard<py::gil_scoped_release>()))
+        .def("mean",
+             [](const SampledReference& reference) {
+                 Image mean;
+                 {
+                     const py::gil_scoped_release unlocked;
+                     mean = reference.mean();
+                 }
+                 return arrayOf(std::move(mean));
+             })
+        .def("halves", [](const SampledReference& reference) {
+            std::array<Image, 2> halves;
+            {
+                const py::gil_scoped_release unlocked;
+                halves = reference.halves();
+            }
+            return std::pair(arrayOf(std::move(halves[0])), arrayOf(std::move(halves[1])));
+        });
     module.def("_reference", reference);
     module.def("_errors", errors);
     module.def("_advise", advice);

@@ -62,13 +62,6 @@ void print(const ErrorStudy& study) {
 }
 
 void run(const ErrorsArguments& arguments) {
-    constexpr uint64_t kMostPixels = 1u << 18; // hours, since a pixel takes tens of milliseconds
-    const auto pixels = uint64_t(arguments.camera.width) * uint64_t(arguments.camera.height);
-    if (pixels > kMostPixels)
-        throw UsageError(
-            fmt::format("--size: expected at most {} pixels, each of which is traced many thousand times; "
-                        "found {}",
-                        kMostPixels, pixels));
     CommandFiles files;
     const Asset asset = readAsset(arguments.file);
     if (asset.provenance.bakedShare)
@@ -86,6 +79,7 @@ void run(const ErrorsArguments& arguments) {
         expectWritable(arguments.images / "drawn.exr");
     }
     const ErrorView view{arguments.camera.camera(asset), arguments.camera.width, arguments.camera.height};
+    const auto pixels = uint64_t(view.width) * uint64_t(view.height);
     Progress progress("tracing", pixels, "pixels");
     const ErrorStudies studies = studyErrors(
         *device, asset, appearance, std::span(&light, 1),

@@ -32,7 +32,7 @@ void LayoutArguments::add(CLI::App& command, bool hasDefaults) {
             "--error", mError,
             "Error of transport that the fewest bytes are sought for, as light weighs it: 0.05 is 5 %; a "
             "bake meets it about")
-        ->check(between(1e-6f, 1))
+        ->check(between(float(kLeastLayoutError), 1))
         ->type_name("ERROR")
         ->default_str(
             hasDefaults ? fmt::format("{}; {} where all is diffuse", kDefaultLayoutError, kDiffuseLayoutError)

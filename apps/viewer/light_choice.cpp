@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/import/json_object.h"
+#include "engine/import/light_file.h"
 #include "engine/light/sun_position.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace relume {
 
 namespace {
 
-constexpr float kMostRadiance = 1e9f; // of a lamp
 constexpr double kDegreesPerSecond = 20, kHoursPerSecond = 0.5;
 
 vec3 radianceOf(const LampChoice& lamp) {

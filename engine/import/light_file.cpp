@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 using Keys = std::span<const std::string_view>;
 
-constexpr float kMostDegrees = 36000, kMostRadiance = 1e9f, kMostGain = 1e6f;
+constexpr float kMostDegrees = 36000;
 constexpr float kSequenceRate = 24; // files per second
 constexpr float kMostHours = 100;   // hours of the day per second
 

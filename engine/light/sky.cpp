@@ -68,8 +68,7 @@ Environment makeSky(int width) {
     const vec3 sun(std::sin(kSunLongitude) * std::cos(kSunElevation), std::sin(kSunElevation),
                    std::cos(kSunLongitude) * std::cos(kSunElevation));
     std::vector<vec3> columns; // directions at the horizon
-    for (int x = 0; x < width; x++)
-        columns.push_back(sky.direction(float(x) + 0.5f, float(sky.height) / 2));
+    for (int x = 0; x < width; x++) columns.push_back(sky.direction(float(x) + 0.5f, float(sky.height) / 2));
     parallelFor(size_t(sky.height), [&](size_t y) {
         const vec3 row = sky.direction(float(width) / 2, float(y) + 0.5f); // at longitude 0: x is 0
         for (size_t x = 0; x < size_t(width); x++)

@@ -64,6 +64,10 @@ void BakeOptions::validate() const {
     expectOneOf("--transport-samples", transportSamples, "1, 4 or 16", {1, 4, 16});
     expectRange("--bounces", bounces, 0, kMostBounces);
     expectRange("--coefficients", coefficients, 1, 6 * faceSize * faceSize);
+    if (const auto error = layout.error; error && !(*error >= kLeastLayoutError && *error <= 1))
+        throw UsageError(fmt::format("--error: expected {} to 1, found {}", kLeastLayoutError, *error));
+    if (const auto bytes = layout.bytesPerVertex; bytes && !(*bytes >= 1 && *bytes <= kMostLayoutBytes))
+        throw UsageError(fmt::format("--budget: expected 1 to {}, found {}", kMostLayoutBytes, *bytes));
     if (refinement &&
         !(refinement->wanted >= kLeastRefinementError && refinement->wanted <= kMostRefinementError))
         throw UsageError(fmt::format("--refine: expected an error of {} to {}, found {}",

@@ -16,6 +16,7 @@ constexpr double kDefaultLayoutError = 0.05;
 constexpr double kDiffuseLayoutError = 0.0125;
 
 constexpr double kMostLayoutBytes = 1e6; // largest budget, per vertex
+constexpr double kLeastLayoutError = 1e-6;
 
 struct LayoutOptions {
     TransportLayout layout = TransportLayout::Bases;

@@ -66,7 +66,11 @@ def _add(self, mesh, material=None, name=None, up="y", brush_rotation=0.0):
 
     material: a preset, a model, JSON, or a list of these that share the bake. None: a glTF file's own, else gold.
     """
+    if up not in ("y", "z"):
+        raise UsageError(f'up: expected "y" or "z", found {up!r}')
     if isinstance(material, (list, tuple)):
+        if not material:
+            raise UsageError("material: expected a material or more, found an empty list")
         import json
         parsed = [json.loads(text) if text.lstrip().startswith("{") else text for text in material]
         material = material[0] if len(parsed) == 1 else json.dumps({"set": parsed})
@@ -137,7 +141,7 @@ class Renderer:
 
     def select_terms(self, terms=None):
         """Sums the first of the K terms only. None: all."""
-        self._renderer.select_terms(terms or 0)
+        self._renderer.select_terms(terms)
 
     def render(self, light, camera=None, background=False):
         """An Image under a Light. camera None: the default view. background: the light behind the object."""
@@ -154,7 +158,7 @@ def reference(asset, light, camera=None, size=(960, 720), samples=4, brdf="exact
     brdf: exact, factored (the K terms, or the first of them: terms) or residual. rays: through each texel of the
     light, 1, 4, 16 or 64.
     """
-    return Image(_relume._reference(asset, light, camera, tuple(size), samples, brdf, rays, terms or 0, progress))
+    return Image(_relume._reference(asset, light, camera, tuple(size), samples, brdf, rays, terms, progress))
 
 
 class SampledReference:
