@@ -7,8 +7,10 @@
 #include "engine/import/json_object.h"
 
 #include <algorithm>
+#include <climits>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace relume {
 
@@ -29,18 +31,38 @@ constexpr std::string_view kSceneText = R"({
 }
 )";
 
-// Returns the names and dates of the files that a scene's text refers to.
-std::string datesOf(const json& value, const std::filesystem::path& folder) {
-    std::string dates;
-    if (value.is_string()) {
-        const std::filesystem::path file = folder / value.get<std::string>();
+// Describes files, and the files that they name: another text means that one of them has changed.
+class FileStates {
+  public:
+    void add(const std::filesystem::path& file) {
         std::error_code failure;
         const auto changed = std::filesystem::last_write_time(file, failure);
-        if (!failure) dates = fmt::format("\n{} {}", file.string(), changed.time_since_epoch().count());
-    } else if (value.is_structured())
-        for (const json& part : value) dates += datesOf(part, folder);
-    return dates;
-}
+        if (failure || !mSeen.insert(file).second) return;
+        // The date alone does not tell if a clock went back, or if a copy has the date of its original.
+        const auto bytes = std::filesystem::file_size(file, failure);
+        mText +=
+            fmt::format("\n{} {} {}", file.string(), changed.time_since_epoch().count(), failure ? 0 : bytes);
+        const std::string extension = extensionOf(file);
+        if (extension != ".json" && extension != ".gltf") return;
+        try {
+            addNamed(readJson(file), file.parent_path());
+        } catch (const Error&) { // the bake says what is wrong with it
+        }
+    }
+    const std::string& text() const { return mText; }
+
+  private:
+    void addNamed(const json& value, const std::filesystem::path& folder) {
+        if (value.is_string()) {
+            const auto& name = value.get_ref<const std::string&>();
+            if (name.size() <= PATH_MAX) add((folder / name).lexically_normal()); // longer ones hold data
+        } else if (value.is_structured())
+            for (const json& part : value) addNamed(part, folder);
+    }
+
+    std::set<std::filesystem::path> mSeen;
+    std::string mText;
+};
 
 FileKind kindOfJson(const std::filesystem::path& file) {
     const json content = readJson(file);
@@ -91,11 +113,10 @@ std::filesystem::path bakePath(const std::filesystem::path& input) {
     const std::filesystem::path folder = cacheFolder() / "bakes";
     std::filesystem::create_directories(folder, failure);
     if (failure) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
-    const std::filesystem::path whole = wholePath(input);
-    const auto changed = std::filesystem::last_write_time(whole, failure);
-    if (failure) throw Error(fmt::format("{}: cannot be read: {}", input.string(), failure.message()));
-    std::string identity = fmt::format("{}\n{}", whole.string(), changed.time_since_epoch().count());
-    if (extensionOf(input) == ".json") identity += datesOf(readJson(input), whole.parent_path());
+    FileStates states;
+    states.add(wholePath(input));
+    if (states.text().empty()) throw Error(fmt::format("{}: cannot be read: is it there?", input.string()));
+    const std::string& identity = states.text();
     const std::string hash = hashText(std::as_bytes(std::span(identity)));
     return folder / fmt::format("{}-{}.relume", input.stem().string().substr(0, 100), hash.substr(0, 12));
 }

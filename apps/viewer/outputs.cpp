@@ -25,7 +25,12 @@ std::string outputName(const std::string& ending) {
     localtime_r(&seconds, &local);
     char text[32];
     std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-    return fmt::format("relume-{}-{:03}{}", text, milliseconds % 1000, ending);
+    const std::string stem = fmt::format("relume-{}-{:03}", text, milliseconds % 1000);
+    std::string name = stem + ending;
+    std::error_code failure;
+    for (int copy = 2; std::filesystem::exists(name, failure); copy++)
+        name = fmt::format("{}-{}{}", stem, copy, ending);
+    return name;
 }
 
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& content) {

@@ -9,7 +9,8 @@
 
 namespace relume {
 
-// Returns "relume-", the time to the millisecond, and `ending`: a name in the working folder.
+// Returns "relume-", the time to the millisecond, and `ending`: a name that no file in the working folder
+// has.
 std::string outputName(const std::string& ending);
 
 // Writes a light file or session; the name must end in .json, so that a slip does not replace another file.
