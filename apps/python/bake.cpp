@@ -1,5 +1,6 @@
 // Bindings of bakes.
 #include "precompute/bake/bake.h"
+#include "apps/python/checks.h"
 #include "apps/python/module.h"
 #include "engine/import/asset_info.h"
 #include "engine/render/appearance.h"
@@ -26,16 +27,16 @@ class GivenOptions {
         try {
             return value.cast<T>();
         } catch (const py::cast_error&) {
-            throw py::type_error(fmt::format("bake(): {}: an object of type {} cannot be taken", name,
-                                             Py_TYPE(value.ptr())->tp_name));
+            throw py::type_error(
+                fmt::format("bake(): {}: cannot take {}", name, std::string(py::repr(value)).substr(0, 100)));
         }
     }
     py::object pop(const char* name) { return mGiven.attr("pop")(name, py::none()); }
 
     void expectNoMore() const {
         if (!mGiven.empty())
-            throw py::type_error(
-                fmt::format("bake() has no option \"{}\"", mGiven.begin()->first.cast<std::string>()));
+            throw py::type_error(fmt::format("bake() and plan() have no option \"{}\"",
+                                             mGiven.begin()->first.cast<std::string>()));
     }
 
   private:
@@ -54,17 +55,25 @@ Value known(const std::optional<Value>& value, const char* option, const std::st
     return *value;
 }
 
+// By the rules of `relume bake`: what is sought for bases makes a bake of bases, unless rows are asked for.
 void takeLayout(GivenOptions& given, BakeOptions& options) {
-    std::string layout(layoutName(options.layout.layout));
-    given.take("layout", layout);
-    const TransportLayout kept = known(layoutFromName(layout), "layout", layout);
-    if (kept != options.layout.layout) options.layout = {.layout = kept};
-    given.take("budget", options.layout.bytesPerVertex);
-    if (const py::object error = given.pop("error"); !error.is_none()) {
-        options.layout.error = GivenOptions::as<double>("error", error);
-        options.layout.bytesPerVertex.reset();
-    }
-    options.coefficients = defaultCoefficients(kept);
+    std::optional<std::string> name;
+    std::optional<double> budget, error;
+    given.take("layout", name);
+    given.take("budget", budget);
+    given.take("error", error);
+    if (budget && error) throw UsageError("error: expected none beside a budget");
+    TransportLayout layout = options.layout.layout;
+    if (name)
+        layout = known(layoutFromName(*name), "layout", *name);
+    else if (budget || error)
+        layout = TransportLayout::Bases;
+    if (layout == TransportLayout::Rows && (budget || error))
+        throw UsageError("layout: error and budget are for bases; rows are shortened by coefficients");
+    if (layout != options.layout.layout) options.layout = {.layout = layout};
+    if (budget) options.layout.bytesPerVertex = budget;
+    if (error) options.layout.error = error, options.layout.bytesPerVertex.reset();
+    options.coefficients = defaultCoefficients(layout);
     given.take("coefficients", options.coefficients);
 }
 
@@ -170,9 +179,10 @@ const AssetPart& partOf(const Asset& asset, size_t part) {
 }
 
 // Returns rows of a part's first set as an array (rows, 6 F²) of RGB coefficients.
-py::array_t<float> coefficientsOfRows(const Asset& asset, size_t part, const std::vector<size_t>& rows) {
-    const Transport& transport = partOf(asset, part).sets.front().transport;
-    const size_t count = size_t(6 * asset.faceSize * asset.faceSize),
+py::array_t<float> coefficientsOfRows(const std::shared_ptr<Asset>& asset, size_t part,
+                                      const std::vector<size_t>& rows) {
+    const Transport& transport = partOf(*expectBaked(asset), part).sets.front().transport;
+    const size_t count = size_t(6 * asset->faceSize * asset->faceSize),
                  all = size_t(verticesOf(transport)) * termsOf(transport);
     std::vector<vec3> values;
     values.reserve(rows.size() * count);

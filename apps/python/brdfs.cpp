@@ -52,6 +52,7 @@ py::list factored(const std::vector<std::string>& materials, int terms, const st
                                                       : DiskMapping::EqualArea;
     const TexelValue value = texels ? texelsFrom(*texels) : texelValueOf(method);
     expectWithin("terms", terms, 1, kMostTerms);
+    expectWithin("map_size", mapSize, kMinMapSize, kMaxMapSize);
     if (materials.empty()) throw UsageError("material: expected a material or more, found an empty list");
     FactoredBrdf brdf;
     std::vector<std::vector<float>> frobenius, expected;
@@ -92,6 +93,9 @@ std::vector<vec3> mapsOf(const py::dict& factors, const char* name, FactoredBrdf
     if (brdf.terms != 0 && (brdf.terms != maps.shape(0) || brdf.size != maps.shape(1)))
         throw py::value_error(std::string(name) + ": expected as many maps as light_maps has, of its size");
     brdf.terms = int(maps.shape(0)), brdf.size = int(maps.shape(1));
+    for (py::ssize_t i = 0; i < maps.size(); i++)
+        if (!std::isfinite(maps.data()[i]))
+            throw UsageError(std::string(name) + ": expected values that are finite");
     const auto* const first = reinterpret_cast<const vec3*>(maps.data());
     return {first, first + maps.size() / 3};
 }

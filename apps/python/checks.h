@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/light/light.h"
 #include "engine/scene/camera.h"
+#include "engine/transport/asset.h"
 
 #include <fmt/core.h>
 #include <memory>
@@ -12,10 +13,10 @@
 
 namespace relume::python {
 
-// Coordinates, distances and angles in degrees lie within this, either way, as those of the command line do.
+// Distances, weights and angles in degrees lie within this, either way, as those of the command line do.
 constexpr float kLargestNumber = 1e6f;
 
-// Expects least ≤ value ≤ most; not a number is within nothing.
+// Expects least ≤ value ≤ most, which NaN is not.
 template <typename T>
 void expectWithin(const char* name, T value, T least, T most) {
     if (!(value >= least && value <= most))
@@ -25,17 +26,20 @@ void expectWithin(const char* name, T value, T least, T most) {
 // Expects 1 to 16384 pixels a side, of (width, height).
 void expectSize(std::pair<int, int> size);
 
-// Expects an object: None arrives as null.
-template <typename T>
-const std::shared_ptr<T>& expectGiven(const char* name, const std::shared_ptr<T>& object) {
-    if (!object) throw UsageError(fmt::format("{}: expected one, found None", name));
-    return object;
-}
+// Expects 1, 2, 4 or 8 samples of a pixel.
+void expectSamples(int samples);
+
+// Returns the asset. None arrives as null.
+const std::shared_ptr<Asset>& expectAsset(const std::shared_ptr<Asset>& asset);
+
+// Returns the asset, which has transport: plan() gives one without.
+const std::shared_ptr<Asset>& expectBaked(const std::shared_ptr<Asset>& asset);
 
 // Returns the camera if a view can be drawn from it.
 Camera checked(const Camera& camera);
 
-// Returns the light if its sources are finite, not negative, not too bright and not too many.
+// Returns the light if its sources are finite, not negative, and neither too bright nor too many for the
+// device and for sums of squares.
 Light checked(Light light);
 
 } // namespace relume::python

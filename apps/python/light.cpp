@@ -17,8 +17,8 @@ Environment environmentOf(const Array<float>& array) {
     Environment environment{image.width, image.height, {}};
     environment.radiance.reserve(image.pixels.size());
     for (const vec4& pixel : image.pixels) {
-        if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.z >= 0 && pixel.x + pixel.y + pixel.z < 1e30f))
-            throw UsageError("environment: expected finite radiance of at least 0");
+        for (const float value : {pixel.x, pixel.y, pixel.z})
+            expectWithin("environment", value, 0.0f, kLargestRadiance);
         environment.radiance.emplace_back(pixel);
     }
     return environment;
@@ -106,6 +106,7 @@ void addLight(py::module_& module) {
 
     py::class_<Camera>(module, "Camera")
         .def(py::init([](std::array<float, 3> eye, std::array<float, 3> target, float fov) {
+                 expectWithin("fov", fov, 1.0f, 170.0f);
                  return checked(Camera{vectorOf(eye), vectorOf(target), glm::radians(fov)});
              }),
              py::arg("eye"), py::arg("target"), py::arg("fov") = 35.0f)

@@ -4,6 +4,7 @@
 #include "engine/base/log.h"
 
 #include <chrono>
+#include <tbb/task_arena.h>
 
 namespace relume::python {
 
@@ -64,7 +65,9 @@ void runLong(const py::object& progress,
         last = now;
         const py::gil_scoped_acquire lock;
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!progress.is_none()) progress(share);
+        // In isolation: a callback that calls this module must not take up other tasks of the work that
+        // waits.
+        if (!progress.is_none()) tbb::this_task_arena::isolate([&] { progress(share); });
     });
 }
 

@@ -45,8 +45,10 @@ class Renderer {
         }
         if (sum == 0) throw UsageError("materials: expected at least one weight above 0");
         const std::lock_guard lock(mMutex);
-        relume::bindMaterials(mAppearance, *mAsset, materials);
-        mView.setAppearance(mAppearance);
+        Appearance bound = mAppearance; // which stays as it is if anything fails
+        relume::bindMaterials(bound, *mAsset, materials);
+        mView.setAppearance(bound);
+        mAppearance = std::move(bound);
     }
 
     void setSelection(std::optional<int> threshold, std::optional<int> coefficients) {
@@ -169,8 +171,9 @@ void addRenderer(py::module_& module) {
     py::class_<Renderer>(module, "Renderer")
         .def(py::init(
             [](const std::shared_ptr<Asset>& asset, std::pair<int, int> size, int samples, bool residual) {
-                expectGiven("asset", asset);
+                expectBaked(asset);
                 expectSize(size);
+                expectSamples(samples);
                 std::shared_ptr<const vk::Device> on = device();
                 const py::gil_scoped_release unlocked;
                 return std::make_unique<Renderer>(std::move(on), asset, size, samples, residual);

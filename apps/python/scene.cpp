@@ -6,32 +6,38 @@
 #include "precompute/brdf/material_list.h"
 #include "precompute/visibility/occluder.h"
 
+#include <algorithm>
+#include <span>
+
 namespace relume::python {
 
 namespace {
 
 const char* const kDefaultMaterial = "gold";
 
-template <typename Index>
-void expectIndices(const py::array& array, size_t positions) {
-    const auto indices = py::cast<Array<Index>>(array);
-    for (py::ssize_t i = 0; i < indices.size(); i++)
-        if (const Index index = indices.data()[i]; index < 0 || uint64_t(index) >= positions)
+template <typename Number>
+void expectIndices(const py::object& object, size_t positions) {
+    const auto numbers = py::cast<Array<Number>>(object);
+    for (py::ssize_t i = 0; i < numbers.size(); i++)
+        if (const Number number = numbers.data()[i];
+            !(number >= 0 && number < Number(positions) && number == Number(uint32_t(number))))
             throw UsageError(
-                fmt::format("triangles: expected indices of {} positions, found {}", positions, index));
+                fmt::format("triangles: expected indices of {} positions, found {}", positions, number));
 }
 
-// Returns triangles from an array, or lists, of integers.
+// Returns triangles from an array, or lists, of integers; floats that are integers are taken for them.
 std::vector<uvec3> trianglesFrom(const py::object& object, size_t positions) {
     const py::array array = py::array::ensure(object);
     const char kind = array ? array.dtype().kind() : 'O';
     if (kind == 'i')
-        expectIndices<int64_t>(array, positions);
+        expectIndices<int64_t>(object, positions);
     else if (kind == 'u')
-        expectIndices<uint64_t>(array, positions);
-    else if (!array || array.size() > 0)
+        expectIndices<uint64_t>(object, positions);
+    else if (kind == 'f')
+        expectIndices<double>(object, positions);
+    else
         throw UsageError("triangles: expected an array of integers");
-    return elementsOf<uvec3, uint32_t>(py::cast<Array<uint32_t>>(array), "triangles");
+    return elementsOf<uvec3, uint32_t>(py::cast<Array<uint32_t>>(object), "triangles");
 }
 
 // Makes a mesh from arrays, checked and welded as one from a file.
@@ -70,14 +76,17 @@ py::array_t<uint32_t> trianglesOf(const Mesh& mesh) {
 }
 
 void addFile(SceneBuilder& builder, const std::string& file, const std::optional<std::string>& material,
-             bool isZUp, float brushRotation) {
+             const std::optional<std::string>& name, bool isZUp, float brushRotation) {
     expectWithin("brush_rotation", brushRotation, -kLargestBrushRotation, kLargestBrushRotation);
     if (material) readMaterials(*material);
     const bool takesOwn = !material && hasOwnMaterials(file);
     std::vector<Part> parts =
         loadParts(file, isZUp ? UpAxis::Z : UpAxis::Y,
                   takesOwn ? std::nullopt : std::optional(material.value_or(kDefaultMaterial)));
+    if (name && parts.size() > 1)
+        throw UsageError(fmt::format("name: expected none for {} parts, which have names", parts.size()));
     for (Part& part : parts) {
+        if (name) part.name = *name;
         part.brushRotation = brushRotation;
         builder.scene.parts.push_back(std::move(part));
     }
@@ -93,7 +102,17 @@ void addMesh(SceneBuilder& builder, const Mesh& mesh, const std::optional<std::s
     part.source = "an array";
     part.brushRotation = brushRotation;
     readMaterials(part.material);
+    checkPlace(std::span(&part, 1), "mesh");
     builder.scene.parts.push_back(std::move(part));
+}
+
+void addGroundTo(SceneBuilder& builder, std::string material, std::optional<int> tessellation, float extent) {
+    readMaterials(material);
+    if (tessellation) expectWithin("tessellation", *tessellation, 1, 4096);
+    expectWithin("extent", extent, 0.01f, 1000.0f);
+    if (std::ranges::count(builder.scene.parts, "ground", &Part::name) > 0)
+        throw UsageError("add_ground: the scene has a part called ground");
+    builder.ground = SceneBuilder::Ground{std::move(material), tessellation, extent};
 }
 
 } // namespace
@@ -140,13 +159,8 @@ void addScene(py::module_& module) {
             py::arg("path"), py::call_guard<py::gil_scoped_release>())
         .def("_add_file", addFile)
         .def("_add_mesh", addMesh)
-        .def(
-            "add_ground",
-            [](SceneBuilder& builder, std::string material, std::optional<int> tessellation, float extent) {
-                builder.ground = SceneBuilder::Ground{std::move(material), tessellation, extent};
-            },
-            py::arg("material") = "white-diffuse", py::arg("tessellation") = py::none(),
-            py::arg("extent") = GroundOptions().extent)
+        .def("add_ground", addGroundTo, py::arg("material") = "white-diffuse",
+             py::arg("tessellation") = py::none(), py::arg("extent") = GroundOptions().extent)
         .def_property_readonly("parts", [](const SceneBuilder& builder) {
             std::vector<std::string> names;
             for (const Part& part : builder.scene.parts) names.push_back(part.name);

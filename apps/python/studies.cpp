@@ -12,6 +12,7 @@
 #include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 namespace relume::python {
 
@@ -45,7 +46,9 @@ py::array_t<float> reference(const std::shared_ptr<Asset>& asset, const Light& l
                              const std::optional<Camera>& camera, std::pair<int, int> size, int samples,
                              const std::string& brdf, int rays, std::optional<int> terms,
                              const py::object& progress) {
-    expectGiven("asset", asset);
+    expectAsset(asset);
+    expectSize(size);
+    expectSamples(samples);
     ReferenceOptions options;
     options.width = size.first;
     options.height = size.second;
@@ -61,7 +64,7 @@ py::array_t<float> reference(const std::shared_ptr<Asset>& asset, const Light& l
         throw UsageError("brdf: expected exact, factored or residual");
     if (terms) expectWithin("terms", *terms, 1, kMostTerms);
     if (terms && options.brdf != ReferenceBrdf::Factored)
-        throw UsageError("terms: are those of brdf=\"factored\" alone");
+        throw UsageError("terms: expected only with brdf=\"factored\"");
     Image image;
     runLong(progress, [&](const std::function<void(double)>& tell) {
         const Asset few = terms ? withTerms(*asset, *terms) : Asset();
@@ -86,9 +89,10 @@ class SampledReference {
   public:
     SampledReference(const std::shared_ptr<Asset>& asset, const Light& light,
                      const std::optional<Camera>& camera, std::pair<int, int> size, int samples, int faceSize)
-        : mAsset(expectGiven("asset", asset)), mReference(*mAsset) {
+        : mAsset(expectAsset(asset)), mReference(*mAsset) {
         expectSize(size);
-        expectWithin("face_size", faceSize, 1, 1024);
+        expectSamples(samples);
+        expectWithin("face_size", faceSize, 2, 1024);
         mReference.restart(cameraOr(camera, *mAsset, size), fineLight(light, faceSize),
                            defaultAppearance(*mAsset), size.first, size.second, samples);
     }
@@ -97,6 +101,7 @@ class SampledReference {
         expectWithin("count", count, 1, std::numeric_limits<int>::max());
         runLong(progress, [&](const std::function<void(double)>& tell) {
             for (int i = 1; i <= count; i++) {
+                while (mWaiting > 0) std::this_thread::yield(); // else they might wait for the last pass
                 {
                     const std::lock_guard lock(mMutex);
                     mReference.addPass();
@@ -106,22 +111,31 @@ class SampledReference {
         });
     }
     int passes() const {
-        const std::lock_guard lock(mMutex);
+        const auto lock = lockNext();
         return mReference.passes();
     }
     Image mean() const {
-        const std::lock_guard lock(mMutex);
+        const auto lock = lockNext();
         if (mReference.passes() < 1) throw UsageError("mean: add a pass first");
         return mReference.mean();
     }
     std::array<Image, 2> halves() const {
-        const std::lock_guard lock(mMutex);
+        const auto lock = lockNext();
         if (mReference.passes() < 2) throw UsageError("halves: add two passes first");
         return mReference.halves();
     }
 
   private:
+    // Locks before the next pass does.
+    std::unique_lock<std::mutex> lockNext() const {
+        ++mWaiting;
+        std::unique_lock lock(mMutex);
+        --mWaiting;
+        return lock;
+    }
+
     mutable std::mutex mMutex;
+    mutable std::atomic<int> mWaiting = 0;
     std::shared_ptr<const Asset> mAsset;
     ProgressiveReference mReference;
 };
@@ -140,8 +154,10 @@ py::dict imagesOf(const ErrorStudy& study, const ViewPoints& points) {
 py::list errors(const std::shared_ptr<Asset>& asset, const std::vector<Light>& lights,
                 const std::optional<Camera>& camera, std::pair<int, int> size, bool residual, int passes,
                 std::optional<int> bounces, bool withImages, const py::object& progress) {
-    expectGiven("asset", asset);
+    expectBaked(asset);
     expectSize(size);
+    expectStudiedSize(size.first, size.second);
+    if (lights.empty()) throw UsageError("light: expected a Light or more, found an empty list");
     expectWithin("passes", passes, 0, 1 << 20);
     if (asset->provenance.bakedShare)
         throw Error(

@@ -62,6 +62,7 @@ void print(const ErrorStudy& study) {
 }
 
 void run(const ErrorsArguments& arguments) {
+    expectStudiedSize(arguments.camera.width, arguments.camera.height);
     CommandFiles files;
     const Asset asset = readAsset(arguments.file);
     if (asset.provenance.bakedShare)

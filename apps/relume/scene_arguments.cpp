@@ -6,6 +6,7 @@
 #include "engine/transport/asset_check.h"
 #include "precompute/brdf/material_json.h"
 #include "precompute/brdf/material_list.h"
+#include "precompute/visibility/occluder.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -204,9 +205,10 @@ static size_t occluderFrom(const std::string& text) {
     const bool number =
         !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
     const size_t triangles = number ? std::stoul(text) : 0;
-    if (triangles < 4)
+    if (triangles < kLeastOccluderTriangles)
         throw UsageError(
-            fmt::format("--occluder: expected full or a number of triangles, 4 or more; found \"{}\"", text));
+            fmt::format("--occluder: expected full or a number of triangles, {} or more; found \"{}\"",
+                        kLeastOccluderTriangles, text));
     return triangles;
 }
 

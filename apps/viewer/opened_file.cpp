@@ -7,6 +7,7 @@
 #include "engine/import/json_object.h"
 
 #include <algorithm>
+#include <charconv>
 #include <climits>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -31,13 +32,28 @@ constexpr std::string_view kSceneText = R"({
 }
 )";
 
+// Returns a URI's text: "my%20house.bin" is "my house.bin".
+std::string withoutPercents(const std::string& uri) {
+    std::string text;
+    for (size_t i = 0; i < uri.size(); i++) {
+        unsigned code = 0;
+        const char* const digits = uri.data() + i + 1;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2)
+            text += char(code), i += 2;
+        else
+            text += uri[i];
+    }
+    return text;
+}
+
 // Describes files, and the files that they name: another text means that one of them has changed.
 class FileStates {
   public:
     void add(const std::filesystem::path& file) {
         std::error_code failure;
         const auto changed = std::filesystem::last_write_time(file, failure);
-        if (failure || !mSeen.insert(file).second) return;
+        if (failure || !std::filesystem::is_regular_file(file, failure) || !mSeen.insert(file).second) return;
         // The date alone does not tell if a clock went back, or if a copy has the date of its original.
         const auto bytes = std::filesystem::file_size(file, failure);
         mText +=
@@ -55,7 +71,9 @@ class FileStates {
     void addNamed(const json& value, const std::filesystem::path& folder) {
         if (value.is_string()) {
             const auto& name = value.get_ref<const std::string&>();
-            if (name.size() <= PATH_MAX) add((folder / name).lexically_normal()); // longer ones hold data
+            if (name.size() > PATH_MAX) return; // it holds data
+            add((folder / name).lexically_normal());
+            if (name.find('%') != std::string::npos) add((folder / withoutPercents(name)).lexically_normal());
         } else if (value.is_structured())
             for (const json& part : value) addNamed(part, folder);
     }

@@ -24,9 +24,9 @@ FileKind kindOf(const std::filesystem::path& file);
 std::filesystem::path writeBuiltInScene();
 constexpr const char* kBuiltInScene = "built-in scene"; // name of that file and of its bake
 
-// Returns the path, in the user's cache, of the bake of a mesh or scene file. It depends on the path, size and
-// modification time of the file, and of the files that a scene or a .gltf file names. Makes the folder. Throws
-// Error.
+// Returns the path, in the user's cache, of the bake of a mesh or scene file. It depends on the path, size
+// and modification time of the file, and of the files that a scene or a .gltf file names. Makes the folder.
+// Throws Error.
 std::filesystem::path bakePath(const std::filesystem::path& input);
 
 } // namespace relume

@@ -15,10 +15,6 @@ namespace relume {
 
 namespace {
 
-// Far above the sun's radiance of 2e7 W·m⁻²·sr⁻¹, yet small enough that no float sum or square overflows
-// later.
-constexpr float kLargestRadiance = 1e12f;
-
 // Returns the bilinear value at (x, y), where integers are pixel centers; clamps to the border.
 vec3 bilinear(const Image& image, float x, float y) {
     const int x0 = std::clamp(int(x), 0, image.width - 1), x1 = std::min(x0 + 1, image.width - 1);

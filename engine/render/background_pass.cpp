@@ -48,13 +48,12 @@ void BackgroundPass::setLight(const Light& light, float deviation) {
     RELUME_CHECK_LE(light.strokes.size(), kMostSources);
     mBackground = makeBackground(light, deviation, mBackground);
     if (mMap.handle() && mBackground.map == mUploaded) return;
-    mUploaded = mBackground.map;
     const int most = int(mDevice.limits().maxImageDimension2D);
-    if (!mUploaded)
+    if (const auto& map = mBackground.map; !map)
         mMap = uploadMap(mDevice, {1, 1, {vec3(0)}});
     else
-        mMap =
-            uploadMap(mDevice, mUploaded->width <= most ? *mUploaded : prepareForSampling(*mUploaded, most));
+        mMap = uploadMap(mDevice, map->width <= most ? *map : prepareForSampling(*map, most));
+    mUploaded = mBackground.map; // not before: the next call tries again if this one fails
 }
 
 void BackgroundPass::record(vk::Commands& commands, const vk::Image& view, const Camera& camera, float turn) {

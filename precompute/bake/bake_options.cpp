@@ -4,6 +4,7 @@
 #include "engine/transport/asset_check.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/brdf/tabulation.h"
+#include "precompute/visibility/occluder.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -64,6 +65,9 @@ void BakeOptions::validate() const {
     expectOneOf("--transport-samples", transportSamples, "1, 4 or 16", {1, 4, 16});
     expectRange("--bounces", bounces, 0, kMostBounces);
     expectRange("--coefficients", coefficients, 1, 6 * faceSize * faceSize);
+    if (occluderTriangles > 0 && occluderTriangles < kLeastOccluderTriangles)
+        throw UsageError(fmt::format("--occluder: expected {} triangles or more, found {}",
+                                     kLeastOccluderTriangles, occluderTriangles));
     if (const auto error = layout.error; error && !(*error >= kLeastLayoutError && *error <= 1))
         throw UsageError(fmt::format("--error: expected {} to 1, found {}", kLeastLayoutError, *error));
     if (const auto bytes = layout.bytesPerVertex; bytes && !(*bytes >= 1 && *bytes <= kMostLayoutBytes))

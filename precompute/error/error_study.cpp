@@ -108,6 +108,16 @@ class BounceObserver : public BakeObserver {
 
 } // namespace
 
+void expectStudiedSize(int width, int height) {
+    constexpr uint64_t kMostPixels = 1u << 18; // hours, since a pixel takes tens of milliseconds
+    const uint64_t pixels = uint64_t(width) * uint64_t(height);
+    if (pixels > kMostPixels)
+        throw UsageError(
+            fmt::format("--size: expected at most {} pixels, each of which is traced many thousand times; "
+                        "found {}",
+                        kMostPixels, pixels));
+}
+
 ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,
                          std::span<const StudiedLight> lights, const ErrorStudyOptions& options,
                          const std::function<void(double)>& progress) {
@@ -116,13 +126,7 @@ ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const App
         throw UsageError(fmt::format("--bounces: expected {}, as many as the bake has, to {}, found {}",
                                      asset.bounces, kMostBounces, bounces));
     const ErrorView& view = options.view;
-    constexpr uint64_t kMostPixels = 1u << 18; // hours, since a pixel takes tens of milliseconds
-    const uint64_t pixels = uint64_t(view.width) * uint64_t(view.height);
-    if (pixels > kMostPixels)
-        throw UsageError(
-            fmt::format("--size: expected at most {} pixels, each of which is traced many thousand times; "
-                        "found {}",
-                        kMostPixels, pixels));
+    expectStudiedSize(view.width, view.height);
     ErrorStudies studies{viewPoints(RayTracer(partMeshes(asset)), view.camera, view.width, view.height), {}};
     const ViewPoints& points = studies.points;
     if (points.hits.empty())

@@ -56,6 +56,9 @@ struct ErrorStudyOptions {
     std::optional<int> bounces = {};
 };
 
+// Throws UsageError for more pixels than a study can look at, as studyErrors() does.
+void expectStudiedSize(int width, int height);
+
 // Studies one view under several lights, which share all rays except those of paths. `progress` is as for
 // StageTracer::trace(). Throws Error.
 ErrorStudies studyErrors(const vk::Device& device, const Asset& asset, const Appearance& appearance,

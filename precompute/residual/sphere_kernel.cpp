@@ -172,7 +172,7 @@ double energyOf(const std::vector<vec3>& component) {
 std::shared_ptr<const SphereKernel> makeSphereKernel(const Reflectance& exact, bool isIsotropic) {
     const WholeKernel whole(exact, isIsotropic);
     double all = 0;
-    std::vector<double> byHarmonic(kHarmonics + 1, 0), byFrequency(kFrequencies + 1, 0);
+    std::vector<double> byHarmonic(size_t(whole.harmonics()), 0), byFrequency(kFrequencies + 1, 0);
     for (int harmonic = 0; harmonic < whole.harmonics(); harmonic++)
         for (int m = -kFrequencies; m <= kFrequencies; m++) {
             // Harmonic -c is the conjugate of harmonic c.

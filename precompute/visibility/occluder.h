@@ -12,6 +12,8 @@ struct Occluder {
     float error = 0;
 };
 
+constexpr size_t kLeastOccluderTriangles = 4; // of a budget
+
 // Merges the triangles of all parts. If they exceed `triangleBudget` (0: no limit), parts are simplified with
 // meshoptimizer, each to its share. Flat convex parts (the ground) are always reduced to the fewest triangles
 // that cover them.

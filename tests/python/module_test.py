@@ -160,6 +160,17 @@ class ModuleTest(unittest.TestCase):
             with self.assertRaises(relume.UsageError):
                 relume.reference(self.asset, self.light, size=(8, 6), **wrong)
 
+    def test_a_material_that_cannot_be_bound_changes_nothing(self):
+        scene = relume.Scene().add(self.mesh, material='{"separate": ["gold", "clay"]}')
+        renderer = relume.Renderer(relume.bake(scene, **OPTIONS), SIZE)
+        renderer.bind("clay")
+        renderer.render(2 * self.light)
+        with self.assertRaises(relume.UsageError):
+            renderer.bind({"gold": 1, "clay": 1})
+        image = renderer.render(self.light)
+        renderer.bind("clay")
+        np.testing.assert_array_equal(image, renderer.render(self.light))
+
     def test_drawn_terms_are_those_of_the_command_line(self):
         renderer = relume.Renderer(self.asset, SIZE)
         renderer.select_terms(1)
@@ -278,7 +289,9 @@ class ModuleTest(unittest.TestCase):
         mesh = self.asset.mesh(0)
         again = relume.Mesh(mesh.positions, mesh.triangles, normals=mesh.normals)
         self.assertEqual(again.positions.shape, mesh.positions.shape)
-        self.assertEqual(relume.Mesh(np.eye(3), [[0, 1, 2]]).triangles.tolist(), [[0, 1, 2]])
+        for triangles in ([[0, 1, 2]], np.array([[0, 1, 2]], np.uint64), np.array([[0.0, 1.0, 2.0]])):
+            self.assertEqual(relume.Mesh(np.eye(3), triangles).triangles.tolist(), [[0, 1, 2]])
+        self.assertEqual(relume.Scene().add(self.mesh, name="hoop").parts, ["hoop"])
         with self.assertRaises(ValueError):
             relume.Mesh(np.zeros((3, 2)), [[0, 1, 2]])
 
@@ -316,6 +329,7 @@ class ModuleTest(unittest.TestCase):
         asset, light, nan, inf, size = self.asset, self.light, float("nan"), float("inf"), (16, 12)
         renderer, reference = relume.Renderer(asset, size), relume.SampledReference(asset, light, size=size)
         scene = relume.Scene().add(self.mesh, material="clay")
+        plan = relume.plan(scene, **OPTIONS)
         corners = np.eye(3)
 
         def filled(value, *shape):
@@ -324,6 +338,9 @@ class ModuleTest(unittest.TestCase):
                 ("size", lambda: relume.Renderer(asset, (0, 4))),
                 ("size", lambda: relume.Renderer(asset, (-4, 4))),
                 ("asset", lambda: relume.Renderer(None, size)),
+                ("plan", lambda: relume.Renderer(plan, size)),
+                ("plan", lambda: relume.errors(plan, light, size=(4, 3))),
+                ("plan", lambda: plan.coefficients(0, [0])),
                 ("samples", lambda: relume.Renderer(asset, size, samples=3)),
                 ("weight", lambda: renderer.bind({"gold": nan})),
                 ("weight", lambda: renderer.bind({"gold": -1})),
@@ -344,6 +361,8 @@ class ModuleTest(unittest.TestCase):
                 ("radiance", lambda: relume.Light.lamp(0, 0, 3, [1, nan, 1])),
                 ("irradiance", lambda: relume.Light.distant(0, 0, [-1, 0, 0])),
                 ("environment", lambda: relume.Light.environment(filled(nan, 4, 8, 3))),
+                ("environment", lambda: relume.Light.environment(filled(1e20, 4, 8, 3))),
+                ("light", lambda: relume.Light.environment(filled(1e12, 4, 8, 3)) * 1e5),
                 ("gain", lambda: light * 1e38),
                 ("scaled", lambda: light * nan),
                 ("degrees", lambda: light.turned(nan)),
@@ -357,17 +376,28 @@ class ModuleTest(unittest.TestCase):
                 ("brush_rotation", lambda: relume.Scene().add(self.mesh, brush_rotation=inf)),
                 ("material", lambda: relume.Scene().add(self.mesh, [])),
                 ("material", lambda: relume.Scene().add(self.mesh, "")),
+                ("material", lambda: relume.Scene().add(self.mesh, ["gold", "{"])),
+                ("material", lambda: relume.Scene().add(self.mesh, ["gold", None])),
+                ("up", lambda: relume.Scene().add(relume.Mesh(corners, [[0, 1, 2]]), up="z")),
+                ("origin", lambda: relume.Scene().add(relume.Mesh(1e-3 * corners + 1e3, [[0, 1, 2]]))),
+                ("golb", lambda: scene.add_ground("golb")),
+                ("tessellation", lambda: scene.add_ground(tessellation=0)),
+                ("extent", lambda: scene.add_ground(extent=nan)),
+                ("layout", lambda: relume.bake(scene, layout="rows", error=0.1)),
+                ("budget", lambda: relume.bake(scene, budget=100, error=0.1)),
+                ("occluder", lambda: relume.bake(scene, occluder_triangles=1)),
                 ("parts", lambda: relume.bake(relume.Scene())),
                 ("refine", lambda: relume.bake(scene, refine=nan)),
                 ("error", lambda: relume.bake(scene, error=nan)),
                 ("asset", lambda: relume.reference(None, light)),
                 ("terms", lambda: relume.reference(asset, light, size=size, brdf="factored", terms=0)),
                 ("asset", lambda: relume.SampledReference(None, light)),
-                ("face_size", lambda: relume.SampledReference(asset, light, size=size, face_size=0)),
+                ("face_size", lambda: relume.SampledReference(asset, light, size=size, face_size=1)),
                 ("count", lambda: reference.add_passes(-1)),
                 ("mean", reference.mean),
                 ("halves", reference.halves),
                 ("asset", lambda: relume.errors(None, light)),
+                ("light", lambda: relume.errors(asset, [], size=(4, 3))),
                 ("passes", lambda: relume.errors(asset, light, size=(4, 3), passes=-1)),
                 ("size", lambda: relume.errors(asset, light, size=(1000, 1000))),
                 ("points", lambda: relume.advise(scene, light, 0.1, points=0)),
@@ -395,12 +425,14 @@ class ModuleTest(unittest.TestCase):
             try:
                 for _ in range(5):
                     call()
-            except relume.Error as failure:
+            except Exception as failure:
                 failures.append(failure)
         threads = [threading.Thread(target=repeat, args=(call,)) for call in (
             lambda: renderer.render(self.light), lambda: renderer.render(self.light, background=True),
             lambda: renderer.relight(self.light), lambda: renderer.bind("gold"), lambda: renderer.select_terms(1),
-            lambda: reference.add_passes(2, lambda share: reference.passes), reference.halves)]
+            lambda: reference.add_passes(2, lambda share: reference.passes), reference.halves,
+            lambda: relume.reference(self.asset, self.light, size=(16, 12), samples=1, rays=1,
+                                     progress=lambda share: reference.mean()))]
         for thread in threads:
             thread.start()
         for thread in threads:

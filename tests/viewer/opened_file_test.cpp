@@ -32,15 +32,16 @@ struct OpenedFolder : TemporaryFolder {
 
 TEST_CASE("opened file: its bake is another once it, or a file that it names, has changed") {
     const OpenedFolder folder;
-    folder.write("house.gltf", R"({"buffers": [{"uri": "house.bin"}], "images": [{"uri": "wall.png"}]})");
-    folder.write("house.bin", "corners");
+    folder.write("house.gltf",
+                 R"({"buffers": [{"uri": "the%20house.bin"}], "images": [{"uri": "wall.png"}]})");
+    folder.write("the house.bin", "corners");
     folder.write("wall.png", "texels");
     folder.write("scene.json", R"({"parts": [{"mesh": "house.gltf"}, {"mesh": "scene.json"}]})");
     for (const char* opened : {"house.gltf", "scene.json"}) {
         CAPTURE(opened);
         std::set<std::filesystem::path> bakes = {bakePath(opened)};
         CHECK_EQ(bakePath(opened), *bakes.begin());
-        for (const char* changed : {"house.gltf", "house.bin", "wall.png"}) {
+        for (const char* changed : {"house.gltf", "the house.bin", "wall.png"}) {
             CAPTURE(changed);
             const auto date = std::filesystem::last_write_time(changed);
             std::ofstream(changed, std::ios::app) << " ";

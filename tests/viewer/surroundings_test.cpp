@@ -180,7 +180,7 @@ TEST_CASE(
     int first = 0;
     for (const auto& [output, step] : outputs) {
         CAPTURE(output);
-        first++; // of the writes each output's fail others
+        first++; // each output begins with another write
         const bool isNamed = output[0] != '.';
         int call = faultStride(first);
         for (;; call += faultStride(3)) {

@@ -14,6 +14,7 @@ Images are float32 arrays (height, width, 4), rows from the top: linear radiance
 alpha. Angles are degrees. Errors are relume.Error, with the words of the command line.
 """
 
+import json
 import os
 import tempfile
 
@@ -46,7 +47,10 @@ class Image(np.ndarray):
             return None
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "image.png")
-            self.save(path)
+            try:
+                self.save(path)
+            except Error:  # pixels that are not finite
+                return None
             with open(path, "rb") as file:
                 return file.read()
 
@@ -68,17 +72,26 @@ def _add(self, mesh, material=None, name=None, up="y", brush_rotation=0.0):
     """
     if up not in ("y", "z"):
         raise UsageError(f'up: expected "y" or "z", found {up!r}')
-    if isinstance(material, (list, tuple)):
-        if not material:
-            raise UsageError("material: expected a material or more, found an empty list")
-        import json
-        parsed = [json.loads(text) if text.lstrip().startswith("{") else text for text in material]
-        material = material[0] if len(parsed) == 1 else json.dumps({"set": parsed})
+    if material is not None and not isinstance(material, str):
+        material = _set_of(list(material))
     if isinstance(mesh, Mesh):
+        if up != "y":
+            raise UsageError('up: expected "y" for a Mesh: turn its positions')
         self._add_mesh(mesh, material, name, brush_rotation)
     else:
-        self._add_file(os.fspath(mesh), material, up == "z", brush_rotation)
+        self._add_file(os.fspath(mesh), material, name, up == "z", brush_rotation)
     return self
+
+
+def _set_of(materials):
+    """The set of several materials as JSON; a single one as it is."""
+    if not materials or not all(isinstance(text, str) for text in materials):
+        raise UsageError(f"material: expected a material or a list of them, found {materials!r:.100}")
+    try:
+        parsed = [json.loads(text) if text.lstrip().startswith("{") else text for text in materials]
+    except (ValueError, RecursionError) as failure:
+        raise UsageError(f"material: is not valid JSON: {failure}") from None
+    return materials[0] if len(parsed) == 1 else json.dumps({"set": parsed})
 
 
 Scene.add = _add
