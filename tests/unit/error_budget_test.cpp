@@ -122,6 +122,8 @@ TEST_CASE("low-order light: a small lamp becomes as broad as 25 coefficients lea
     const LightCube low = lowOrderLight(lamp, 5);
     // Σ (2l + 1) / 4π towards it, by the addition theorem.
     CHECK(double(low.radiance[size_t(texel)].x) == doctest::Approx(25 / (4 * double(kPi))).epsilon(1e-3));
+    CHECK(double(lowOrderLight(lamp, 16).radiance[size_t(texel)].x) ==
+          doctest::Approx(256 / (4 * double(kPi))).epsilon(1e-3));
     double energy = 0, least = 0;
     for (int i = 0; i < 6 * 32 * 32; i++) {
         energy += double(low.radiance[size_t(i)].x * cubeTexelSolidAngle(i % 32, i / 32 % 32, 32));
