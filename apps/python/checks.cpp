@@ -67,7 +67,7 @@ Camera checked(const Camera& camera) {
 }
 
 Light checked(Light light) {
-    constexpr float kBrightest = 1e15f;
+    constexpr float kBrightest = 1e15f; // sums over a cube, and their squares, are finite
     float brightest = 0;
     for (const EnvironmentLight& environment : light.environments) {
         expectWithin("gain", environment.gain, 0.0f, kMostGain);
@@ -84,8 +84,7 @@ Light checked(Light light) {
         expectDirection(distant.direction);
         expectColor("irradiance", distant.irradiance);
     }
-    const size_t most =
-        std::max({light.strokes.size(), light.lamps.size(), light.distant.size(), light.environments.size()});
+    const size_t most = std::max({light.strokes.size(), light.lamps.size(), light.distant.size()});
     if (most > kMostSources)
         throw UsageError(
             fmt::format("light: expected at most {} sources of a kind, found {}", kMostSources, most));

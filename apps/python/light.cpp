@@ -72,9 +72,9 @@ void addLight(py::module_& module) {
         .def_static(
             "load",
             [](const std::filesystem::path& path, double seconds) {
+                expectWithin("seconds", seconds, 0.0, 1e6);
                 MovingLight light = readLight(path);
                 light.keepPictures();
-                expectWithin("seconds", seconds, 0.0, 1e6);
                 return light.at(seconds);
             },
             py::arg("path"), py::arg("seconds") = 0.0, py::call_guard<py::gil_scoped_release>())

@@ -366,6 +366,7 @@ class ModuleTest(unittest.TestCase):
                 ("gain", lambda: light * 1e38),
                 ("scaled", lambda: light * nan),
                 ("degrees", lambda: light.turned(nan)),
+                ("seconds", lambda: relume.Light.load(self.mesh, nan)),
                 ("sources", lambda: sum([relume.Light.lamp(0, 9, 3, [1, 1, 1])] * 600, light)),
                 ("triangles", lambda: relume.Mesh(corners, [[0, 1, 3]])),
                 ("triangles", lambda: relume.Mesh(corners, [[0, 1, -1]])),
@@ -410,6 +411,8 @@ class ModuleTest(unittest.TestCase):
             with self.subTest(name=name), self.assertRaisesRegex(relume.Error, name):
                 wrong()
         self.assertFalse(os.path.exists(self.file("nan.png")))
+        patch = relume.Light.environment(filled(1e-3, 4, 8, 3))
+        renderer.relight(sum([patch] * 600, patch))  # maps are as many as one likes
         for error, wrong in ((TypeError, lambda: relume.bake(scene, terms=2.5)), (IndexError, lambda: asset.mesh(9)),
                              (TypeError, lambda: renderer.render(None))):
             with self.assertRaises(error):
