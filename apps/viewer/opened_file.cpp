@@ -32,8 +32,8 @@ constexpr std::string_view kSceneText = R"({
 }
 )";
 
-// Returns a URI's text: "my%20house.bin" is "my house.bin".
-std::string withoutPercents(const std::string& uri) {
+// Decodes percent-encoded characters: "my%20house.bin" becomes "my house.bin" (RFC 3986, 2.1).
+std::string decodeUri(const std::string& uri) {
     std::string text;
     for (size_t i = 0; i < uri.size(); i++) {
         unsigned code = 0;
@@ -47,14 +47,16 @@ std::string withoutPercents(const std::string& uri) {
     return text;
 }
 
-// Describes files, and the files that they name: another text means that one of them has changed.
+// Collects the path, date and size of files and of the files that they name. Another text() means that one of
+// them has changed.
 class FileStates {
   public:
     void add(const std::filesystem::path& file) {
         std::error_code failure;
         const auto changed = std::filesystem::last_write_time(file, failure);
         if (failure || !std::filesystem::is_regular_file(file, failure) || !mSeen.insert(file).second) return;
-        // The date alone does not tell if a clock went back, or if a copy has the date of its original.
+        // A date can stay the same: after a clock went back, or for a copy that keeps the date of its
+        // original.
         const auto bytes = std::filesystem::file_size(file, failure);
         mText +=
             fmt::format("\n{} {} {}", file.string(), changed.time_since_epoch().count(), failure ? 0 : bytes);
@@ -62,7 +64,7 @@ class FileStates {
         if (extension != ".json" && extension != ".gltf") return;
         try {
             addNamed(readJson(file), file.parent_path());
-        } catch (const Error&) { // the bake says what is wrong with it
+        } catch (const Error&) { // the bake reports what is wrong with it
         }
     }
     const std::string& text() const { return mText; }
@@ -71,9 +73,9 @@ class FileStates {
     void addNamed(const json& value, const std::filesystem::path& folder) {
         if (value.is_string()) {
             const auto& name = value.get_ref<const std::string&>();
-            if (name.size() > PATH_MAX) return; // it holds data
+            if (name.size() > PATH_MAX) return; // the text is data, not a name
             add((folder / name).lexically_normal());
-            if (name.find('%') != std::string::npos) add((folder / withoutPercents(name)).lexically_normal());
+            if (name.find('%') != std::string::npos) add((folder / decodeUri(name)).lexically_normal());
         } else if (value.is_structured())
             for (const json& part : value) addNamed(part, folder);
     }
@@ -131,11 +133,11 @@ std::filesystem::path bakePath(const std::filesystem::path& input) {
     const std::filesystem::path folder = cacheFolder() / "bakes";
     std::filesystem::create_directories(folder, failure);
     if (failure) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
+    static_cast<void>(std::filesystem::file_size(input, failure)); // only whether it can be read
+    if (failure) throw Error(fmt::format("{}: cannot be read: {}", input.string(), failure.message()));
     FileStates states;
     states.add(wholePath(input));
-    if (states.text().empty()) throw Error(fmt::format("{}: cannot be read: is it there?", input.string()));
-    const std::string& identity = states.text();
-    const std::string hash = hashText(std::as_bytes(std::span(identity)));
+    const std::string hash = hashText(std::as_bytes(std::span(states.text())));
     return folder / fmt::format("{}-{}.relume", input.stem().string().substr(0, 100), hash.substr(0, 12));
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("opened file: its bake is another once it, or a file that it names, ha
             CHECK(bakes.insert(bakePath(opened)).second);
         }
     }
-    CHECK_THROWS(bakePath("nowhere.obj"));
+    CHECK_THROWS_WITH(bakePath("nowhere.obj"), "nowhere.obj: cannot be read: No such file or directory");
 }
 
 TEST_CASE("outputs: a name is that of no file that is there") {
