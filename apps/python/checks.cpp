@@ -20,7 +20,7 @@ void expectFinite(const char* name, vec3 place) {
         throw UsageError(fmt::format("{}: expected coordinates that are finite", name));
 }
 
-// Of all channels.
+// Returns the largest radiance of any channel.
 float peakOf(const Environment& map) {
     float peak = 0;
     for (const vec3& radiance : map.radiance) peak = std::max({peak, radiance.x, radiance.y, radiance.z});

@@ -1,4 +1,4 @@
-// Checks of arguments, which are as little trusted as files. Each throws UsageError with the argument's name,
+// Checks of arguments, which are trusted no more than files. Each throws UsageError with the argument's name,
 // what was expected and what was found.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace relume::python {
 
-// Distances, weights and angles in degrees lie within this, either way, as those of the command line do.
+// The largest magnitude of distances, weights and angles in degrees, as on the command line.
 constexpr float kLargestNumber = 1e6f;
 
 // Expects least ≤ value ≤ most, which NaN is not.
@@ -29,10 +29,10 @@ void expectSize(std::pair<int, int> size);
 // Expects 1, 2, 4 or 8 samples of a pixel.
 void expectSamples(int samples);
 
-// Returns the asset. None arrives as null.
+// Returns the asset, and refuses null, as which None arrives.
 const std::shared_ptr<Asset>& expectAsset(const std::shared_ptr<Asset>& asset);
 
-// Returns the asset, which has transport: plan() gives one without.
+// Returns the asset, and refuses one without transport, which plan() makes.
 const std::shared_ptr<Asset>& expectBaked(const std::shared_ptr<Asset>& asset);
 
 // Returns the camera if a view can be drawn from it.

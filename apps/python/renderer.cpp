@@ -25,7 +25,7 @@ Camera cameraOf(const Asset& asset, float azimuth, float elevation, float distan
                                glm::radians(fov), aspect));
 }
 
-// Its calls may come from several threads.
+// Draws and relights an asset. Several threads may call it.
 class Renderer {
   public:
     Renderer(std::shared_ptr<const vk::Device> on, std::shared_ptr<const Asset> asset,
@@ -45,7 +45,7 @@ class Renderer {
         }
         if (sum == 0) throw UsageError("materials: expected at least one weight above 0");
         const std::lock_guard lock(mMutex);
-        Appearance bound = mAppearance; // which stays as it is if anything fails
+        Appearance bound = mAppearance; // a copy: a failure leaves mAppearance as it is
         relume::bindMaterials(bound, *mAsset, materials);
         mView.setAppearance(bound);
         mAppearance = std::move(bound);

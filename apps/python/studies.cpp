@@ -84,7 +84,7 @@ LightCube fineLight(Light light, int faceSize) {
     return sampleLight(light, faceSize);
 }
 
-// A progressive reference; keeps alive the asset that it refers to. Its calls may come from several threads.
+// A progressive reference; keeps alive the asset that it refers to. Several threads may call it.
 class SampledReference {
   public:
     SampledReference(const std::shared_ptr<Asset>& asset, const Light& light,
@@ -101,7 +101,8 @@ class SampledReference {
         expectWithin("count", count, 1, std::numeric_limits<int>::max());
         runLong(progress, [&](const std::function<void(double)>& tell) {
             for (int i = 1; i <= count; i++) {
-                while (mWaiting > 0) std::this_thread::yield(); // else they might wait for the last pass
+                while (mWaiting > 0)
+                    std::this_thread::yield(); // readers go first, or they might wait for the last pass
                 {
                     const std::lock_guard lock(mMutex);
                     mReference.addPass();
@@ -126,7 +127,7 @@ class SampledReference {
     }
 
   private:
-    // Locks before the next pass does.
+    // Locks the reference before the next pass can.
     std::unique_lock<std::mutex> lockNext() const {
         ++mWaiting;
         std::unique_lock lock(mMutex);

@@ -412,7 +412,7 @@ class ModuleTest(unittest.TestCase):
                 wrong()
         self.assertFalse(os.path.exists(self.file("nan.png")))
         patch = relume.Light.environment(filled(1e-3, 4, 8, 3))
-        renderer.relight(sum([patch] * 600, patch))  # maps are as many as one likes
+        renderer.relight(sum([patch] * 600, patch))  # there may be any number of maps
         for error, wrong in ((TypeError, lambda: relume.bake(scene, terms=2.5)), (IndexError, lambda: asset.mesh(9)),
                              (TypeError, lambda: renderer.render(None))):
             with self.assertRaises(error):

@@ -10,15 +10,15 @@ using nlohmann::json;
 
 namespace {
 
-// What a process holds: its heap in use, its resident memory, which counts what malloc keeps of freed memory,
-// and how many files it has open (held.cpp).
+// The memory and files that a process holds at a moment. Resident memory includes freed memory that malloc
+// keeps.
 struct Held {
     double heapMegabytes;
     double residentMegabytes;
     size_t files;
 };
 
-// Returns what held.cpp has written.
+// Reads the file that support/memory_log.cpp writes.
 std::vector<Held> readHeld(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::vector<Held> held;
@@ -81,10 +81,10 @@ TEST_CASE("viewer drift: a window that is used for long holds no more, and shows
     std::ofstream(session.path("script.json")) << script;
     // Without validation, whose layer keeps some megabytes for every load.
     const Outcome outcome = session.view("--script script.json ring.relume room.exr",
-                                         "RELUME_HELD=held.txt LD_PRELOAD='" RELUME_HELD "'");
+                                         "RELUME_MEMORY_LOG=memory.txt LD_PRELOAD='" RELUME_MEMORY_LOG "'");
     CAPTURE(outcome.err);
     REQUIRE_EQ(outcome.exitCode, 0);
-    const std::vector<Held> held = readHeld(session.path("held.txt"));
+    const std::vector<Held> held = readHeld(session.path("memory.txt"));
     REQUIRE_GT(held.size(), 10);
     const Held before = leastOf(held, 0.25, 0.6), after = leastOf(held, 0.65, 0.95);
     const auto growth = [](double from, double to) { return 100 * (to / from - 1); }; // percent

@@ -1,6 +1,6 @@
-// Preloaded into a program, writes ten times a second what it holds, as a line of the file that the
-// environment variable RELUME_HELD names: the bytes of its heap that are in use, its resident bytes, which
-// count what malloc keeps of freed memory and what drivers map, and the number of its open files.
+// A library to preload into a program. Ten times a second it appends a line to the file that the environment
+// variable RELUME_MEMORY_LOG names: the bytes of the heap in use, the resident bytes, which include freed
+// memory that malloc keeps and what drivers map, and the number of open files.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -26,7 +26,7 @@ void watch(const char* path) {
 
 // The thread is never joined: it ends with the program.
 const bool kIsWatched = [] {
-    const char* path = std::getenv("RELUME_HELD");
+    const char* path = std::getenv("RELUME_MEMORY_LOG");
     if (path) std::thread(watch, path).detach();
     return path != nullptr;
 }();
