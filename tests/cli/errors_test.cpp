@@ -93,7 +93,7 @@ TEST_CASE("advise: options in words and as data, and what to do where there are 
         succeed(folder, "advise octahedron.obj -m white-diffuse --as-is --points 40 --error 0.2");
     CHECK(says(words.out, "of fewest bytes: relume bake … --terms 1 --factorization environment"));
     CHECK(says(words.out, "--layout rows --coefficients"));
-    folder.write("ball.obj", sampleObj(relume::makeSphere(2)));
+    folder.write("ball.obj", sampleObj(relume::makeSphere(1)));
     // A sphere shadows nothing, so that one term and what it leaves are nearly exact.
     const Json data =
         Json::parse(succeed(folder, "advise ball.obj -m clay --as-is --points 40 --error 0.1 --json").out);
