@@ -32,7 +32,7 @@ std::pair<double, double> differenceOf(const SparseTransport& a, const SparseTra
 
 TEST_CASE("bounce gather pass: gathers the CPU's rows, in every set, term and channel") {
     const TestDevice device;
-    const Asset asset = makeBounceScene(8, 5);
+    const Asset asset = makeBounceScene(6, 4);
     const BounceHits hits(asset, defaultAppearance(asset));
     std::mt19937 random(21);
     for (const int coefficients : {8, 200}) { // fewer and more than a bounced row keeps
@@ -54,28 +54,28 @@ TEST_CASE("bounce gather pass: gathers the CPU's rows, in every set, term and ch
 
 TEST_CASE("bounce gather pass: sources of any size keep their precision, and none give none") {
     const TestDevice device;
-    const Asset asset = makeBounceScene(8, 5);
+    const Asset asset = makeBounceScene(6, 4);
     const BounceHits hits(asset, defaultAppearance(asset));
     std::mt19937 random(4);
     std::vector<SparseTransport> from = {randomRows(asset.parts[0], random),
                                          randomRows(asset.parts[1], random)};
+    BounceGatherPass pass(device, hits);
     for (const float scale : {1e-12f, 1e9f, 0.0f}) {
         CAPTURE(scale);
         std::vector<SparseTransport> scaled = from;
         for (SparseTransport& rows : scaled)
             for (float& value : rows.scales) value *= scale;
         const auto expected = BounceGather(hits).gather(scaled, kGoOn);
-        BounceGatherPass pass(device, hits);
         const auto found = pass.gather(scaled, kGoOn);
         const auto [difference, all] = differenceOf(found[0][1], expected[0][1]);
-        CHECK(difference <= 1e-8 * all);
+        CHECK(std::sqrt(difference) <= 3e-4 * std::sqrt(all));
         CHECK((all > 0) == (scale > 0));
     }
 }
 
 TEST_CASE("bounce gather pass: stops when asked to") {
     const TestDevice device;
-    const Asset asset = makeBounceScene(8, 5);
+    const Asset asset = makeBounceScene(6, 4);
     const BounceHits hits(asset, defaultAppearance(asset));
     std::mt19937 random(4);
     const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random),

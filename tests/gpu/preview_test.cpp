@@ -20,10 +20,10 @@ using relume::test::TemporaryFolder;
 
 namespace {
 
-Scene knotOnGround() {
+Scene knotOnGround(int vertices = 1800, int tessellation = 19) {
     Scene scene;
-    scene.parts.push_back({"knot", makeKnot(2500), "gold", "built-in knot", ""});
-    addGround(scene, {.tessellation = 24}, "white-diffuse");
+    scene.parts.push_back({"knot", makeKnot(vertices), "gold", "built-in knot", ""});
+    addGround(scene, {.tessellation = tessellation}, "white-diffuse");
     return scene;
 }
 
@@ -116,14 +116,15 @@ TEST_CASE("preview: the blocks' portions are all of them once, each over the who
 
 TEST_CASE("preview: near the finished bake, nearer each time, and without a trace in its bytes") {
     const TestDevice device;
+    const Scene scene = knotOnGround(2500, 24);
     for (const TransportLayout layout : {TransportLayout::Rows, TransportLayout::Bases}) {
         CAPTURE(layoutName(layout));
         const TemporaryFolder folder;
         const auto path = folder.path() / "a.relume";
         Seen previews(path);
         const BakeOptions options = smallOptions(layout);
-        const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), options));
-        bakeToFile(device, knotOnGround(), options, path, {}, previews, {.previews = true});
+        const std::vector<std::byte> whole = encodeAsset(bake(device, scene, options));
+        bakeToFile(device, scene, options, path, {}, previews, {.previews = true});
         CHECK(readFile(path) == whole);
         const Asset finished = readAsset(path);
         CHECK_FALSE(finished.provenance.bakedShare);

@@ -82,13 +82,13 @@ TEST_CASE("relighter: faces of 32 and long rows give the reference's bits") {
 TEST_CASE("relighter: shards give the reference's bits") {
     const TestDevice device;
     Asset asset;
-    asset.parts.push_back(makePart(500, 4, 96, asset.faceSize, 1));
+    asset.parts.push_back(makePart(100, 4, 96, asset.faceSize, 1));
     asset.parts.push_back(makePart(10, 1, 0, asset.faceSize, 2)); // empty rows only
     asset.parts.push_back(makePart(0, 3, 0, asset.faceSize, 3));  // no rows at all
     checkBits(device, asset, {}, {1, 1, 0});
 
     // A shard a row, whatever its length.
-    checkBits(device, asset, {.largestShard = 1}, {2000, 10, 0});
+    checkBits(device, asset, {.largestShard = 1}, {400, 10, 0});
 
     size_t groups = 0;
     const SparseTransport& transport = rowsOf(asset.parts[0].sets[0].transport);
