@@ -39,8 +39,7 @@ StageMasks masksOf(Stage stage) {
     switch (stage) {
     case Stage::Compute:
         return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
-                    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                 VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
     case Stage::Transfer:
         return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
@@ -58,13 +57,36 @@ StageMasks masksOf(Stage stage) {
         return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT |
                     VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                 VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
-                    VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                    VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT,
                 0};
     default:
         return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT};
     }
 }
+
+// Returns the accesses that an image in this layout allows; all where its contents are of no account.
+VkAccessFlags2 accessesIn(VkImageLayout layout) {
+    switch (layout) {
+    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL:
+        return VK_ACCESS_2_TRANSFER_READ_BIT;
+    case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL:
+        return VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
+        return VK_ACCESS_2_SHADER_READ_BIT;
+    case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+        return VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
+        return VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR:
+        return 0;
+    default:
+        return ~VkAccessFlags2(0);
+    }
+}
+
+// The earliest and the latest stage name all of them where a barrier begins or ends, and a timestamp waits.
+constexpr VkPipelineStageFlags2 kAllBefore = VK_PIPELINE_STAGE_2_BOTTOM_OF_PIPE_BIT,
+                                kAllAfter = VK_PIPELINE_STAGE_2_TOP_OF_PIPE_BIT;
 
 } // namespace
 
@@ -104,6 +126,7 @@ void Commands::reset() {
     for (VkDescriptorPool pool : mDescriptorPools)
         RELUME_VK(vkResetDescriptorPool(mDevice.handle(), pool, 0));
     mActivePool = 0;
+    mAllocatedSets = 0;
     dropTexelViews();
     mTimedPasses.clear();
 }
@@ -131,11 +154,11 @@ void Commands::pass(const char* name, const std::function<void()>& work) {
     mDevice.beginLabel(mCommands, name);
     if (timed) {
         mTimedPasses.emplace_back(name);
-        vkCmdWriteTimestamp2(mCommands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, mQueries, query);
+        vkCmdWriteTimestamp2(mCommands, kAllBefore, mQueries, query);
         orderAllCommands();
     }
     work();
-    if (timed) vkCmdWriteTimestamp2(mCommands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, mQueries, query + 1);
+    if (timed) vkCmdWriteTimestamp2(mCommands, kAllBefore, mQueries, query + 1);
     mDevice.endLabel(mCommands);
 }
 
@@ -143,7 +166,8 @@ void Commands::pass(const char* name, const std::function<void()>& work) {
 // ahead of its first timestamp (lavapipe's always does).
 void Commands::orderAllCommands() {
     VkMemoryBarrier2 order{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    order.srcStageMask = order.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    order.srcStageMask = kAllBefore;
+    order.dstStageMask = kAllAfter;
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &order;
@@ -227,7 +251,8 @@ void Commands::dropTexelViews() {
 }
 
 VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
-    for (;; mActivePool++) {
+    for (;; mActivePool++, mAllocatedSets = 0) {
+        if (mAllocatedSets == kSetsPerPool) continue; // full
         if (mActivePool == mDescriptorPools.size()) {
             const VkDescriptorPoolSize sizes[] = {
                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
@@ -247,7 +272,10 @@ VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
         allocate.pSetLayouts = &layout;
         VkDescriptorSet set;
         const VkResult result = vkAllocateDescriptorSets(mDevice.handle(), &allocate, &set);
-        if (result == VK_SUCCESS) return set;
+        if (result == VK_SUCCESS) {
+            mAllocatedSets++;
+            return set;
+        }
         if (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)
             check(result, "vkAllocateDescriptorSets");
     }
@@ -338,9 +366,9 @@ void Commands::transition(const Image& image, VkImageLayout from, VkImageLayout 
     const StageMasks source = masksOf(before), target = masksOf(after);
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = source.stages;
-    barrier.srcAccessMask = source.writes;
+    barrier.srcAccessMask = source.writes & accessesIn(from);
     barrier.dstStageMask = target.stages;
-    barrier.dstAccessMask = target.reads;
+    barrier.dstAccessMask = target.reads & accessesIn(to);
     barrier.oldLayout = from;
     barrier.newLayout = to;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;

@@ -155,6 +155,7 @@ class Commands {
     bool mIsTimed = true, mIsRecordingTimed = false; // as asked for; this recording
     std::vector<VkDescriptorPool> mDescriptorPools;
     size_t mActivePool = 0;
+    uint32_t mAllocatedSets = 0;           // of the active pool
     std::vector<VkBufferView> mTexelViews; // made for this recording
     std::vector<std::string> mTimedPasses; // pass i wrote queries 2i and 2i + 1
     std::vector<uint64_t> mReadings;

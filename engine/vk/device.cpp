@@ -112,6 +112,10 @@ VkBool32 onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, Vk
             fmt::format("the validation layer checks less on this device: {}", data->pMessage));
         return VK_FALSE;
     }
+    // Best practices also tell of vertex buffers that are still bound when a program that reads none draws:
+    // Vulkan has no way to unbind them, and they cost nothing.
+    constexpr std::string_view kStillBound = "UNASSIGNED-BestPractices-DrawState-VtxIndexOutOfBounds";
+    if (data->pMessageIdName && data->pMessageIdName == kStillBound) return VK_FALSE;
     static_cast<Device*>(device)->mValidationMessages++;
     if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT)
         log(LogLevel::Error, fmt::format("validation: {}", data->pMessage));

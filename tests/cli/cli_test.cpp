@@ -1,5 +1,6 @@
 // The program as its users meet it: exit codes, streams, files.
 #include "tests/support/run_relume.h"
+#include "tests/support/validation.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -271,7 +272,7 @@ TEST_CASE("cli: devices lists what a choice needs") {
 
 TEST_CASE("cli: from a bake to pictures, measurements and numbered frames, without a validation message") {
     const TemporaryFolder folder;
-    const std::string validated = " --validation core,sync";
+    const std::string validated = " --validation " + relume::testValidation();
     const Outcome bake = runRelume(folder, smallBake(folder) + "-o a.relume --timings t.json" + validated);
     CAPTURE(bake.err);
     REQUIRE_EQ(bake.exitCode, 0);

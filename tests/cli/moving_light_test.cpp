@@ -1,6 +1,7 @@
 // Images of light that moves.
 #include "engine/import/image_file.h"
 #include "tests/support/run_relume.h"
+#include "tests/support/validation.h"
 
 #include <doctest/doctest.h>
 #include <fmt/core.h>
@@ -33,8 +34,8 @@ void prepare(const TemporaryFolder& folder, const std::string& layout) {
 std::string frames(const TemporaryFolder& folder, const std::string& name, const std::string& options) {
     const Outcome outcome = runRelume(folder, "render a.relume -o " + name +
                                                   ".exr --size 64x48 --light light.json --frames 5 "
-                                                  "--rate 4 --validation core,sync " +
-                                                  options);
+                                                  "--rate 4 --validation " +
+                                                  relume::testValidation() + " " + options);
     CAPTURE(outcome.err);
     REQUIRE_EQ(outcome.exitCode, 0);
     std::string all;

@@ -6,6 +6,7 @@
 #include "shaders/frame_shaders.h"
 #include "tests/support/displayed.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_device.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -221,7 +222,7 @@ TEST_CASE("shader reload: what C++ was not built for is refused") {
 
 TEST_CASE("shader reload: programs made afterwards draw with what changed") {
     vk::Device device(
-        {.select = "", .validation = "core,sync", .surfaceExtensions = {}, .pipelineCache = {}});
+        {.select = "", .validation = testValidation(), .surfaceExtensions = {}, .pipelineCache = {}});
     const Image nothing(8, 8); // shows the background alone
     const DisplayOptions options{.background = vec3(0.2f)};
     const auto shown = [&] { return test::displayed(device, nothing, options).pixels[0].x; };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/vk/device.h"
+#include "tests/support/validation.h"
 
 #include <doctest/doctest.h>
 
@@ -26,7 +27,7 @@ inline float filterError(const vk::Device& device) { return isSoftware(device) ?
 class TestDevice {
   public:
     explicit TestDevice(bool leastFeatures = false)
-        : mDevice(vk::DeviceOptions{.validation = "core,sync", .leastFeatures = leastFeatures}) {}
+        : mDevice(vk::DeviceOptions{.validation = testValidation(), .leastFeatures = leastFeatures}) {}
     ~TestDevice() { CHECK_EQ(mDevice.validationMessages(), 0); }
 
     operator const vk::Device&() const { return mDevice; }

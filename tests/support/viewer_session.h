@@ -6,6 +6,7 @@
 #include "tests/support/display.h"
 #include "tests/support/mesh_samples.h"
 #include "tests/support/run_relume.h"
+#include "tests/support/validation.h"
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -46,7 +47,7 @@ class ViewerSession {
     Outcome replay(const nlohmann::json& script, const std::string& arguments,
                    const std::string& environment = "") {
         std::ofstream(path("script.json")) << script;
-        return view("--script script.json --validation core,sync " + arguments, environment);
+        return view("--script script.json --validation " + testValidation() + " " + arguments, environment);
     }
     Outcome view(const std::string& arguments, const std::string& environment = "") {
         return runProgram(mFolder, RELUME_VIEWER,
