@@ -79,7 +79,8 @@ void main() {
     for (uint i = lane; i < 3 * kCoefficients; i += kLanes) radiance[i] = 0;
     barrier();
 
-    for (uint number = hitStarts[vertex]; number < hitStarts[vertex + 1]; number++) {
+    const uint hitsEnd = hitStarts[vertex + 1];
+    for (uint number = hitStarts[vertex]; number < hitsEnd; number++) {
         const SourceHit hit = hits[number];
         addRows(number, hit);
         barrier();
