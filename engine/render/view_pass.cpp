@@ -381,6 +381,8 @@ void ViewPass::recordTriangleIds(vk::Commands& commands, const Frame& frame) con
         if (depth)
             commands.transition(*depth, VK_IMAGE_LAYOUT_UNDEFINED,
                                 VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, Stage::Color, Stage::Color);
+    // Resolving depth counts as writing a color attachment, which is no access of the image's layout.
+    if (firstSamples) commands.barrier(Stage::Color, Stage::Color);
     commands.render({.color = &mTriangleIds, .depth = &mDepth, .firstSamples = firstSamples}, [&] {
         for (const ViewPart& part : mParts) drawTriangleIds(commands, frame, part);
     });
