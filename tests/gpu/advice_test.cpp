@@ -53,7 +53,7 @@ TEST_CASE("advise: a bake of its options has about the error and the bytes that 
     const StudiedLight light = sky();
     BakeObserver observer;
     constexpr double kWanted = 0.06;
-    const Advice advice = advise(device, {knot(), {}, kWanted, adviceOptions(), 80}, light, observer);
+    const Advice advice = advise(device, {knot(), {}, kWanted, adviceOptions(), 60}, light, observer);
     CHECK(!advice.refined);
     CHECK(advice.best() == &*advice.plain.bases);
     for (const auto& advised : {advice.plain.bases, advice.plain.rows}) {

@@ -81,7 +81,7 @@ TEST_CASE("bake: bases are as good as a conversion of the rows, block by block o
     const TestDevice device;
     const TemporaryFolder folder;
     Scene scene;
-    scene.parts.push_back({"knot", makeKnot(1100), "ashikhmin-shirley", "built-in knot", ""});
+    scene.parts.push_back({"knot", makeKnot(1100), "gold", "built-in knot", ""});
     addGround(scene, {.tessellation = 24}, "white-diffuse");
     BakeOptions options;
     options.visibilitySize = 64;
