@@ -31,20 +31,14 @@ struct TermGroup {
         green += light.green * value.y;
         blue += light.blue * value.z;
     }
-    // Adds `light` times the value that packCoefficient() packed.
-    void add(const TermGroup& light, uint32_t packed) {
-        const auto all = Eigen::Array<int32_t, kTerms, 1>::Constant(int32_t(packed));
-        red += light.red * all.shiftLeft<21>().shiftRight<21>().cast<float>();
-        green += light.green * all.shiftLeft<10>().shiftRight<21>().cast<float>();
-        blue += light.blue * all.shiftRight<22>().cast<float>();
-    }
 };
 
-// Adds the entries of a row, times `weights`, to `total`, which has a group per coefficient. Most of the time
-// of gathering is spent here: the weights stay in registers.
+// Adds the entries of a row, times `weights`, to `total`, which has a group per coefficient. Gathering spends
+// most of its time here, so the weights are a copy, which the compiler keeps in registers.
 static void addRow(std::span<const uint16_t> indices, std::span<const uint32_t> values,
                    const TermGroup weights, TermGroup* total) {
-    for (size_t i = 0; i < indices.size(); i++) total[indices[i]].add(weights, values[i]);
+    for (size_t i = 0; i < indices.size(); i++)
+        total[indices[i]].add(weights, vec3(unpackCoefficient(values[i])));
 }
 
 // Returns the number of groups that hold so many terms.
