@@ -79,6 +79,7 @@ void main() {
     for (uint i = lane; i < 3 * kCoefficients; i += kLanes) radiance[i] = 0;
     barrier();
 
+    // GPU-assisted validation adds branches to each load; lavapipe refuses them in the condition of a loop.
     const uint hitsEnd = hitStarts[vertex + 1];
     for (uint number = hitStarts[vertex]; number < hitsEnd; number++) {
         const SourceHit hit = hits[number];

@@ -64,7 +64,7 @@ StageMasks masksOf(Stage stage) {
     }
 }
 
-// Returns the accesses that an image in this layout allows; all where its contents are of no account.
+// Returns the accesses that an image in this layout allows: all in UNDEFINED, whose contents are discarded.
 VkAccessFlags2 accessesIn(VkImageLayout layout) {
     switch (layout) {
     case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL:
@@ -84,7 +84,8 @@ VkAccessFlags2 accessesIn(VkImageLayout layout) {
     }
 }
 
-// The earliest and the latest stage name all of them where a barrier begins or ends, and a timestamp waits.
+// All earlier commands as what a barrier or a timestamp waits for, and all later ones as what waits.
+// ALL_COMMANDS means the same, but best-practices validation warns of it wherever it stands.
 constexpr VkPipelineStageFlags2 kAllBefore = VK_PIPELINE_STAGE_2_BOTTOM_OF_PIPE_BIT,
                                 kAllAfter = VK_PIPELINE_STAGE_2_TOP_OF_PIPE_BIT;
 

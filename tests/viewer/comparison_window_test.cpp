@@ -108,7 +108,7 @@ TEST_CASE("viewer: the reference is beside the view, alone and as a difference, 
     std::string command = renderCommand(outcome.err, "split.exr");
     command.replace(0, 6, "reference");
     command.erase(command.find(" --coefficients"), std::string(" --coefficients 512").size());
-    command += " --rays 1";
+    command += " --rays 1"; // per lighting texel instead of 4, to save time
     const Outcome reference = session.relume(command);
     REQUIRE_MESSAGE(reference.exitCode == 0, reference.err);
     const Image exact = toneMap(readImage(session.path("image.exr")).image, ToneCurve::None, 0);
