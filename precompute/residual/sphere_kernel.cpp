@@ -47,15 +47,15 @@ float ringAngle(float ring) { return ring * kPi / float(kRings); }
 float azimuthAngle(float azimuth) { return azimuth * 2 * kPi / float(kAzimuths); }
 
 // A direction of light, with the factor of f in the mean of f cos over a cell.
-struct LightSample {
+struct CellSample {
     vec3 incoming;
     float weight; // 0 at and below the horizon
 };
 
 // Returns directions in a cell of the light, in the frame where the view's azimuth is 0.
-std::array<LightSample, kSamplesPerSide * kSamplesPerSide> cellSamples(const Geometry& geometry, int ring,
-                                                                       int azimuth) {
-    std::array<LightSample, kSamplesPerSide * kSamplesPerSide> samples;
+std::array<CellSample, kSamplesPerSide * kSamplesPerSide> cellSamples(const Geometry& geometry, int ring,
+                                                                      int azimuth) {
+    std::array<CellSample, kSamplesPerSide * kSamplesPerSide> samples;
     const auto place = [](int i) { return (float(i) + 0.5f) / float(kSamplesPerSide); };
     float sum = 0;
     for (int j = 0; j < kSamplesPerSide; j++) {
@@ -67,7 +67,7 @@ std::array<LightSample, kSamplesPerSide * kSamplesPerSide> cellSamples(const Geo
                 incoming, incoming.z > kGrazingCosine ? solidAngle * incoming.z : 0};
         }
     }
-    for (LightSample& sample : samples) sample.weight /= sum;
+    for (CellSample& sample : samples) sample.weight /= sum;
     return samples;
 }
 
@@ -113,7 +113,7 @@ class WholeKernel {
                     const Turn& turn = turns[size_t(view)];
                     const vec3 turned = turn(outgoing);
                     vec3 mean(0);
-                    for (const LightSample& sample : cell)
+                    for (const CellSample& sample : cell)
                         if (sample.weight > 0) mean += sample.weight * exact(turn(sample.incoming), turned);
                     for (int channel = 0; channel < 3; channel++)
                         samples((view * kRings + ring) * 3 + channel, azimuth) = mean[channel];
