@@ -24,6 +24,7 @@ layout(constant_id = 4) const uint kDrawn = 0; // how the residual is added (uns
 layout(constant_id = 7) const uint kHarmonics = 0; // most harmonics of a bound layer's lit spheres
 layout(constant_id = 8) const bool kTangents = false; // frames follow from vertex tangents; else from normals
 const uint kEstimate = kDrawn & ~kShadow;
+const bool kTellsDirect = (kEstimate & kDirectShares) != 0;
 const bool kShowsShadow = (kDrawn & kShadow) != 0;
 const uint kQuads = (kTerms + 3) / 4;
 const bool kWholeQuads = kTerms % 4 == 0;
@@ -46,6 +47,7 @@ layout(binding = 3) uniform samplerBuffer tuples;
 layout(binding = 15) uniform samplerBuffer fillTuples; // the same of the fill
 #define FOUR_OF(from, i) texelFetch(from, i)
 #endif
+TEXELS(16, uint, usamplerBuffer, Shares, directShares); // MaterialSet::directShares, if kTellsDirect
 layout(binding = 4) uniform sampler2DArray viewMaps;   // ViewMapTexture
 layout(binding = 5, scalar) readonly buffer Layers {
     ViewDetail detail;
@@ -198,9 +200,10 @@ Unshadowed unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3
     return sum;
 }
 
-// The sums of a light that an estimate needs: with the K terms (view maps times tuples), and of tuples alone.
+// The sums of a light that an estimate needs: with the K terms (view maps times tuples), and of tuples alone; `direct`
+// and `directLit` are the direct light in `shadowed` and `lit`, if kTellsDirect.
 struct Sums {
-    Quad shadowed, terms, lit, unlit;
+    Quad shadowed, terms, lit, unlit, direct, directLit;
 };
 
 const Quad kNone = Quad(vec4(0), vec4(0), vec4(0));
@@ -209,7 +212,11 @@ Quad times(Quad a, Quad b) { return Quad(a.a * b.a, a.b * b.b, a.c * b.c); }
 Quad plus(Quad a, Quad b) { return Quad(a.a + b.a, a.b + b.b, a.c + b.c); }
 Quad minus(Quad a, Quad b) { return Quad(a.a - b.a, a.b - b.b, a.c - b.c); }
 
-void addTerms(inout Sums sums, Quad maps, Quad weights, Quad tuple, Quad free) {
+void addTerms(inout Sums sums, Quad maps, Quad weights, Quad tuple, Quad direct, Quad free) {
+    if (kTellsDirect) {
+        sums.direct = plus(sums.direct, times(maps, direct));
+        sums.directLit = plus(sums.directLit, times(weights, direct));
+    }
     sums.shadowed = plus(sums.shadowed, times(maps, tuple));
     sums.terms = plus(sums.terms, times(maps, free));
     sums.lit = plus(sums.lit, times(weights, tuple));
@@ -225,8 +232,11 @@ vec3 estimateOf(Sums sums, vec3 exact, vec3 leastView) {
     const bool isBounced = (kEstimate & kBounced) != 0;
     const vec3 shadowed = weight * sumOf(sums.shadowed), terms = weight * sumOf(sums.terms);
     const vec3 lit = sumOf(sums.lit), unlit = sumOf(sums.unlit);
-    if ((kEstimate & kResidualRatio) != 0)
-        return ratioEstimate(shadowed, lit, exact, terms, unlit, isBounced, leastView);
+    if ((kEstimate & kResidualRatio) != 0) {
+        const vec3 direct = kTellsDirect ? weight * sumOf(sums.direct) : shadowed,
+                   directLit = kTellsDirect ? sumOf(sums.directLit) : lit;
+        return ratioEstimate(shadowed, direct, directLit, exact, terms, unlit, isBounced, leastView);
+    }
     return differenceEstimate(shadowed, litShare(lit, unlit), exact, terms, isBounced);
 }
 
@@ -310,7 +320,7 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
         if (kEstimate == kUnshadowed) return exact.whole + emitted;
     }
 
-    Sums whole = Sums(kNone, kNone, kNone, kNone), fill = whole;
+    Sums whole = Sums(kNone, kNone, kNone, kNone, kNone, kNone), fill = whole;
     Quad views = kNone;
     const uint quads = kAllTerms ? kQuads : (push.terms + 3) / 4;
     for (uint quad = 0; quad < quads; quad++) {
@@ -325,10 +335,19 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
             }
         if (!kAllTerms) keepTerms(maps, push.terms - 4 * quad);
         views = plus(views, maps);
-        Quad tuple = kNone, fillTuple = kNone;
+        Quad tuple = kNone, fillTuple = kNone, direct = kNone, fillDirect = kNone;
         for (int c = 0; c < 3; c++) {
-            ADD_TUPLE(tuple, weights[c], tuples, corners[c], quad)
-            if (kEstimate != kTermsAlone) { ADD_TUPLE(fillTuple, weights[c], fillTuples, corners[c], quad) }
+            Quad own = kNone, fillOwn = kNone;
+            ADD_TUPLE(own, weights[c], tuples, corners[c], quad)
+            tuple = plus(tuple, own);
+            if (kEstimate == kTermsAlone) continue;
+            ADD_TUPLE(fillOwn, weights[c], fillTuples, corners[c], quad)
+            fillTuple = plus(fillTuple, fillOwn);
+            if (!kTellsDirect) continue;
+            const vec4 share = unpackUnorm4x8(texelOf(directShares, int(corners[c] * kQuads + quad)).x);
+            const Quad shares = Quad(share.xxxy, share.yyzz, share.zwww);
+            direct = plus(direct, times(shares, own));
+            fillDirect = plus(fillDirect, times(shares, fillOwn));
         }
         Quad irradiance = Quad(vec4(1), vec4(1), vec4(1));
         if ((kEstimate & kResidualDifference) != 0) {
@@ -338,9 +357,9 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
         }
         if (!kAllTerms) keepTerms(irradiance, push.terms - 4 * quad);
         const Quad free = kDrawn != kTermsAlone ? unshadowedTuple(tuplePlace, quad, 0) : kNone;
-        addTerms(whole, maps, irradiance, tuple, free);
+        addTerms(whole, maps, irradiance, tuple, direct, free);
         if (kEstimate != kTermsAlone)
-            addTerms(fill, maps, irradiance, fillTuple, unshadowedTuple(tuplePlace, quad, 1));
+            addTerms(fill, maps, irradiance, fillTuple, fillDirect, unshadowedTuple(tuplePlace, quad, 1));
     }
     if (kEstimate == kTermsAlone) {
         unshadowed = viewWeight() * sumOf(whole.terms);
@@ -348,7 +367,8 @@ vec3 shade(uint triangle, vec3 direction, out vec3 unshadowed) {
         return max(viewWeight() * sumOf(whole.shadowed), 0) + emitted;
     }
     const Sums key = Sums(minus(whole.shadowed, fill.shadowed), minus(whole.terms, fill.terms),
-                          minus(whole.lit, fill.lit), minus(whole.unlit, fill.unlit));
+                          minus(whole.lit, fill.lit), minus(whole.unlit, fill.unlit),
+                          minus(whole.direct, fill.direct), minus(whole.directLit, fill.directLit));
     // Spheres are blurred: they show some of the key to normals that face away from it.
     if (luminance(sumOf(key.unlit)) <= 0) exact.key = vec3(0);
     const vec3 mean = viewWeight() / float(kAllTerms ? kTerms : push.terms) * sumOf(views);

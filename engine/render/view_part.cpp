@@ -70,6 +70,8 @@ ViewSet makeSet(const vk::Device& device, const MaterialSet& source, const std::
     set.materials = uint32_t(source.materials.size());
     set.mapping = source.brdf.mapping;
     set.viewMaps = makeViewMapTexture(device, source.brdf, name + " view maps");
+    if (!source.directShares.empty())
+        set.directShares = uploadBindable(device, source.directShares, name + " direct shares");
     return set;
 }
 

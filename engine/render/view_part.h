@@ -16,6 +16,7 @@ struct ViewSet {
     DiskMapping mapping = DiskMapping::Orthographic;
     ViewMapTexture viewMaps;
     bool hasTangents = false; // whether frames follow from tangents
+    vk::Buffer directShares;  // of the material set; none if it has none
 };
 
 // Part of an asset, with the materials that are bound to it.

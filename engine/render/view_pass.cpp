@@ -269,13 +269,14 @@ void ViewPass::markEdges(vk::Commands& commands, const Frame& frame) const {
     if (any != mParts.end()) mark(*any, mBounds, 0);
 }
 
-uint32_t ViewPass::estimateOf(size_t part, const ResidualSet* residual) const {
+uint32_t ViewPass::estimateOf(size_t part, const ViewSet& set, const ResidualSet* residual) const {
     const bool isShadow = mGroundFade && mGroundFade->part == part && mGroundFade->isShadow;
     const uint32_t shadow = isShadow ? shared::kShadow : 0;
     if (!residual) return shared::kTermsAlone + shadow;
     if (mIsUnshadowed) return shared::kUnshadowed + shadow;
-    return (residual->hasNonnegativeTerms ? shared::kResidualRatio : shared::kResidualDifference) +
-           (residual->isBounced ? shared::kBounced : 0) + shadow;
+    const bool isRatio = residual->hasNonnegativeTerms, tellsDirect = isRatio && set.directShares.bytes() > 0;
+    return (isRatio ? shared::kResidualRatio : shared::kResidualDifference) +
+           (residual->isBounced ? shared::kBounced : 0) + (tellsDirect ? shared::kDirectShares : 0) + shadow;
 }
 
 ShadeVariant ViewPass::variantOf(size_t part, const ViewSet& set, uint32_t look, bool allTerms,
@@ -284,7 +285,7 @@ ShadeVariant ViewPass::variantOf(size_t part, const ViewSet& set, uint32_t look,
             .isGray = set.viewMaps.isGray,
             .look = look,
             .allTerms = allTerms,
-            .estimate = estimateOf(part, residual),
+            .estimate = estimateOf(part, set, residual),
             .samples = uint32_t(mSamples),
             .pixels = pixels,
             .harmonics = harmonics,
@@ -367,7 +368,9 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                    vk::Binding::texelsOf(spheres.weights(), VK_FORMAT_R32G32B32A32_SFLOAT),
                    {part.normalMap, mSurfaceSampler},
                    {part.emissionMap, mSurfaceSampler},
-                   tuplesOf(relighter.fillTuples(number, part.bound.set))},
+                   tuplesOf(relighter.fillTuples(number, part.bound.set)),
+                   vk::Binding::texelsOf(set.directShares.bytes() > 0 ? set.directShares : spheres.slots(),
+                                         VK_FORMAT_R32_UINT)},
                   push);
     commands.setStencil(pixels == ShadedPixels::Edges ? kEdgeBit : stencilOf(part));
     commands.draw(6);

@@ -105,7 +105,7 @@ class ViewPass {
     void shade(vk::Commands& commands, const Frame& frame, size_t part, const Relighter& relighter,
                ShadedPixels pixels);
     // Returns shared::kTermsAlone and so on.
-    uint32_t estimateOf(size_t part, const ResidualSet* residual) const;
+    uint32_t estimateOf(size_t part, const ViewSet& set, const ResidualSet* residual) const;
     bool usesAllTerms(const ViewSet& set) const { return mTerms <= 0 || uint32_t(mTerms) >= set.terms; }
     // Returns the program that shades pixels of a part with this set bound.
     ShadeVariant variantOf(size_t part, const ViewSet& set, uint32_t look, bool allTerms,

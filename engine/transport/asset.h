@@ -37,6 +37,16 @@ struct MaterialSet {
     // share it, but parts with tangents do not share with parts without: their unshadowed tuples are laid out
     // differently.
     std::shared_ptr<const ResidualSet> residual = nullptr;
+    // Where light bounces: the share of direct light in what a vertex's terms gather from even light. Per
+    // vertex (terms + 3) / 4 words of four terms each, a byte per term in 255ths, the first in the lowest.
+    // Empty for 1 everywhere: without bounces, without a residual that forms ratios, in files of before.
+    std::vector<uint32_t> directShares = {};
+
+    size_t shareWords() const { return (size_t(brdf.terms) + 3) / 4; } // of a vertex
+    float directShare(size_t vertex, size_t term) const {
+        if (directShares.empty()) return 1;
+        return float(directShares[vertex * shareWords() + term / 4] >> (8 * (term % 4)) & 0xff) / 255;
+    }
 };
 
 // One surface of the scene. Vertices are in bake order (precompute/bake/vertex_order.h).

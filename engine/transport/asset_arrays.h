@@ -17,6 +17,7 @@ constexpr ChunkTag kBaseColor = chunkTag("TBAS"), kMaterialMap = chunkTag("TMAP"
 constexpr ChunkTag kLightMaps = chunkTag("LMAP"), kViewMaps = chunkTag("VMAP"),
                    kEigenvalues = chunkTag("EIGV");
 constexpr ChunkTag kResidualKernels = chunkTag("RKER"), kIrradianceWeights = chunkTag("RIRR");
+constexpr ChunkTag kDirectShares = chunkTag("dshr");
 constexpr ChunkTag kVisibility = chunkTag("visb");
 // Only in a shard of a bake.
 constexpr ChunkTag kShard = chunkTag("SHRD"), kBlockLosses = chunkTag("LOSS");
@@ -52,6 +53,7 @@ void forEachArray(const Asset& asset, const Array& array, const Transport& trans
                 array(kResidualKernels, setNumber, values);
                 array(kIrradianceWeights, setNumber, set.residual->irradianceWeights);
             }
+            array(kDirectShares, setNumber, set.directShares);
             transport(setNumber, set);
             setNumber++;
         }

@@ -193,7 +193,13 @@ void checkSkeleton(const Asset& asset, const std::string& name) {
         const std::string where = partName(asset, i, name);
         checkMesh(part.mesh, where);
         checkPaint(part, where);
-        for (const MaterialSet& set : part.sets) checkBrdf(set.brdf, where);
+        for (const MaterialSet& set : part.sets) {
+            checkBrdf(set.brdf, where);
+            if (set.directShares.empty()) continue;
+            expect(asset.bounces > 0, where, "shares of direct light only where light bounces");
+            expectCount(set.directShares.size(), part.mesh.vertexCount() * set.shareWords(), where,
+                        "words of shares of direct light");
+        }
         checkMaterials(part, where);
     }
     checkResiduals(asset, name);

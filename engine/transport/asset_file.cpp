@@ -22,7 +22,8 @@ constexpr ChunkTag kWholeTags[] = {kMeta, kOccluderPositions, kOccluderTriangles
 constexpr ChunkTag kPartTags[] = {kPositions, kNormals,   kTriangles,   kUvs,       kColors,
                                   kTangents,  kBaseColor, kMaterialMap, kNormalMap, kEmissionMap};
 constexpr ChunkTag kShardTags[] = {kShard, kBlockLosses}; // of the whole file, too
-constexpr ChunkTag kSetTags[] = {kLightMaps, kViewMaps, kEigenvalues, kResidualKernels, kIrradianceWeights};
+constexpr ChunkTag kSetTags[] = {kLightMaps,       kViewMaps,          kEigenvalues,
+                                 kResidualKernels, kIrradianceWeights, kDirectShares};
 
 bool isIn(ChunkTag tag, std::span<const ChunkTag> tags) { return std::ranges::find(tags, tag) != tags.end(); }
 bool isOfSet(ChunkTag tag) { return isIn(tag, kSetTags) || isLayoutTag(tag); }
@@ -209,6 +210,9 @@ void readArrays(const ChunkFile& file, AssetMeta& meta) {
         for (MaterialSet& set : asset.parts[number].sets) {
             readFactors(file, setNumber, set);
             readResidual(file, setNumber, asset.bounces > 0, residuals, set);
+            if (!file.find(kDirectShares, setNumber).empty())
+                set.directShares = readArray<uint32_t>(file, kDirectShares, setNumber,
+                                                       meta.sizes.parts[number].vertices * set.shareWords());
             setNumber++;
         }
     }

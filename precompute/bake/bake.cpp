@@ -100,7 +100,7 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
         previews.emplace(device, plan, missing, limits, checkpoint, *interpolated, writeWhole, observer);
         if (plan.options.bounces > 0 || (plan.needsScale() && !plan.scale)) previews->writeDraft();
     }
-    if (plan.options.bounces > 0 && !missing.empty())
+    if (plan.options.bounces > 0) // even if no block is missing: the file also needs shares of direct light
         plan.bounced = bounceTransport(device, plan, limits, observer, summary.times);
     if (plan.needsScale() && !plan.scale && !missing.empty()) {
         std::vector<SampledBlock> sample = bakeSample(device, plan, limits, observer, summary.times, kept);

@@ -171,7 +171,11 @@ std::string identityOf(const BakePlan& plan) {
         for (const auto kernel : BounceGatherPass::kernels()) hash.add(kernel);
     }
     forEachArray(
-        plan.asset, [&](ChunkTag, uint32_t, const auto& elements) { hash.add(std::span(elements)); },
+        plan.asset,
+        [&](ChunkTag tag, uint32_t, const auto& elements) {
+            // Shares are baked: a shard's asset has them, that of a bake which begins has not.
+            if (tag != kDirectShares) hash.add(std::span(elements));
+        },
         [](uint32_t, const MaterialSet&) {});
     return hash.text();
 }

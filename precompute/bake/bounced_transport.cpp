@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/base/stopwatch.h"
+#include "engine/math/color.h"
 #include "precompute/bake/baked_options.h"
 #include "precompute/bake/vertex_rows.h"
 #include "precompute/bounce/bounce_gather_pass.h"
@@ -10,6 +11,7 @@
 #include "precompute/visibility/visibility.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <map>
 #include <numeric>
@@ -25,8 +27,8 @@ namespace {
 // Sources, the transport that lights others, have the smallest sizes that the kernels support.
 constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 192;
 
-// Returns a low-resolution plan of the bound sets alone, without an occluder yet.
-BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
+// Returns a low-resolution plan, without an occluder yet.
+BakePlan planOfSources(const BakePlan& plan) {
     BakePlan sources{plan.options};
     sources.options.keepVisibility = false;
     sources.options.transportSamples = 1;
@@ -40,15 +42,48 @@ BakePlan planOfSources(const BakePlan& plan, const Appearance& bound) {
         AssetPart& source = sources.asset.parts.emplace_back();
         source.name = part.name;
         source.mesh = part.mesh;
-        source.sets = {part.sets[bound[number].set]};
-        sources.firstSet.push_back(uint32_t(number));
+        source.sets = part.sets;
     }
+    sources.firstSet = plan.firstSet;
     return sources;
 }
 
-// Returns, per part, the direct transport of its bound set.
+// Responses of rows to even light, in luminance, up to a factor: per part, set and row.
+using EvenResponses = std::vector<std::vector<std::vector<float>>>;
+
+// Returns a row's response, of coefficients of kBounceFaceSize.
+float evenResponse(const SparseTransport& rows, size_t row) {
+    constexpr int kFaceCoefficients = kBounceFaceSize * kBounceFaceSize; // the first is the face's mean
+    vec3 sum(0);
+    for (uint64_t entry = rows.rowStarts[row]; entry < rows.rowStarts[row + 1]; entry++)
+        if (rows.indices[entry] % kFaceCoefficients == 0) sum += vec3(unpackCoefficient(rows.values[entry]));
+    return luminance(sum * kCoefficientUnit) * rows.scales[row];
+}
+
+// Stores the shares of direct light in sets that form ratios (MaterialSet::directShares).
+void storeShares(Asset& asset, const EvenResponses& direct,
+                 const std::vector<std::vector<SparseTransport>>& bounced) {
+    for (size_t part = 0; part < asset.parts.size(); part++)
+        for (size_t number = 0; number < asset.parts[part].sets.size(); number++) {
+            MaterialSet& set = asset.parts[part].sets[number];
+            if (!set.residual || !set.residual->hasNonnegativeTerms) continue;
+            const SparseTransport& rows = bounced[part][number];
+            set.directShares.assign(rows.vertices * set.shareWords(), 0);
+            for (size_t row = 0; row < rows.rows(); row++) {
+                const size_t vertex = row / rows.terms, term = row % rows.terms;
+                const float own = std::max(direct[part][number][row], 0.0f),
+                            others = std::max(evenResponse(rows, row), 0.0f);
+                const float share = own + others > 0 ? own / (own + others) : 1;
+                set.directShares[vertex * set.shareWords() + term / 4] |= uint32_t(std::lround(255 * share))
+                                                                          << (8 * (term % 4));
+            }
+        }
+}
+
+// Returns, per part, the direct transport of its bound set, and adds the responses of all sets.
 std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& plan, const Appearance& bound,
-                                         const BakeLimits& limits, BakeObserver& observer, BakeTimes& times) {
+                                         const BakeLimits& limits, BakeObserver& observer, BakeTimes& times,
+                                         EvenResponses& responses) {
     std::vector<std::vector<uint32_t>> vertices;
     std::vector<SparseTransport> rows;
     for (size_t number = 0; number < plan.asset.parts.size(); number++) {
@@ -56,11 +91,17 @@ std::vector<SparseTransport> bakeSources(const vk::Device& device, BakePlan& pla
         std::vector<uint32_t>& all = vertices.emplace_back(part.mesh.vertexCount());
         std::iota(all.begin(), all.end(), 0u);
         rows.push_back(emptyRows(uint32_t(part.sets[bound[number].set].brdf.terms)));
+        responses.emplace_back(part.sets.size());
     }
-    BakePlan sources = planOfSources(plan, bound);
+    BakePlan sources = planOfSources(plan);
     std::swap(sources.asset.occluder, plan.asset.occluder); // large: never two copies
     const TakeRows take = [&](uint32_t part, std::span<const BakedRows> sets) {
-        appendRows(rows[part], bounceRows(sets[0].transport, kSourceFaceSize));
+        for (size_t set = 0; set < sets.size(); set++) {
+            const SparseTransport coarse = bounceRows(sets[set].transport, kSourceFaceSize);
+            for (size_t row = 0; row < coarse.rows(); row++)
+                responses[part][set].push_back(evenResponse(coarse, row));
+            if (set == bound[part].set) appendRows(rows[part], coarse);
+        }
     };
     bakeVertices(device, sources, vertices, limits, take, observer, times);
     std::swap(sources.asset.occluder, plan.asset.occluder);
@@ -193,7 +234,8 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
     const Appearance bound = defaultAppearance(plan.asset);
     expectMemory(plan, bound);
     StageObserver stage(observer, BakeStage::Bounces);
-    std::vector<SparseTransport> direct = bakeSources(device, plan, bound, limits, stage, times);
+    EvenResponses responses;
+    std::vector<SparseTransport> direct = bakeSources(device, plan, bound, limits, stage, times, responses);
     const Stopwatch watch;
     const BounceHits hits(plan.asset, bound);
     logHeld(plan, hits);
@@ -225,6 +267,7 @@ std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device
         if (bounced.empty()) throw BakeStopped("stopped");
         if (lastSources && bounce == bounces - 1) *lastSources = std::move(from);
     }
+    storeShares(plan.asset, responses, bounced);
     const vk::PassTimes onDeviceTimes = onDevice ? onDevice->times() : vk::PassTimes();
     for (const auto& [name, seconds] : onDeviceTimes) vk::addTime(times.device, name, seconds);
     times.bounces += watch.seconds() - vk::secondsOf(onDeviceTimes);

@@ -7,7 +7,7 @@
 namespace relume {
 
 // Raised whenever bounced light comes out differently, which invalidates older checkpoints and shards.
-constexpr uint32_t kBouncesVersion = 7;
+constexpr uint32_t kBouncesVersion = 8;
 
 // Rows of bounced light per part and set.
 class BouncedTransport {
@@ -32,10 +32,11 @@ class BouncedTransport {
 uint64_t bounceBytes(const Asset& asset, const Appearance& bound);
 
 // Computes the bounces that the plan's options ask for, with every part in its default appearance (its first
-// material, or as painted). Direct transport is first baked at a low resolution as the source. If
-// `lastSources` is given, it receives the transport from which the last bounce was gathered. Throws
-// BakeStopped, and Error if the machine has less memory than bounceBytes() or baking fails; `plan`, whose
-// occluder is moved out meanwhile, is then unusable.
+// material, or as painted). Direct transport is first baked at a low resolution as the source. Stores the
+// shares of direct light in the sets of `plan` (MaterialSet::directShares). If `lastSources` is given, it
+// receives the transport from which the last bounce was gathered. Throws BakeStopped, and Error if the
+// machine has less memory than bounceBytes() or baking fails; `plan`, whose occluder is moved out meanwhile,
+// is then unusable.
 std::shared_ptr<const BouncedTransport> bounceTransport(const vk::Device& device, BakePlan& plan,
                                                         const BakeLimits& limits, BakeObserver& observer,
                                                         BakeTimes& times,

@@ -258,9 +258,10 @@ ErrorGrid errorGrid(const Asset& asset, const Appearance& appearance, std::span<
             const size_t own = std::min(terms, views.size());
             const ResidualSet* residual = ofPrefixes.empty() ? nullptr : &ofPrefixes[own - 1];
             for (size_t rung = 0; rung < kRungs; rung++) {
-                const vec3 radiance = estimateRadiance(residual, std::span(views).first(own),
-                                                       {std::span(whole[rung]).first(own), unshadowed[0]},
-                                                       {std::span(fill[rung]).first(own), unshadowed[1]});
+                const auto of = [own](const std::vector<vec3>& tuple) { return std::span(tuple).first(own); };
+                const vec3 radiance = estimateRadiance(
+                    residual, std::span(views).first(own), {of(whole[rung]), of(whole[rung]), unshadowed[0]},
+                    {of(fill[rung]), of(fill[rung]), unshadowed[1]}); // all light is direct
                 const glm::dvec3 error = glm::dvec3(radiance) - glm::dvec3(exact[i]);
                 grid.errors[terms - 1][rung] += glm::dot(error, error);
             }

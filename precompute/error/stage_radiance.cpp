@@ -84,14 +84,18 @@ struct StageTracer::Binding {
 struct StageTracer::Vertices {
     std::map<uint64_t, Tuples> tuples; // by vertexKey()
 
-    // Returns a point's tuple of a stage, interpolated between the corners of its triangle.
+    // Returns a point's tuple of a stage, interpolated between the corners of its triangle; with `directOf`,
+    // the direct light in it by the shares of that set.
     std::vector<vec3> interpolate(const RayHit& hit, const uvec3& corners, size_t light, LightPart lit,
-                                  size_t stage, size_t terms) const {
+                                  size_t stage, size_t terms, const MaterialSet* directOf = nullptr) const {
         std::vector<vec3> tuple(terms, vec3(0));
         for (int corner = 0; corner < 3; corner++) {
             const std::span<const vec3> of =
                 tuples.at(vertexKey(hit.mesh, corners[corner])).at(light, lit, stage, terms);
-            for (size_t term = 0; term < terms; term++) tuple[term] += hit.weights[corner] * of[term];
+            for (size_t term = 0; term < terms; term++) {
+                const float share = directOf ? directOf->directShare(corners[corner], term) : 1;
+                tuple[term] += hit.weights[corner] * share * of[term];
+            }
         }
         return tuple;
     }
@@ -183,17 +187,22 @@ void StageTracer::traceVertices(const RayHit& hit, const Binding& binding,
                                 std::span<const UnshadowedLight> unshadowed, const Vertices& vertices,
                                 std::span<StageRadiance> result) const {
     const size_t terms = binding.views.size();
-    const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
+    const AssetPart& part = mAsset.parts[hit.mesh];
+    const MaterialSet& set = part.sets[mAppearance[hit.mesh].set];
+    const uvec3 corners = part.mesh.triangles[hit.triangle];
     constexpr size_t kFirst = size_t(ErrorSource::Drawing) + 1;
     for (size_t light = 0; light < result.size(); light++) {
         for (size_t stage = 0; stage < Tuples::kStages; stage++) {
-            const std::vector<vec3> whole = vertices.interpolate(hit, corners, light, LightPart::Whole, stage,
-                                                                 terms),
-                                    fill = vertices.interpolate(hit, corners, light, LightPart::Fill, stage,
-                                                                terms);
-            result[light][kFirst + stage] =
-                estimateRadiance(binding.residual, binding.views, {whole, unshadowed[kLightParts * light]},
-                                 {fill, unshadowed[kLightParts * light + 1]});
+            const auto tupleOf = [&](LightPart lit, const MaterialSet* directOf) {
+                return vertices.interpolate(hit, corners, light, lit, stage, terms, directOf);
+            };
+            const std::vector<vec3> whole = tupleOf(LightPart::Whole, nullptr),
+                                    fill = tupleOf(LightPart::Fill, nullptr),
+                                    direct = tupleOf(LightPart::Whole, &set),
+                                    directFill = tupleOf(LightPart::Fill, &set);
+            result[light][kFirst + stage] = estimateRadiance(
+                binding.residual, binding.views, {whole, direct, unshadowed[kLightParts * light]},
+                {fill, directFill, unshadowed[kLightParts * light + 1]});
         }
         result[light][0] = result[light][kFirst];
     }
@@ -238,7 +247,16 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
                 sums[light][stage] += glm::dvec3(seen[i].weight * reflected[stage] *
                                                  lights[light].parts[0].coarse[seen[i].texel]);
     }
-    const uvec3 corners = mAsset.parts[hit.mesh].mesh.triangles[hit.triangle];
+    const AssetPart& owner = mAsset.parts[hit.mesh];
+    const MaterialSet& set = owner.sets[mAppearance[hit.mesh].set];
+    const uvec3 corners = owner.mesh.triangles[hit.triangle];
+    const auto directShare = [&](size_t term) {
+        if (set.directShares.empty()) return 1.0f; // exactly: then bounces add nothing
+        float share = 0;
+        for (int corner = 0; corner < 3; corner++)
+            share += hit.weights[corner] * set.directShare(corners[corner], term);
+        return share;
+    };
     std::vector<vec3> added;
     for (size_t light = 0; light < lights.size(); light++) {
         std::array<std::vector<vec3>, kLightParts> byLit;
@@ -246,10 +264,11 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
             const auto first = tuples.begin() + std::ptrdiff_t((light * kLightParts + part) * terms);
             byLit[part] = {first, first + std::ptrdiff_t(terms)};
         }
+        std::array<std::vector<vec3>, kLightParts> directOf = byLit;
         const auto estimate = [&] {
             return estimateRadiance(binding.residual, binding.views,
-                                    {byLit[0], unshadowed[kLightParts * light]},
-                                    {byLit[1], unshadowed[kLightParts * light + 1]});
+                                    {byLit[0], directOf[0], unshadowed[kLightParts * light]},
+                                    {byLit[1], directOf[1], unshadowed[kLightParts * light + 1]});
         };
         const vec3 direct = estimate();
         for (const LightPart part : {LightPart::Whole, LightPart::Fill}) {
@@ -257,6 +276,8 @@ std::vector<vec3> StageTracer::traceOwnTransport(const RayHit& hit, const Surfac
             const std::vector<vec3> bounced =
                 vertices.interpolate(hit, corners, light, part, Tuples::kBounced, terms);
             std::ranges::transform(tuple, bounced, tuple.begin(), std::plus());
+            for (size_t term = 0; term < terms; term++)
+                directOf[size_t(part)][term] = directShare(term) * tuple[term];
         }
         result[light][kFirst] = estimate();
         added.push_back(result[light][kFirst] - direct);

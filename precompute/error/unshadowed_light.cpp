@@ -16,6 +16,8 @@ EstimateSums sumTerms(const ResidualSet& residual, std::span<const vec3> views, 
         sums.shadowed += views[term] * light.tuple[term];
         sums.terms += views[term] * free;
         sums.lit += weight * light.tuple[term];
+        sums.direct += views[term] * light.direct[term];
+        sums.directLit += weight * light.direct[term];
         sums.unlit += weight * free;
     }
     return sums;

@@ -22,9 +22,9 @@ std::vector<UnshadowedLight> sumUnshadowed(const BakedTransport& transport, cons
                                            const FactoredBrdf& factors,
                                            std::span<const std::span<const vec3>> lights);
 
-// A point's tuple and unshadowed sums under a light.
+// A point's tuple under a light, the direct light in it, and unshadowed sums.
 struct PointLight {
-    std::span<const vec3> tuple;
+    std::span<const vec3> tuple, direct;
     const UnshadowedLight& unshadowed;
 };
 

@@ -193,7 +193,8 @@ vec3 Renderer::estimateRadiance(const RayHit& hit) const {
         ofKey = glm::min(ofKey, glm::max(vec3(whole.most - fill.most), vec3(0)));
     }
     const auto estimated = [](const auto& of, vec3 exact) {
-        return EstimateSums{vec3(of.shadowed), exact, vec3(of.terms), vec3(of.lit), vec3(of.unlit)};
+        return EstimateSums{vec3(of.shadowed), exact,       vec3(of.terms), vec3(of.lit), vec3(of.unlit),
+                            vec3(of.shadowed), vec3(of.lit)};
     };
     const EstimateSums own = estimated(fill, ofFill);
     const EstimateSums key = keyOf(estimated(whole, vec3(0)), own, ofKey);

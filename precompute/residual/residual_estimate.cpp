@@ -20,8 +20,13 @@ float litShare(vec3 irradiance, vec3 unshadowed) {
 
 EstimateSums keyOf(const EstimateSums& whole, const EstimateSums& fill, vec3 exact) {
     const vec3 unlit = whole.unlit - fill.unlit;
-    return {whole.shadowed - fill.shadowed, luminance(unlit) > 0 ? exact : vec3(0), whole.terms - fill.terms,
-            whole.lit - fill.lit, unlit};
+    return {whole.shadowed - fill.shadowed,
+            luminance(unlit) > 0 ? exact : vec3(0),
+            whole.terms - fill.terms,
+            whole.lit - fill.lit,
+            unlit,
+            whole.direct - fill.direct,
+            whole.directLit - fill.directLit};
 }
 
 vec3 keyLeastView(std::span<const vec3> views) {
@@ -38,9 +43,12 @@ vec3 differenceEstimate(const EstimateSums& sums, bool isBounced) {
 }
 
 vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced) {
-    const vec3 all = sums.terms + leastView * sums.unlit, lit = sums.shadowed + leastView * sums.lit;
+    const vec3 all = sums.terms + leastView * sums.unlit, lit = sums.direct + leastView * sums.directLit;
     const vec3 estimate = sums.exact * glm::clamp(lit / glm::max(all, vec3(1e-30)), vec3(0), vec3(1));
-    return isBounced ? estimate + glm::max(sums.shadowed - sums.terms, vec3(0)) : estimate;
+    if (!isBounced) return estimate;
+    // Quantized tuples can be negative, radiance cannot.
+    return estimate + glm::max(sums.shadowed - sums.direct, vec3(0)) +
+           glm::max(sums.direct - sums.terms, vec3(0));
 }
 
 } // namespace relume

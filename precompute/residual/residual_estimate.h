@@ -12,10 +12,12 @@ float litShare(vec3 irradiance, vec3 unshadowed);
 
 // The sums of a light for a point and view: the shadowed K terms (T), the unshadowed exact BRDF (E) and the
 // unshadowed K terms (S); and tuples without a view, shadowed and not: weighted so that they sum to
-// irradiance where terms are signed, added up where they are not.
+// irradiance where terms are signed, added up where they are not. `direct` (D) and `directLit` are the direct
+// light in `shadowed` and `lit`, the same as these unless light bounces.
 struct EstimateSums {
     vec3 shadowed{0}, exact{0}, terms{0};
     vec3 lit{0}, unlit{0};
+    vec3 direct{0}, directLit{0};
 };
 
 // Returns the sums of the key. Its E is `exact`, or 0 where the tuples see nothing of the key.
@@ -29,9 +31,9 @@ vec3 keyLeastView(std::span<const vec3> views);
 // estimate may exceed E by as much as T exceeds S.
 vec3 differenceEstimate(const EstimateSums& sums, bool isBounced = false);
 
-// Returns the estimate for nonnegative terms, the ratio E T / S, where T / S is at most 1; with `isBounced`
-// what T exceeds S by is added. `leastView` is added to every view map: the more, the more the sums of the
-// tuples give the ratio.
+// Returns the estimate for nonnegative terms, the ratio E D / S, where D / S is at most 1; with `isBounced`
+// the rest of T is added, and what D exceeds S by. `leastView` is added to every view map: the more, the more
+// the sums of the tuples give the ratio.
 vec3 ratioEstimate(const EstimateSums& sums, vec3 leastView, bool isBounced = false);
 
 } // namespace relume

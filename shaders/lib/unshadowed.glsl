@@ -96,14 +96,14 @@ vec3 differenceEstimate(vec3 shadowed, float share, vec3 exact, vec3 terms, bool
     return clamp(shadowed + share * (exact - terms), kLeastShare * share * exact, most);
 }
 
-// Estimates radiance with nonnegative terms, by the ratio E T / S, where T / S is at most 1; with bounced light what T
-// exceeds S by is added. `leastView` is added to every view map: the more, the more the sums of the tuples, which do
-// not depend on the view, give the ratio.
-vec3 ratioEstimate(vec3 shadowed, vec3 tuples, vec3 exact, vec3 terms, vec3 unshadowedTuples, bool isBounced,
-                   vec3 leastView) {
-    const vec3 all = terms + leastView * unshadowedTuples, lit = shadowed + leastView * tuples;
+// Estimates radiance with nonnegative terms, by the ratio E D / S, where D / S is at most 1 and D, `direct`, is the
+// direct light in T; with bounced light the rest of T is added, and what D exceeds S by. `leastView` is added to every
+// view map: the more, the more the sums of the tuples, which do not depend on the view, give the ratio.
+vec3 ratioEstimate(vec3 shadowed, vec3 direct, vec3 directTuples, vec3 exact, vec3 terms, vec3 unshadowedTuples,
+                   bool isBounced, vec3 leastView) {
+    const vec3 all = terms + leastView * unshadowedTuples, lit = direct + leastView * directTuples;
     const vec3 estimate = exact * clamp(lit / max(all, vec3(1e-30)), 0, 1);
-    return isBounced ? estimate + max(shadowed - terms, 0) : estimate;
+    return isBounced ? estimate + max(shadowed - direct, 0) + max(direct - terms, 0) : estimate;
 }
 
 #endif

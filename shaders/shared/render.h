@@ -143,9 +143,10 @@ const uint kSurfaceLook = 2; // paint, a texture or a detail as well
 
 // How a draw's shader estimates radiance: shaders/lib/unshadowed.glsl.
 const uint kTermsAlone = 0, kResidualDifference = 1, kResidualRatio = 2;
-const uint kBounced = 4;         // added to the latter two: tuples include light from other surfaces
-const uint kUnshadowed = 8;      // in their place: shows the unshadowed radiance
-const uint kShadow = 16;         // added to any: shows the shadow alone (GroundStyle::Shadow)
+const uint kBounced = 4;       // added to the latter two: tuples include light from other surfaces
+const uint kUnshadowed = 8;    // in their place: shows the unshadowed radiance
+const uint kShadow = 16;       // added to any: shows the shadow alone (GroundStyle::Shadow)
+const uint kDirectShares = 32; // added to kBounced: vertices tell which share of their tuples is direct light
 const float kLeastShadow = 0.03; // shadow that is taken for an error of transport
 
 // Ratios add this to every view map, for the case that all of them vanish. Under the key they add the maps'

@@ -2,6 +2,7 @@
 #include "engine/base/error.h"
 #include "engine/import/builtin_mesh.h"
 #include "engine/import/scene.h"
+#include "engine/math/color.h"
 #include "engine/render/compare.h"
 #include "engine/render/relighter.h"
 #include "engine/render/view_pass.h"
@@ -137,6 +138,36 @@ TEST_CASE("image: bounced light against paths, in gold, red and white") {
             with);
     CHECK(without > 2.2 * own);
     CHECK(with < 1.3 * own);
+}
+
+TEST_CASE("bounces: shares of direct light are those of even light in each term") {
+    const TestDevice device;
+    BakeOptions options = bounceOptions(0);
+    options.layout.layout = TransportLayout::Rows;
+    const Asset direct = bake(device, cornerScene(), options);
+    options.bounces = 2;
+    const Asset whole = bake(device, cornerScene(), options);
+    const MaterialSet &torus = whole.parts[0].sets[0], &own = direct.parts[0].sets[0];
+    CHECK(own.directShares.empty());
+    CHECK(whole.parts[1].sets[0].directShares.empty()); // diffuse: no residual
+    const auto terms = size_t(torus.brdf.terms);
+    const size_t coefficients = 6 * size_t(whole.faceSize) * size_t(whole.faceSize);
+    const auto response = [&](const Transport& transport, size_t row) {
+        const std::vector<vec3> dense = dequantizedRow(transport, row, coefficients);
+        vec3 sum(0);
+        for (size_t face = 0; face < 6; face++) sum += dense[face * coefficients / 6];
+        return double(luminance(sum));
+    };
+    double least = 1, error = 0;
+    const size_t rows = whole.parts[0].mesh.vertexCount() * terms;
+    for (size_t row = 0; row < rows; row++) {
+        const double all = response(torus.transport, row),
+                     share = torus.directShare(row / terms, row % terms);
+        least = std::min(least, share);
+        error += std::abs(share * all - response(own.transport, row)) / std::max(all, 1e-6) / double(rows);
+    }
+    CHECK(least < 0.5);
+    CHECK(error < 0.02);
 }
 
 TEST_CASE("errors: those of bounced light, and of what is beyond it, add up to what is measured") {

@@ -334,6 +334,21 @@ TEST_CASE("asset file: bounces are kept, and residuals told of them") {
     }
 }
 
+TEST_CASE("asset file: shares of direct light are kept, and refused where they do not fit") {
+    Asset asset = sampleAsset();
+    MaterialSet& set = asset.parts[0].sets[0];
+    const size_t words = asset.parts[0].mesh.vertexCount() * set.shareWords();
+    for (size_t i = 0; i < words; i++) set.directShares.push_back(uint32_t(0x01020380 + i));
+    CHECK(set.directShare(0, 0) == doctest::Approx(128.0 / 255));
+    CHECK_THROWS_WITH_AS(encodeAsset(asset), doctest::Contains("only where light bounces"), Error);
+    asset.bounces = 1;
+    CHECK(decodeAsset(encodeAsset(asset), "file").parts[0].sets[0].directShares == set.directShares);
+    set.directShares.pop_back();
+    CHECK_THROWS_WITH_AS(encodeAsset(asset), doctest::Contains("shares of direct light"), Error);
+    set.directShares.clear();
+    CHECK(set.directShare(0, 0) == 1);
+}
+
 TEST_CASE("asset file: sets share a residual in the file as in memory") {
     Asset asset = sampleAsset();
     asset.parts.push_back(asset.parts[0]);
