@@ -37,12 +37,15 @@ struct MaterialSet {
     // share it, but parts with tangents do not share with parts without: their unshadowed tuples are laid out
     // differently.
     std::shared_ptr<const ResidualSet> residual = nullptr;
-    // Where light bounces: the share of direct light in what a vertex's terms gather from even light. Per
-    // vertex (terms + 3) / 4 words of four terms each, a byte per term in 255ths, the first in the lowest.
-    // Empty for 1 everywhere: without bounces, without a residual that forms ratios, in files of before.
+    // The share of direct light in what each term of a vertex gathers from even light; the rest has bounced.
+    // A vertex has shareWords() words of four terms each, a byte per term in 255ths, the first in the lowest.
+    // It is empty, and all shares are 1, without bounces, without a residual of nonnegative terms, and in
+    // files that earlier versions wrote.
     std::vector<uint32_t> directShares = {};
 
-    size_t shareWords() const { return (size_t(brdf.terms) + 3) / 4; } // of a vertex
+    // Returns the number of words in `directShares` per vertex.
+    size_t shareWords() const { return (size_t(brdf.terms) + 3) / 4; }
+    // Returns a share, 0 to 1.
     float directShare(size_t vertex, size_t term) const {
         if (directShares.empty()) return 1;
         return float(directShares[vertex * shareWords() + term / 4] >> (8 * (term % 4)) & 0xff) / 255;

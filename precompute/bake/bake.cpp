@@ -100,7 +100,8 @@ BakeSummary bakePlanned(const vk::Device& device, BakePlan& plan, KeptVisibility
         previews.emplace(device, plan, missing, limits, checkpoint, *interpolated, writeWhole, observer);
         if (plan.options.bounces > 0 || (plan.needsScale() && !plan.scale)) previews->writeDraft();
     }
-    if (plan.options.bounces > 0) // even if no block is missing: the file also needs shares of direct light
+    // Bounces are computed even if no block is missing: the file also needs the shares of direct light.
+    if (plan.options.bounces > 0)
         plan.bounced = bounceTransport(device, plan, limits, observer, summary.times);
     if (plan.needsScale() && !plan.scale && !missing.empty()) {
         std::vector<SampledBlock> sample = bakeSample(device, plan, limits, observer, summary.times, kept);
