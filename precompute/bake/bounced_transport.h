@@ -7,7 +7,7 @@
 namespace relume {
 
 // Raised whenever bounced light comes out differently, which invalidates older checkpoints and shards.
-constexpr uint32_t kBouncesVersion = 8;
+constexpr uint32_t kBouncesVersion = 9;
 
 // Rows of bounced light per part and set.
 class BouncedTransport {

@@ -72,24 +72,32 @@ std::vector<float> unitsOf(const vk::Device& device, BakePlan& plan, const BakeL
     }
     const std::vector<float> spectrum = lightSpectrum(plan.asset.faceSize);
     std::vector<float> norms;
-    std::vector<NormSum> sums; // of the sets of one part at a time, so that rows need not be held
-    uint32_t summed = 0;       // that part
-    size_t taken = 0;          // of the vertices of that part
+    std::vector<NormSum> direct, bounced; // of the sets of one part at a time, so that rows need not be held
+    uint32_t summed = 0;                  // that part
+    size_t taken = 0;                     // of the vertices of that part
     const auto endPart = [&] {
-        for (const NormSum& sum : sums) norms.push_back(sum.norm());
-        sums.clear();
+        for (size_t set = 0; set < direct.size(); set++)
+            norms.push_back(plan.bounced ? bounced[set].normBeside(direct[set]) : direct[set].norm());
+        direct.clear();
+        bounced.clear();
         taken = 0;
+    };
+    const auto add = [&](std::vector<NormSum>& sums, std::span<const BakedRows> sets) {
+        for (size_t set = 0; set < sets.size(); set++) {
+            if (sums.size() == set) sums.emplace_back(sets[set].transport.terms, spectrum);
+            sums[set].add(sets[set].transport);
+        }
     };
     const auto take = [&](uint32_t part, std::span<const BakedRows> sets) {
         if (part != summed) endPart();
         summed = part;
-        std::vector<BakedRows> own(sets.begin(), sets.end());
-        if (plan.bounced) addBounces(plan, part, std::span(chosen[part]).subspan(taken), own);
-        taken += own.front().transport.vertices;
-        for (size_t set = 0; set < own.size(); set++) {
-            if (sums.size() == set) sums.emplace_back(own[set].transport.terms, spectrum);
-            sums[set].add(own[set].transport);
+        add(direct, sets);
+        if (plan.bounced) {
+            std::vector<BakedRows> own(sets.begin(), sets.end());
+            addBounces(plan, part, std::span(chosen[part]).subspan(taken), own);
+            add(bounced, own);
         }
+        taken += sets.front().transport.vertices;
     };
     bakeVertices(device, plan, chosen, limits, take, observer, times);
     endPart();

@@ -26,6 +26,8 @@ void NormSum::add(const SparseTransport& rows) {
     mVertices += rows.vertices;
 }
 
+double NormSum::rms() const { return std::sqrt(mEnergy / double(std::max<uint64_t>(1, mVertices))); }
+
 float NormSum::norm() const {
     const double vertices = double(std::max<uint64_t>(1, mVertices));
     double common = 0;
@@ -33,6 +35,11 @@ float NormSum::norm() const {
     const double varying = std::max(mEnergy - common, kLeastVariation * kLeastVariation * mEnergy);
     const auto norm = float(std::sqrt(varying / vertices));
     return norm > 0 && std::isfinite(norm) ? norm : 1;
+}
+
+float NormSum::normBeside(const NormSum& direct) const {
+    const auto grown = float(rms() / direct.rms()) * direct.norm();
+    return std::isfinite(grown) ? std::max(grown, norm()) : norm();
 }
 
 float transportNorm(const SparseTransport& rows, std::span<const float> spectrum) {

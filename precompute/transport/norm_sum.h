@@ -24,7 +24,15 @@ class NormSum {
     // Returns the normalization of all vertices so far.
     float norm() const;
 
+    // Returns their normalization where bounced light was added to `direct`: that of the direct transport,
+    // times the growth of its RMS, if this is more than norm(). Bounced light fills shadows, so that vertices
+    // differ less while there is more light; relative to norm(), errors would be a smaller share of the light
+    // than without it.
+    float normBeside(const NormSum& direct) const;
+
   private:
+    double rms() const; // of a vertex, over all terms
+
     std::span<const float> mSpectrum;
     uint32_t mTerms;
     uint64_t mVertices = 0;

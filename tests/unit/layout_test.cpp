@@ -159,6 +159,23 @@ TEST_CASE("layout: errors are relative to what tells a set's vertices apart") {
     CHECK(unitOf({0, 0, 0}, {0, 0, 0}) == 1);
 }
 
+TEST_CASE("layout: with bounced light, errors are the same share of the light") {
+    const std::vector<float> spectrum = lightSpectrum(kFace);
+    SparseTransport rows{
+        .vertices = 2, .terms = 1, .rowStarts = {0, 1, 2}, .scales = {3, 3}, .indices = {0, 0}, .values = {}};
+    const auto sumOf = [&](int first, int second) {
+        rows.values = {packCoefficient({first, 0, 0}), packCoefficient({second, 0, 0})};
+        NormSum sum(1, spectrum);
+        sum.add(rows);
+        return sum;
+    };
+    const NormSum shadowed = sumOf(1023, 0), dark = sumOf(0, 0), bright = sumOf(1023, -1023);
+    // The RMS grows from 3 / sqrt(2) to 3 sqrt(1.25 / 2), while the spread falls from 1.5 to 0.75.
+    CHECK(sumOf(1023, 511).normBeside(shadowed) == doctest::Approx(1.5 * std::sqrt(1.25)).epsilon(2e-3));
+    CHECK(bright.normBeside(shadowed) == bright.norm()); // never stricter than without direct light
+    CHECK(shadowed.normBeside(dark) == shadowed.norm()); // which there may be none of
+}
+
 TEST_CASE("layout: a unit is the same of vertices that come a few at a time") {
     const std::vector<float> spectrum = lightSpectrum(kFace);
     const SparseTransport rows = smoothRows(2, 2, 4);
