@@ -27,8 +27,20 @@ vec2 phaseOf(vec2 local) {
     return squared > 0 ? vec2(local.x * local.x - local.y * local.y, 2 * local.x * local.y) / squared : vec2(1, 0);
 }
 
-// Returns the phase of a view direction other than the pixel's. It has the same mirror direction at another normal;
-// the phase is that in the frame of this normal nearest to the pixel's own.
+// Returns the mirror direction at which a view direction `other` than the pixel's gives nearly the pixel's radiance.
+// The pixel's own mirror direction keeps what is reflected in its place, but the closer both directions are to the
+// horizon, the more the normal turns, and with it what is above the horizon: flat surfaces would show bands. At grazing
+// angles the mirror direction therefore follows the view for a part of the way, which blurs the reflection.
+vec3 mirrorFor(vec3 other, vec3 view, vec3 mirror) {
+    const float kMostPart = 0.67, kGrazing = 0.4; // from the cosine kGrazing down (docs/residual.md)
+    const float cosine = sqrt(max(0.5 + 0.5 * dot(view, mirror), 0)); // of the angle of incidence
+    const vec3 both = view + other;
+    const vec3 turned = mirror - dot(both, mirror) / (1 + dot(view, other)) * both + 2 * dot(view, mirror) * other;
+    return normalize(mix(mirror, turned, kMostPart * (1 - smoothstep(0, kGrazing, cosine))));
+}
+
+// Returns the phase of a view direction other than the pixel's, which has this mirror direction at another normal: the
+// phase in the frame of this normal nearest to the pixel's own.
 vec2 phaseAt(mat3 frame, vec3 view, vec3 mirror) {
     const vec3 between = view + mirror, own = vec3(0, 0, 1) * frame;
     const vec3 normal = dot(between, between) > 1e-6 ? normalize(between) : own;
@@ -44,9 +56,10 @@ SpherePlaces spherePlaces(vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics)
     for (int i = 0; i < 4; i++) {
         at.nodes[i] = int(cell.first) + (i / 2) * int(kGridSide) + i % 2;
         const vec3 axis = texelOf(viewGrid, 2 * at.nodes[i]).xyz;
-        const vec2 place = polarPlace(axis, texelOf(viewGrid, 2 * at.nodes[i] + 1).xyz, mirror);
+        const vec3 own = mirrorFor(axis, view, mirror);
+        const vec2 place = polarPlace(axis, texelOf(viewGrid, 2 * at.nodes[i] + 1).xyz, own);
         at.places[i] = vec2(place.y + 0.5 / kSphereAzimuths, place.x);
-        at.phases[i] = hasHarmonics ? phaseAt(frame, axis, mirror) : vec2(1, 0);
+        at.phases[i] = hasHarmonics ? phaseAt(frame, axis, own) : vec2(1, 0);
     }
     return at;
 }
