@@ -1,6 +1,7 @@
 // Readers of .relume files, of this version and of the one before. The first byte of an input chooses how
 // deep it strikes: 0: the rest is a file; 1: a file whose checksums are put right; 2: edits of the content of
-// a valid file's chunks; 3 and 4: the same as 1 and 2 of a file of the version before.
+// a valid file's chunks; 3 and 4: the same as 1 and 2 of a file of the version before; 5: the same as 2 of a
+// file with bounced light.
 #include "engine/import/asset_info.h"
 #include "engine/import/old_asset.h"
 #include "engine/transport/kept_visibility.h"
@@ -15,7 +16,7 @@ namespace relume::test {
 
 namespace {
 
-enum Depth { kRaw, kSealed, kEdits, kOldSealed, kOldEdits, kDepths };
+enum Depth { kRaw, kSealed, kEdits, kOldSealed, kOldEdits, kBouncedEdits, kDepths };
 
 // mixedAsset() without residuals, which files of the version before lack.
 Asset oldAsset() {
@@ -32,6 +33,15 @@ const std::vector<RawChunk>& oldChunks() {
         return chunksOf(file);
     }();
     return chunks;
+}
+
+// mixedAsset() with shares of direct light.
+Asset bouncedAsset() {
+    Asset asset = mixedAsset();
+    asset.bounces = 2;
+    MaterialSet& set = asset.parts[1].sets[0];
+    set.directShares.assign(asset.parts[1].mesh.vertexCount() * set.shareWords(), 0x80ff01ffu);
+    return asset;
 }
 
 std::optional<Asset> tryDecode(std::span<const std::byte> file) {
@@ -54,13 +64,14 @@ void tryVisibility(std::span<const std::byte> file) {
 }
 
 void run(std::span<const std::byte> input) {
-    static const std::vector<RawChunk> sample = keptChunks();
+    static const std::vector<RawChunk> sample = keptChunks(), bounced = chunksOf(encodeAsset(bouncedAsset()));
     const int depth = input.empty() ? kRaw : int(input[0]) % kDepths;
     const auto rest = input.subspan(std::min<size_t>(input.size(), 1));
     Bytes file(rest.begin(), rest.end());
     if (depth == kEdits) file = editedFile(sample, ByteReader(rest, "edits"));
+    if (depth == kBouncedEdits) file = editedFile(bounced, ByteReader(rest, "edits"));
     if (depth == kOldEdits) file = editedFile(oldChunks(), ByteReader(rest, "edits"));
-    if (depth >= kOldSealed) poke(file, 8, kAssetFormatVersion - 1, 4);
+    if (depth == kOldSealed || depth == kOldEdits) poke(file, 8, kAssetFormatVersion - 1, 4);
     if (depth != kRaw) reseal(file);
     if (isOldAsset(file)) {
         try {
@@ -79,8 +90,13 @@ void run(std::span<const std::byte> input) {
 
 std::vector<Bytes> seeds() {
     const std::string edit = std::string("\x01\x01\x10\0\xff\xff\xff\xff", 8);
-    return {seedOf({kRaw}, fileOf(keptChunks())), seedOf({kSealed}, encodeAsset(mixedAsset())),
-            seedOf({kEdits}, edit), seedOf({kOldSealed}, oldFileOf(oldAsset())), seedOf({kOldEdits}, edit)};
+    return {seedOf({kRaw}, fileOf(keptChunks())),
+            seedOf({kSealed}, encodeAsset(mixedAsset())),
+            seedOf({kEdits}, edit),
+            seedOf({kOldSealed}, oldFileOf(oldAsset())),
+            seedOf({kOldEdits}, edit),
+            seedOf({kSealed}, encodeAsset(bouncedAsset())),
+            seedOf({kBouncedEdits}, edit)};
 }
 
 const AddFuzzTarget kAdded({"asset", run, seeds});
