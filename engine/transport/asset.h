@@ -84,8 +84,8 @@ struct Provenance {
 };
 
 // How transport was compressed from rows: the bytes or the error that was asked for, one of both, and the
-// error that resulted. Errors are root mean squares, weighted by the spectrum of light, relative to the
-// deviation of a set's vertices from their mean (precompute/transport/norm_sum.h).
+// error that resulted. Errors are root mean squares, weighted by the spectrum of light, relative to a set's
+// normalization, the deviation of its vertices from their mean (precompute/transport/norm_sum.h).
 struct LayoutRecord {
     std::optional<double> wantedBytes; // per vertex, in memory
     std::optional<double> wantedError;

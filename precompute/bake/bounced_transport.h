@@ -6,7 +6,8 @@
 
 namespace relume {
 
-// Raised whenever bounced light comes out differently, which invalidates older checkpoints and shards.
+// Raised whenever bounced light, or what errors are relative to with it, comes out differently, which
+// invalidates older checkpoints and shards.
 constexpr uint32_t kBouncesVersion = 9;
 
 // Rows of bounced light per part and set.

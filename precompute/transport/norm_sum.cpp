@@ -10,6 +10,9 @@ namespace relume {
 // Least variation that a norm assumes, relative to the total, for a set whose vertices are all alike; errors
 // then stay far below visibility.
 static constexpr double kLeastVariation = 0.1;
+// Most that bounced light may raise a norm above the vertices' own variation; scenes need 1.03 to 1.15. Where
+// direct light reaches few vertices and bounced light all of them, shadows would be lost otherwise.
+static constexpr float kMostRaise = 1.25f;
 
 NormSum::NormSum(uint32_t terms, std::span<const float> spectrum)
     : mSpectrum(spectrum), mTerms(terms), mSums(terms * spectrum.size(), glm::dvec3(0)) {}
@@ -39,7 +42,7 @@ float NormSum::norm() const {
 
 float NormSum::normBeside(const NormSum& direct) const {
     const auto grown = float(rms() / direct.rms()) * direct.norm();
-    return std::isfinite(grown) ? std::max(grown, norm()) : norm();
+    return std::isfinite(grown) ? std::clamp(grown, norm(), kMostRaise * norm()) : norm();
 }
 
 float transportNorm(const SparseTransport& rows, std::span<const float> spectrum) {

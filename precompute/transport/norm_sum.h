@@ -25,9 +25,9 @@ class NormSum {
     float norm() const;
 
     // Returns their normalization where bounced light was added to `direct`: that of the direct transport,
-    // times the growth of its RMS, if this is more than norm(). Bounced light fills shadows, so that vertices
-    // differ less while there is more light; relative to norm(), errors would be a smaller share of the light
-    // than without it.
+    // times the growth of its RMS, but at least norm() and hardly more. Bounced light fills shadows, so that
+    // vertices differ less while there is more light; relative to norm(), errors would be a smaller share of
+    // the light than without it.
     float normBeside(const NormSum& direct) const;
 
   private:

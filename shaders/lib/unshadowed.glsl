@@ -30,13 +30,19 @@ vec2 phaseOf(vec2 local) {
 // Returns the mirror direction at which a view direction `other` than the pixel's gives nearly the pixel's radiance.
 // The pixel's own mirror direction keeps what is reflected in its place, but the closer both directions are to the
 // horizon, the more the normal turns, and with it what is above the horizon: flat surfaces would show bands. At grazing
-// angles the mirror direction therefore follows the view for a part of the way, which blurs the reflection.
-vec3 mirrorFor(vec3 other, vec3 view, vec3 mirror) {
-    const float kMostPart = 0.67, kGrazing = 0.4; // from the cosine kGrazing down (docs/residual.md)
-    const float cosine = sqrt(max(0.5 + 0.5 * dot(view, mirror), 0)); // of the angle of incidence
-    const vec3 both = view + other;
+// angles the mirror direction therefore follows the view for a part of the way, `followed`, which blurs the reflection.
+// All directions are unit vectors.
+vec3 mirrorFor(vec3 other, vec3 view, vec3 mirror, float followed) {
+    if (followed == 0) return mirror;
+    const vec3 both = view + other; // `turned` is the mirror direction, turned as the view is
     const vec3 turned = mirror - dot(both, mirror) / (1 + dot(view, other)) * both + 2 * dot(view, mirror) * other;
-    return normalize(mix(mirror, turned, kMostPart * (1 - smoothstep(0, kGrazing, cosine))));
+    return normalize(mix(mirror, turned, followed));
+}
+
+// Returns the part of the way for mirrorFor(), which grows as the angle of incidence nears 90 degrees (docs/residual.md).
+float followedPart(vec3 view, vec3 mirror) {
+    const float kMost = 0.67, kFirstCosine = 0.4;
+    return kMost * (1 - smoothstep(0, kFirstCosine, sqrt(max(0.5 + 0.5 * dot(view, mirror), 0))));
 }
 
 // Returns the phase of a view direction other than the pixel's, which has this mirror direction at another normal: the
@@ -50,13 +56,14 @@ vec2 phaseAt(mat3 frame, vec3 view, vec3 mirror) {
 // Finds the spheres around a view direction. `frame` is the pixel's. Phases are for spheres with harmonics.
 SpherePlaces spherePlaces(vec3 view, mat3 frame, vec3 mirror, bool hasHarmonics) {
     const GridCell cell = gridCell(view);
+    const float followed = followedPart(view, mirror);
     SpherePlaces at;
     at.weights = vec4(1 - cell.place.x, cell.place.x, 1 - cell.place.x, cell.place.x) *
                  vec4(vec2(1 - cell.place.y), vec2(cell.place.y));
     for (int i = 0; i < 4; i++) {
         at.nodes[i] = int(cell.first) + (i / 2) * int(kGridSide) + i % 2;
         const vec3 axis = texelOf(viewGrid, 2 * at.nodes[i]).xyz;
-        const vec3 own = mirrorFor(axis, view, mirror);
+        const vec3 own = mirrorFor(axis, view, mirror, followed);
         const vec2 place = polarPlace(axis, texelOf(viewGrid, 2 * at.nodes[i] + 1).xyz, own);
         at.places[i] = vec2(place.y + 0.5 / kSphereAzimuths, place.x);
         at.phases[i] = hasHarmonics ? phaseAt(frame, axis, own) : vec2(1, 0);
