@@ -182,7 +182,8 @@ struct Unshadowed {
 // Returns the unshadowed radiance towards the eye, whose direction in the frame is `local`; or, if `isLimit`, the
 // most to which normal maps may raise it.
 Unshadowed unshadowedAt(vec3 direction, mat3 frame, vec3 local, vec4 paint, vec3 base, bool isLimit) {
-    const SpherePlaces at = spherePlaces(normalize(-direction), frame, vec3(-local.xy, local.z) * frame, kHarmonics > 0);
+    const vec3 mirror = vec3(-local.xy, local.z) * frame;
+    const SpherePlaces at = spherePlaces(normalize(-direction), frame, mirror, kHarmonics > 0);
     Unshadowed sum = Unshadowed(vec3(0), vec3(0), vec3(0));
     if (kLook == kSingleLook) {
         sum.whole = push.weight * unshadowedRadiance(push.firstSlot, kHarmonics, at);

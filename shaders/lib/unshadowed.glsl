@@ -39,7 +39,8 @@ vec3 mirrorFor(vec3 other, vec3 view, vec3 mirror, float followed) {
     return normalize(mix(mirror, turned, followed));
 }
 
-// Returns the part of the way for mirrorFor(), which grows as the angle of incidence nears 90 degrees (docs/residual.md).
+// Returns the part of the way for mirrorFor(), which grows as the angle of incidence nears 90 degrees
+// (docs/residual.md).
 float followedPart(vec3 view, vec3 mirror) {
     const float kMost = 0.67, kFirstCosine = 0.4;
     return kMost * (1 - smoothstep(0, kFirstCosine, sqrt(max(0.5 + 0.5 * dot(view, mirror), 0))));
