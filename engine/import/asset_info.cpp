@@ -150,8 +150,7 @@ OrderedJson describeApproximations(const Asset& asset) {
                 std::visit([](const auto& layout) { return describeLayout(layout); }, set.transport)));
     if (asset.layout)
         list.push_back(fmt::format(
-            "error of the layout against the rows as baked: {:.2f} % of what tells vertices apart{}, {}",
-            100 * asset.layout->error, asset.bounces > 0 ? " in direct light" : "",
+            "error of the layout against the rows as baked: {:.2f} %, {}", 100 * asset.layout->error,
             asset.layout->wantedBytes
                 ? fmt::format("{:g} bytes a vertex being asked for", *asset.layout->wantedBytes)
                 : fmt::format("{:g} % being asked for", 100 * asset.layout->wantedError.value_or(0))));
