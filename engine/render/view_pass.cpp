@@ -369,6 +369,7 @@ void ViewPass::shade(vk::Commands& commands, const Frame& frame, size_t number, 
                    {part.normalMap, mSurfaceSampler},
                    {part.emissionMap, mSurfaceSampler},
                    tuplesOf(relighter.fillTuples(number, part.bound.set)),
+                   // Without shares the shader reads nothing here, but something must be bound.
                    vk::Binding::texelsOf(set.directShares.bytes() > 0 ? set.directShares : spheres.slots(),
                                          VK_FORMAT_R32_UINT)},
                   push);
