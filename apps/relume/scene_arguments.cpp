@@ -149,7 +149,7 @@ void BakeArguments::add(CLI::App& command, bool takesLayout) {
         .add_option("-N,--coefficients", mCoefficients,
                     takesLayout
                         ? "Wavelet coefficients found per vertex and term: what rows keep, and what other "
-                          "layouts are made from"
+                          "layouts are made from (four times as many where a material has one term)"
                         : "Wavelet coefficients kept per vertex and term")
         ->type_name("N")
         ->default_str(takesLayout ? fmt::format("{}, of rows {}", defaults.coefficients, ofRows)

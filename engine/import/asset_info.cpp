@@ -4,8 +4,9 @@
 #include "engine/import/json_object.h"
 #include "engine/transport/asset_meta.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace relume {
 
@@ -126,6 +127,17 @@ std::string describeTerms(const Asset& asset) {
                        hasCenters ? "at the maps' texel centers" : "averaged over the maps' texels");
 }
 
+} // namespace
+
+std::string describeRowEntries(const Asset& asset) {
+    std::set<int> numbers;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets) numbers.insert(rowEntries(asset, set));
+    return fmt::format("{}", fmt::join(numbers, " or "));
+}
+
+namespace {
+
 OrderedJson describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
     OrderedJson list = OrderedJson::array();
@@ -142,7 +154,7 @@ OrderedJson describeApproximations(const Asset& asset) {
     if (asset.coefficients < all)
         list.push_back(
             fmt::format("truncation: the {} largest of {} coefficients of a vertex and term were kept",
-                        asset.coefficients, all));
+                        describeRowEntries(asset), all));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             list.push_back(fmt::format(

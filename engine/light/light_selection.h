@@ -12,7 +12,7 @@ constexpr int kPaperLightThreshold = 1024;
 // The default count. With area weights, so many entries lose less of an image than any other step
 // (docs/errors.md). The paper's threshold keeps 24 to 600 entries and loses up to 30 % where small lamps
 // outshine a room.
-constexpr int kDefaultLightCount = 512;
+constexpr int kDefaultLightCount = 1024;
 
 // How light entries are selected. An entry's weight is its largest |component|, times, if `areaWeighted`, the
 // share of a face that its Haar function covers, a power of two (Ng, Ramamoorthi, Hanrahan: All-Frequency

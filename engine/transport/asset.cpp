@@ -13,6 +13,19 @@ int termCount(const AssetPart& part) {
     return terms;
 }
 
+int rowEntries(const Asset& asset, const MaterialSet& set) {
+    constexpr int kOfOneTerm = 4;
+    const bool isOneTerm = isCompressed(layoutOf(set.transport)) && set.brdf.terms == 1;
+    return std::min((isOneTerm ? kOfOneTerm : 1) * asset.coefficients, 6 * asset.faceSize * asset.faceSize);
+}
+
+uint64_t rowEntries(const Asset& asset, const AssetPart& part) {
+    uint64_t entries = 0;
+    for (const MaterialSet& set : part.sets)
+        entries += uint64_t(set.brdf.terms) * uint64_t(rowEntries(asset, set));
+    return entries;
+}
+
 uint64_t vertexCount(const Asset& asset) {
     uint64_t vertices = 0;
     for (const AssetPart& part : asset.parts) vertices += part.mesh.vertexCount();

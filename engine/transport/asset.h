@@ -96,7 +96,7 @@ struct LayoutRecord {
 struct Asset {
     int faceSize = 64;           // F: side of a face of the lighting cube, in texels
     int visibilitySize = 256;    // side of a face of the visibility cube, in texels
-    int coefficients = 96;       // N: most entries of a row
+    int coefficients = 96;       // N: most entries of a row; see also rowEntries()
     int transportSamples = 1;    // light map evaluations per lighting texel
     int bounces = 0;             // reflections between surfaces that transport includes, before the last
     float visibilityOffset = 0;  // distance by which a vertex was lifted along its normal
@@ -107,6 +107,14 @@ struct Asset {
     std::vector<AssetPart> parts;
     Provenance provenance;
 };
+
+// Returns the most row entries from which a set's transport is made: N; or, in bases of one term, four times
+// N, up to all. Neighbors leave out the same coefficients, so that with N a wall that looks alike from
+// everywhere is too dark or bright as a whole; and one row more or less costs little beside those of a glossy
+// set.
+int rowEntries(const Asset& asset, const MaterialSet& set);
+// Returns their number in the rows of all sets of a vertex.
+uint64_t rowEntries(const Asset& asset, const AssetPart& part);
 
 // Returns the number of vertices of all parts.
 uint64_t vertexCount(const Asset& asset);

@@ -16,7 +16,7 @@ constexpr uint64_t kMostSoftwarePoints = 64, kMostPoints = 256;
 // Host memory per row entry while rows are collected, cut into blocks, encoded and compressed.
 constexpr uint64_t kHostBytesPerEntry = 32;
 
-uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
+uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms, uint64_t entries,
                    const BakeLimits& limits) {
     const auto size = uint64_t(options.visibilitySize);
     // The layers of the rasterizer take a byte per texel before packing.
@@ -31,8 +31,8 @@ uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int ter
     // Kept visibility is in memory as read back, in the block, and encoded.
     const uint64_t copies = options.keepVisibility ? 4 : 1;
     const uint64_t bytesPerPoint = 2 * blockedBytes + copies * visibilityBytes(uint32_t(size)) +
-                                   TransportPass::bytesPerPoint(terms, options) +
-                                   uint64_t(terms) * uint64_t(options.coefficients) * kHostBytesPerEntry;
+                                   TransportPass::bytesPerPoint(terms, entries, options) +
+                                   entries * kHostBytesPerEntry;
     if (limits.memory > 0 && limits.memory < bytesPerPoint)
         throw UsageError(
             fmt::format("--memory: expected at least the {} KiB that baking one vertex at a time takes, "

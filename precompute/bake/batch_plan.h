@@ -11,10 +11,10 @@ struct BakeLimits {
     uint64_t memory = 0; // for a batch, device and host together, in bytes; 0: chosen by planBatch()
 };
 
-// Returns the number of points per submission for a part of `terms` terms, at least 1: the most that the
-// device's layer count, storage-buffer range and a share of its memory allow, but no more than keep it busy.
-// Throws UsageError if `limits` leave no room for one point.
-uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms,
+// Returns the number of points per submission for a part whose vertices have `terms` rows of `entries`
+// entries in all, at least 1: the most that the device's layer count, storage-buffer range and a share of its
+// memory allow, but no more than keep it busy. Throws UsageError if `limits` leave no room for one point.
+uint32_t planBatch(const vk::Device& device, const BakeOptions& options, int terms, uint64_t entries,
                    const BakeLimits& limits = {});
 
 } // namespace relume

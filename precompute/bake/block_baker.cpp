@@ -190,9 +190,7 @@ void BlockBaker::bakeGroup(std::span<const uint32_t> blocks) {
         const uint32_t end = first + mPlan.blocks[block].count();
         BakedBlock baked;
         for (const BakedRows& set : all.rows) baked.sets.push_back(set.vertices(first, end));
-        if (mPlan.bounced)
-            mPlan.bounced->addTo(baked.sets, mPart, mPlan.blocks[block].first, mPlan.asset.faceSize,
-                                 mPlan.asset.coefficients);
+        if (mPlan.bounced) mPlan.bounced->addTo(baked.sets, mPlan.asset, mPart, mPlan.blocks[block].first);
         if (mPlan.options.keepVisibility)
             baked.visibility.assign(visibility.begin() + ptrdiff_t(first * vertexWords),
                                     visibility.begin() + ptrdiff_t(end * vertexWords));

@@ -25,7 +25,7 @@ namespace relume {
 namespace {
 
 // Sources, the transport that lights others, have the smallest sizes that the kernels support.
-constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64, kSourceKept = 192;
+constexpr int kSourceFaceSize = 32, kSourceVisibilitySize = 64;
 
 // Returns a low-resolution plan, without an occluder yet.
 BakePlan planOfSources(const BakePlan& plan) {
@@ -34,7 +34,8 @@ BakePlan planOfSources(const BakePlan& plan) {
     sources.options.transportSamples = 1;
     sources.asset.faceSize = sources.options.faceSize = kSourceFaceSize;
     sources.asset.visibilitySize = sources.options.visibilitySize = kSourceVisibilitySize;
-    sources.asset.coefficients = sources.options.coefficients = kSourceKept;
+    // Rows have bounceEntries(): as many as rowEntries() gives bases, whatever the bake's layout is.
+    sources.asset.coefficients = sources.options.coefficients = bounceEntries(2);
     sources.asset.visibilityOffset = plan.asset.visibilityOffset;
     sources.blockVertices = plan.blockVertices;
     for (size_t number = 0; number < plan.asset.parts.size(); number++) {
@@ -43,6 +44,7 @@ BakePlan planOfSources(const BakePlan& plan) {
         source.name = part.name;
         source.mesh = part.mesh;
         source.sets = part.sets;
+        for (MaterialSet& set : source.sets) set.transport = BasisTransport();
     }
     sources.firstSet = plan.firstSet;
     return sources;
@@ -158,10 +160,11 @@ SparseTransport rowsInParallel(uint32_t vertices, uint32_t terms, size_t coeffic
 
 // Adds transport row by row.
 SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
+    const int kept = bounceEntries(int(a.terms));
     return rowsInParallel(a.vertices, a.terms, kBounceCoefficients, [&](size_t row, RowSum& sum) {
         sum.add(a, row, 1);
         sum.add(b, row, 1);
-        return sum.pack(kSourceKept);
+        return sum.pack(kept);
     });
 }
 
@@ -170,7 +173,8 @@ SparseTransport sumOf(const SparseTransport& a, const SparseTransport& b) {
 bool gathersOnDevice(const vk::Device& device, std::span<const SparseTransport> sources) {
     if (device.info().isSoftware) return false;
     uint64_t entries = 0;
-    for (const SparseTransport& part : sources) entries += uint64_t(part.rows()) * kSourceKept;
+    for (const SparseTransport& part : sources)
+        entries += part.rows() * uint64_t(bounceEntries(int(part.terms)));
     if (BounceGatherPass::canGatherFrom(device, entries)) return true;
     log(LogLevel::Warning, fmt::format("bounced light: {:.1f} GB of transport do not fit a buffer of {}; the "
                                        "host gathers it instead, which takes longer",
@@ -180,26 +184,28 @@ bool gathersOnDevice(const vk::Device& device, std::span<const SparseTransport> 
 
 } // namespace
 
-uint64_t bounceBytes(const Asset& asset, const Appearance& bound) {
+uint64_t bounceBytes(const Asset& asset, const Appearance& appearance) {
     constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t),
                        kRowBytes = sizeof(float) + sizeof(uint64_t);
+    const auto rowsBytes = [](int rows, int terms) {
+        return uint64_t(rows) * (uint64_t(bounceEntries(terms)) * kEntryBytes + kRowBytes);
+    };
     uint64_t bytes = 0;
     for (size_t number = 0; number < asset.parts.size(); number++) {
         const AssetPart& part = asset.parts[number];
+        const int bound = part.sets[appearance[number].set].brdf.terms, all = termCount(part);
         // Direct transport, that with the previous bounce, and bounced rows of all sets.
-        uint64_t ofVertex =
-            2 * uint64_t(part.sets[bound[number].set].brdf.terms) * (kSourceKept * kEntryBytes + kRowBytes);
-        for (const MaterialSet& set : part.sets)
-            ofVertex += uint64_t(set.brdf.terms) * (kBounceKept * kEntryBytes + kRowBytes);
-        bytes += part.mesh.vertexCount() * ofVertex;
+        bytes += part.mesh.vertexCount() * (2 * rowsBytes(bound, bound) + rowsBytes(all, all));
     }
     return bytes;
 }
 
-void BouncedTransport::addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize,
-                             int kept) const {
+void BouncedTransport::addTo(std::span<BakedRows> sets, const Asset& asset, size_t part, uint32_t first,
+                             int most) const {
+    const int faceSize = asset.faceSize;
     const size_t coefficients = 6 * size_t(faceSize) * size_t(faceSize);
     for (size_t set = 0; set < sets.size(); set++) {
+        const int kept = std::min(rowEntries(asset, asset.parts[part].sets[set]), most);
         const SparseTransport& bounced = mRows[part][set];
         const SparseTransport& direct = sets[set].transport;
         const auto addRow = [&](size_t row, RowSum& sum) {

@@ -4,11 +4,13 @@
 #include "engine/render/appearance.h"
 #include "precompute/bake/block_baker.h"
 
+#include <limits>
+
 namespace relume {
 
 // Raised whenever bounced light, or what errors are relative to with it, comes out differently, which
 // invalidates older checkpoints and shards.
-constexpr uint32_t kBouncesVersion = 9;
+constexpr uint32_t kBouncesVersion = 10;
 
 // Rows of bounced light per part and set.
 class BouncedTransport {
@@ -17,8 +19,9 @@ class BouncedTransport {
     explicit BouncedTransport(std::vector<std::vector<SparseTransport>> rows) : mRows(std::move(rows)) {}
 
     // Adds bounced light to `sets`, the rows per set of a part's vertices from `first` on. Rows keep their
-    // `kept` largest entries; what that loses is added to their losses.
-    void addTo(std::span<BakedRows> sets, size_t part, uint32_t first, int faceSize, int kept) const;
+    // rowEntries() largest entries, or `most` if that is less; what that loses is added to their losses.
+    void addTo(std::span<BakedRows> sets, const Asset& asset, size_t part, uint32_t first,
+               int most = std::numeric_limits<int>::max()) const;
 
     // Adds the bounced light of one row to all its coefficients.
     void addTo(std::span<vec3> coefficients, size_t part, size_t set, size_t row, int faceSize) const;
@@ -30,7 +33,7 @@ class BouncedTransport {
 };
 
 // Returns an upper bound on the host memory, in bytes, that rows take while bounces are computed.
-uint64_t bounceBytes(const Asset& asset, const Appearance& bound);
+uint64_t bounceBytes(const Asset& asset, const Appearance& appearance);
 
 // Computes the bounces that the plan's options ask for, with every part in its default appearance (its first
 // material, or as painted). Direct transport is first baked at a low resolution as the source. Stores the

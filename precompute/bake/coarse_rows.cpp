@@ -27,7 +27,7 @@ CoarseRows::CoarseRows(const vk::Device& device, BakePlan& plan, std::span<const
     for (const uint32_t block : blocks) isNeeded[plan.blocks[block].part] = true;
     uint64_t allBytes = 0;
     for (const AssetPart& part : plan.asset.parts)
-        allBytes += part.mesh.vertexCount() * rowBytes(plan.asset, part);
+        allBytes += part.mesh.vertexCount() * rowBytes(termCount(part), rowEntries(plan.asset, part));
     const uint64_t each = std::max(kVerticesPerCoarse, (allBytes + kCoarseRowBytes - 1) / kCoarseRowBytes);
     std::vector<std::vector<uint32_t>> chosen(mParts.size());
     for (size_t number = 0; number < mParts.size(); number++) {
@@ -68,7 +68,7 @@ void CoarseRows::interpolate(const BakePlan& plan, std::span<const uint32_t> blo
             BakedRows& to = made.sets.emplace_back(from.transport.terms);
             for (const auto& own : of) interpolator.append(own, to);
         }
-        if (plan.bounced) plan.bounced->addTo(made.sets, place.part, place.first, faceSize, kept);
+        if (plan.bounced) plan.bounced->addTo(made.sets, plan.asset, place.part, place.first, kept);
         return storeBlock(plan, block, std::move(made));
     };
     while (!blocks.empty()) {
@@ -84,21 +84,17 @@ void CoarseRows::interpolate(const BakePlan& plan, std::span<const uint32_t> blo
 
 uint64_t CoarseRows::interpolatedBytes(const BakePlan& plan) {
     uint64_t bytes = 0;
-    for (const AssetPart& part : plan.asset.parts)
-        bytes += part.mesh.vertexCount() * rowBytes(plan.asset, part);
-    return bytes * uint64_t(std::min(plan.asset.coefficients, kMostInterpolated)) /
-           uint64_t(plan.asset.coefficients);
+    for (const AssetPart& part : plan.asset.parts) {
+        const int rows = termCount(part);
+        bytes += part.mesh.vertexCount() * rowBytes(rows, uint64_t(rows) * kMostInterpolated);
+    }
+    return bytes;
 }
 
 RowInterpolator::RowInterpolator(const BakedRows& coarse, int coefficients, int kept)
     : mCoarse(coarse), mKept(kept), mSum(size_t(coefficients)) {}
 
 void RowInterpolator::append(std::span<const CoarseNeighbor> neighbors, BakedRows& rows) {
-    if (neighbors.size() == 1) {
-        const uint32_t vertex = neighbors.front().coarse;
-        rows.append(mCoarse.vertices(vertex, vertex + 1));
-        return;
-    }
     for (uint32_t term = 0; term < mCoarse.transport.terms; term++) appendSum(neighbors, term, rows);
     rows.transport.vertices++;
 }

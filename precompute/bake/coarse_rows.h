@@ -18,8 +18,8 @@ class RowInterpolator {
     // stored.
     RowInterpolator(const BakedRows& coarse, int coefficients, int kept);
 
-    // Appends a vertex's rows: the weighted sums of its neighbors' rows, packed by packLargest(); those of a
-    // single neighbor are copied. Losses are the weighted sums of the neighbors' losses.
+    // Appends a vertex's rows: the weighted sums of its neighbors' rows, packed by packLargest(). Losses are
+    // the weighted sums of the neighbors' losses.
     void append(std::span<const CoarseNeighbor> neighbors, BakedRows& rows);
 
   private:

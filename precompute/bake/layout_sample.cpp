@@ -50,7 +50,7 @@ void addBounces(const BakePlan& plan, uint32_t part, std::span<const uint32_t> v
     for (uint32_t i = 0; i < rows.front().transport.vertices; i++) {
         std::vector<BakedRows> one;
         for (const BakedRows& set : rows) one.push_back(set.vertices(i, i + 1));
-        plan.bounced->addTo(one, part, vertices[i], plan.asset.faceSize, plan.asset.coefficients);
+        plan.bounced->addTo(one, plan.asset, part, vertices[i]);
         for (size_t set = 0; set < sum.size(); set++) sum[set].append(one[set]);
     }
     rows = std::move(sum);
@@ -125,7 +125,8 @@ double shareThatFits(const BakePlan& plan, std::span<const uint32_t> blocks) {
     for (const uint32_t number : blocks) {
         const BakeBlock& block = plan.blocks[number];
         vertices += block.count();
-        bytes += block.count() * rowBytes(plan.asset, plan.asset.parts[block.part]);
+        const AssetPart& part = plan.asset.parts[block.part];
+        bytes += block.count() * rowBytes(termCount(part), rowEntries(plan.asset, part));
     }
     return std::min({1.0, double(kMostSampled) / double(std::max<uint64_t>(1, vertices)),
                      double(kSampleBytes) / double(std::max<uint64_t>(1, bytes))});

@@ -12,7 +12,8 @@ PartPasses::PartPasses(const vk::Device& device, const Asset& asset, const Asset
                        const BakeOptions& options, const BakeLimits& limits, VisibilitySource source)
     : mDevice(device), mAsset(asset), mPart(part), mOptions(options), mCommands(device, "bake"),
       mSource(source) {
-    mBatch = std::min(planBatch(device, options, termCount(part), limits), uint32_t(part.mesh.vertexCount()));
+    mBatch = std::min(planBatch(device, options, termCount(part), rowEntries(asset, part), limits),
+                      uint32_t(part.mesh.vertexCount()));
     try {
         create();
     } catch (const vk::OutOfMemory& failure) {
@@ -58,7 +59,11 @@ void PartPasses::create() {
         mFoundBits = {mDevice, bitBytes, vk::BufferUse::Readback, "found visibility bits"};
     mPoints = {mDevice, mBatch * sizeof(shared::BakePoint), vk::BufferUse::Upload, "points"};
     mBits = {mDevice, bitBytes, vk::BufferUse::Device, "visibility bits"};
-    for (const MaterialSet& set : mPart.sets) mTransports.emplace_back(mDevice, set.brdf, mOptions, mBatch);
+    for (const MaterialSet& set : mPart.sets) {
+        BakeOptions options = mOptions;
+        options.coefficients = rowEntries(mAsset, set);
+        mTransports.emplace_back(mDevice, set.brdf, options, mBatch);
+    }
 }
 
 void PartPasses::recordVisibility(uint32_t count) {

@@ -63,7 +63,7 @@ StoredBlock storeBlock(const BakePlan& plan, uint32_t block, BakedBlock baked) {
         RELUME_CHECK(plan.scale || !isCompressed(layoutOf(part.sets[set].transport)));
         const std::string where =
             fmt::format("part \"{}\", vertices from {} on as the device baked them", part.name, place.first);
-        checkTransport(transport, coefficients, uint64_t(plan.asset.coefficients), where);
+        checkTransport(transport, coefficients, uint64_t(rowEntries(plan.asset, part.sets[set])), where);
         const ChunkEntry chunk = expectedChunk(plan, block, set);
         const BlockCoding coding{place.first,
                                  chunk.run,

@@ -52,11 +52,11 @@ TransportTuning TransportTuning::of(const vk::Device& device) {
             uint64_t(std::max(1u, std::thread::hardware_concurrency())) << 21};
 }
 
-uint64_t TransportPass::bytesPerPoint(int terms, const BakeOptions& options) {
+uint64_t TransportPass::bytesPerPoint(int terms, uint64_t entries, const BakeOptions& options) {
     // Coefficients and block summaries; selected indices, values, and entries read back.
-    return uint64_t(terms) *
-           (PackingPass::coefficientBytes(options.faceSize) + PackingPass::summaryBytes(options.faceSize) +
-            16 * uint64_t(options.coefficients));
+    return uint64_t(terms) * (PackingPass::coefficientBytes(options.faceSize) +
+                              PackingPass::summaryBytes(options.faceSize)) +
+           16 * entries;
 }
 
 uint32_t TransportPass::largestBatch(const vk::Device& device, const BakeOptions& options) {

@@ -45,9 +45,9 @@ class TransportPass {
     // reaches keep their old content.
     const vk::Buffer& coefficients() const { return mPacking->coefficients(); }
 
-    // Returns the device and host-visible bytes per point of a batch; and how many points fit a storage
-    // buffer.
-    static uint64_t bytesPerPoint(int terms, const BakeOptions& options);
+    // Returns the device and host-visible bytes per point of a batch, whose `terms` rows have `entries`
+    // entries in all; and how many points fit a storage buffer.
+    static uint64_t bytesPerPoint(int terms, uint64_t entries, const BakeOptions& options);
     static uint32_t largestBatch(const vk::Device& device, const BakeOptions& options);
 
   private:

@@ -45,10 +45,10 @@ class RowsSink : public BakeSink {
 
 } // namespace
 
-uint64_t rowBytes(const Asset& asset, const AssetPart& part) {
+uint64_t rowBytes(int rows, uint64_t entries) {
     constexpr uint64_t kEntryBytes = sizeof(uint16_t) + sizeof(uint32_t);
     constexpr uint64_t kRowBytes = sizeof(float) + sizeof(uint64_t) + sizeof(TransportLosses);
-    return uint64_t(termCount(part)) * (uint64_t(asset.coefficients) * kEntryBytes + kRowBytes);
+    return uint64_t(rows) * kRowBytes + entries * kEntryBytes;
 }
 
 void bakeVertices(const vk::Device& device, BakePlan& plan, std::span<const std::vector<uint32_t>> vertices,

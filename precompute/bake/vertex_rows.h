@@ -7,8 +7,8 @@
 
 namespace relume {
 
-// Returns the most bytes of memory that the rows of one vertex of this part, with their losses, take.
-uint64_t rowBytes(const Asset& asset, const AssetPart& part);
+// Returns the bytes of memory that rows with this many entries in all take, with their losses.
+uint64_t rowBytes(int rows, uint64_t entries);
 
 // Receives the rows, per set, of the next vertices of a part.
 using TakeRows = std::function<void(uint32_t part, std::span<const BakedRows> sets)>;

@@ -135,6 +135,7 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
         }
     }
 
+    const int kept = bounceEntries(int(terms));
     size_t row = 0;
     for (SparseTransport& own : rows) {
         for (uint32_t term = 0; term < own.terms; term++, row++) {
@@ -142,7 +143,7 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
             if (!room.sources.empty())
                 for (size_t i = 0; i < kBounceCoefficients; i++)
                     room.sum.add(i, total[i].get(row % TermGroup::kTerms));
-            appendRow(own, room.sum.pack(kBounceKept));
+            appendRow(own, room.sum.pack(kept));
         }
         own.vertices++;
     }

@@ -17,7 +17,10 @@ namespace relume {
 // Bounced light has a lower resolution than the lighting cube: texels per side of a face.
 constexpr int kBounceFaceSize = 16;
 constexpr int kBounceCoefficients = 6 * kBounceFaceSize * kBounceFaceSize;
-constexpr int kBounceKept = 192; // row entries of bounced light, at most
+
+// Returns the most row entries that are kept of bounced light to a part of so many terms, or of its source:
+// fewer of many terms, since these entries are most of what a bake with bounces holds in memory and gathers.
+constexpr int bounceEntries(int terms) { return terms == 1 ? 768 : 192; }
 
 // Returns the index in a cube of kBounceFaceSize of a coefficient (face · size² + y · size + x) of a larger
 // cube, or nothing if it is too fine. The Haar basis is nested: the coefficients of a cube of n texels per

@@ -166,9 +166,9 @@ BounceGatherPass::PartPass::PartPass(const vk::Device& device, const AssetPart& 
                                      uint32_t mostSourceTerms)
     : terms(uint32_t(termCount(part))), termGroups((terms + kMostTogether - 1) / kMostTogether),
       vertices(batchOf(device, part, mostSourceTerms)),
-      packing(device, kPackedFaceSize, kBounceKept, uint64_t(vertices) * terms, uint64_t(vertices) * terms,
-              64),
-      packed(device, uint64_t(vertices) * terms, kBounceKept),
+      packing(device, kPackedFaceSize, bounceEntries(int(terms)), uint64_t(vertices) * terms,
+              uint64_t(vertices) * terms, 64),
+      packed(device, uint64_t(vertices) * terms, bounceEntries(int(terms))),
       gather(device, bounce_gather_comp_spirv, {(terms + termGroups - 1) / termGroups, lanesFor(device)},
              "bounce gather") {}
 

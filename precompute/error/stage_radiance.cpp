@@ -147,7 +147,7 @@ StageTracer::Tuples StageTracer::vertexTuples(size_t part, uint32_t vertex,
             mOptions.bounced->addTo(bounced, part, mAppearance[part].set, row, mAsset.faceSize);
         std::vector<vec3> exact(direct.size());
         std::ranges::transform(direct, bounced, exact.begin(), std::plus());
-        const std::vector<uint16_t> kept = indicesOfLargest(exact, mAsset.coefficients);
+        const std::vector<uint16_t> kept = indicesOfLargest(exact, rowEntries(mAsset, set));
         const std::vector<vec3> stored = dequantizedRow(set.transport, row, exact.size());
         for (size_t light = 0; light < lights.size(); light++)
             for (const LightPart lit : {LightPart::Whole, LightPart::Fill}) {

@@ -9,10 +9,10 @@
 
 namespace relume {
 
-// Version of everything besides a bake's inputs and options that determines the bytes of bases: choice of the
-// sample, derivation of the scale, encoding of clusters. Raised with every change to these, so that blocks of
-// different programs never meet in one bake.
-constexpr uint32_t kLayoutEncoderVersion = 4;
+// Version of everything besides a bake's inputs and options that determines the bytes of bases: entries of
+// the rows that they are made from, choice of the sample, derivation of the scale, encoding of clusters.
+// Raised with every change to these, so that blocks of different programs never meet in one bake.
+constexpr uint32_t kLayoutEncoderVersion = 5;
 
 struct LayoutScale {
     std::vector<float> norms; // per set, over all parts: normalization by transportNorm()

@@ -56,7 +56,9 @@ class DeviceStages {
         const VisibilityMethod method = usableMethod(device, optionsOf(asset).visibilityMethod);
         options.visibilityMethod = method;
         const uint32_t together = TransportPass::largestBatch(device, options) / mTerms;
-        const uint32_t batch = std::max(1u, std::min(planBatch(device, options, mTerms), together));
+        const uint64_t entries = uint64_t(mTerms) * uint64_t(options.coefficients);
+        const uint32_t batch =
+            std::max(1u, std::min(planBatch(device, options, int(mTerms), entries), together));
         const auto size = uint32_t(asset.visibilitySize);
         const uint64_t bitBytes = visibilityBytes(size);
 

@@ -56,5 +56,5 @@ TEST_CASE("presets: paper bakes and renders as its options do, and others beside
     const std::string paper = render("--preset paper");
     CHECK_EQ(paper, render("--residual off --threshold 1024"));
     CHECK_NE(paper, render(""));
-    CHECK_EQ(render("--preset paper --coefficients 512 --residual on"), render("--preset default"));
+    CHECK_EQ(render("--preset paper --coefficients 1024 --residual on"), render("--preset default"));
 }

@@ -77,6 +77,28 @@ TEST_CASE("bake: a file baked block by block has the bytes of the asset baked in
     CHECK_FALSE(std::filesystem::exists(checkpointPath(path)));
 }
 
+TEST_CASE("bake: bases of one term are made from four times as many entries") {
+    const TestDevice device;
+    BakeOptions options;
+    options.visibilitySize = 64;
+    options.faceSize = 32;
+    options.mapSize = 24;
+    options.factorization.terms = 2;
+    const auto truncation = [&](const char* material, TransportLayout layout, int coefficients) {
+        Scene scene;
+        scene.parts.push_back({"knot", makeKnot(400), material, "built-in knot", ""});
+        options.layout = {.layout = layout};
+        options.coefficients = coefficients;
+        const Asset asset = bake(device, scene, options);
+        CHECK_EQ(asset.coefficients, coefficients);
+        return asset.truncationError;
+    };
+    using enum TransportLayout;
+    CHECK_EQ(truncation("white-diffuse", Bases, 32), truncation("white-diffuse", Rows, 128));
+    CHECK_EQ(truncation("gold", Bases, 32), truncation("gold", Rows, 32));
+    CHECK_LT(truncation("white-diffuse", Bases, 6 * 32 * 32), 1e-6f); // never more than all
+}
+
 TEST_CASE("bake: bases are as good as a conversion of the rows, block by block or not") {
     const TestDevice device;
     const TemporaryFolder folder;
@@ -90,7 +112,11 @@ TEST_CASE("bake: bases are as good as a conversion of the rows, block by block o
     options.factorization.terms = 2;
     options.coefficients = 200;
     options.layout = {.layout = TransportLayout::Rows};
-    const Asset rows = bake(device, scene, options);
+    Asset rows = bake(device, scene, options);
+    options.coefficients *= 4; // as bases of one term are made from
+    rows.coefficients = options.coefficients;
+    rows.parts[1] = bake(device, scene, options).parts[1];
+    options.coefficients /= 4;
     BakeObserver silent;
     for (const LayoutOptions& layout : {LayoutOptions{.error = 0.05}, LayoutOptions{.bytesPerVertex = 120}}) {
         Asset converted = rows;
