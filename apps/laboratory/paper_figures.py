@@ -43,7 +43,7 @@ def figure_2(setup: Setup) -> Section:
         chapter.say("The same of the factorization that weighs what light and pixels ask for "
                     "(--factorization environment), in equal-area maps.")
         chapter.items.append(pictures_of(weighed, results, f"{model}, terms alone, weighed"))
-        chapter.say("As it is relit from one bake in the paper's way, but with relume's choice of 512 coefficients of "
+        chapter.say("As it is relit from one bake in the paper's way, but with relume's choice of 1,024 coefficients of "
                     "the light. What this adds comes from rows of 96 coefficients, which a single direction needs all "
                     "of, the simplified occluder and interpolation.")
         chapter.items.append(pictures_of(relit, results, f"{model}, relit"))
@@ -164,7 +164,7 @@ def figure_4(setup: Setup) -> Section:
             "outermost centers of a map fall is a matter of chance, and at S = 64 the first terms of "
             "Ashikhmin-Shirley describe these.")
         if bunnies:
-            chapter.say("Bunnies from bakes in the paper's way, lit by relume's choice of 512 coefficients.")
+            chapter.say("Bunnies from bakes in the paper's way, lit by relume's choice of 1,024 coefficients.")
         chapter.items += [pictures_of(bunny, results, bunny.title) for bunny in bunnies]
 
     return Section("Figure 4: BRDFs factored", steps, write)
@@ -192,7 +192,7 @@ def figure_5(setup: Setup) -> Section:
     def write(results: Results, chapter: Chapter) -> None:
         chapter.say(
             "Lucy in gray diffuse, in a single term of Ashikhmin-Shirley from polar maps, and in four terms from "
-            f"orthographic ones; under {light}, the paper's light not being known, in relume's choice of 512 "
+            f"orthographic ones; under {light}, the paper's light not being known, in relume's choice of 1,024 "
             "coefficients. Bakes are in the paper's way. The reference is of Ashikhmin-Shirley.")
         chapter.say(setup.scale.note)
         chapter.items.append(pictures_of(figure, results, str(model)))
@@ -262,7 +262,7 @@ def scenes(setup: Setup) -> Section:
         chapter.say(
             "Each in the paper's way (its factorization, K = 4, rows of 96 coefficients, the light above its threshold "
             "of 1024), with relume's defaults for direct light without refinement (K = 8, of anisotropic materials "
-            "9, bases, 512 coefficients of the light), and the reference: exact BRDF, full mesh, light of 6 x 256² "
+            "9, bases, 1,024 coefficients of the light), and the reference: exact BRDF, full mesh, light of 6 x 256² "
             "texels.")
         chapter.say(setup.scale.note)
         rows, errors = [], []

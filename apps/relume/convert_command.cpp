@@ -119,8 +119,8 @@ void addConvertCommand(CLI::App& program) {
         "A file of an earlier program, of format version 2, is updated; without --layout, --budget, --error "
         "and\n"
         "--coefficients its transport stays as it is.\n"
-        "The error is against FILE's own transport; `relume info` adds what FILE had lost already.\n"
-        "The more coefficients a bake kept (-N), the better a layout that is made of it.\n"
+        "The error is against FILE's own transport, in rows of N coefficients; `relume info` adds what FILE\n"
+        "had lost already. The more coefficients a bake kept (-N), the better a layout that is made of it.\n"
         "relume bake bunny.obj --layout rows -N 384 -o rows.relume\n"
         "relume convert rows.relume --layout bases --error 0.03 -o bunny.relume");
     command->callback([arguments] { run(*arguments); });

@@ -63,10 +63,11 @@ static void printSummary(const std::string& file, const Asset& asset, const nloh
                : asset.bounces == 1 ? std::string("direct and one bounce")
                                     : fmt::format("direct and up to {} bounces", asset.bounces),
                asset.faceSize);
-    fmt::print("transport: {:.0f} bytes a vertex in memory; keeping {} coefficients loses {:.1f} %{}\n",
-               info["total"]["bytes_per_vertex"].get<double>(), describeRowEntries(asset),
-               100 * double(asset.truncationError),
-               asset.layout ? fmt::format(", their layout {:.1f} %", 100 * asset.layout->error) : "");
+    fmt::print(
+        "transport: {:.0f} bytes a vertex in memory; keeping at most {} coefficients loses {:.1f} %{}\n",
+        info["total"]["bytes_per_vertex"].get<double>(), describeRowEntries(asset),
+        100 * double(asset.truncationError),
+        asset.layout ? fmt::format(", their layout {:.1f} %", 100 * asset.layout->error) : "");
     fmt::print("visibility: {}\n\n", info["kept_visibility"]["bytes"].get<uint64_t>() > 0
                                          ? "kept: `relume rebake` can take other materials"
                                          : "not kept: other materials need a new bake");

@@ -147,7 +147,8 @@ void addRebakeCommand(CLI::App& program) {
     arguments->layout.add(*command, false);
     command
         ->add_option("-N,--coefficients", arguments->coefficients,
-                     "Wavelet coefficients found per vertex and term")
+                     "Wavelet coefficients found per vertex and term, in bases four times as many where a "
+                     "material has one term")
         ->type_name("N");
     command->add_option("--map-size", arguments->mapSize, "Side of a light or view map")->type_name("S");
     command->add_option("--face-size", arguments->faceSize, "Side of a face of the lighting cube: 32 or 64")

@@ -72,9 +72,11 @@ void run(const VerifyArguments& arguments) {
                        found.bounceError);
         fmt::print("layout error         {:.4f}    all that is lost by how transport is kept\n",
                    found.layoutError);
-        fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
-                   asset.coefficients);
-        fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantizationError);
+        if (found.waveletError > 0 || found.quantizationError > 0) { // of rows
+            fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
+                       asset.coefficients);
+            fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantizationError);
+        }
         fmt::print("BRDF error           {:.4f}    cos-weighted RMS of the terms\n", found.brdfError);
         fmt::print("relight bits         {}         vertices that differ between device and CPU\n",
                    found.relightBits);

@@ -152,9 +152,9 @@ OrderedJson describeApproximations(const Asset& asset) {
     list.push_back(describeInterpolation(optionOf(asset, "refinement")));
     list.push_back("transport: " + describeSamples(asset.transportSamples));
     if (asset.coefficients < all)
-        list.push_back(
-            fmt::format("truncation: the {} largest of {} coefficients of a vertex and term were kept",
-                        describeRowEntries(asset), all));
+        list.push_back(fmt::format(
+            "truncation: of the {1} coefficients of a vertex and term at most the {0} largest were kept",
+            describeRowEntries(asset), all));
     for (const AssetPart& part : asset.parts)
         for (const MaterialSet& set : part.sets)
             list.push_back(fmt::format(

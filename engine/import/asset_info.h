@@ -10,7 +10,7 @@ namespace relume {
 // which `visibilityBytes` are kept visibility.
 std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t visibilityBytes = 0);
 
-// Returns the most coefficients that rows were made from, of all sets: "96", or "384 or 1536".
+// Returns the most entries of rows that a bake makes transport from, of all sets: "96", or "384 or 1536".
 std::string describeRowEntries(const Asset& asset);
 
 } // namespace relume

@@ -14,9 +14,9 @@ int termCount(const AssetPart& part) {
 }
 
 int rowEntries(const Asset& asset, const MaterialSet& set) {
-    constexpr int kOfOneTerm = 4;
     const bool isOneTerm = isCompressed(layoutOf(set.transport)) && set.brdf.terms == 1;
-    return std::min((isOneTerm ? kOfOneTerm : 1) * asset.coefficients, 6 * asset.faceSize * asset.faceSize);
+    return std::min((isOneTerm ? kOneTermEntries : 1) * asset.coefficients,
+                    6 * asset.faceSize * asset.faceSize);
 }
 
 uint64_t rowEntries(const Asset& asset, const AssetPart& part) {

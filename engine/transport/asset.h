@@ -108,10 +108,13 @@ struct Asset {
     Provenance provenance;
 };
 
-// Returns the most row entries from which a set's transport is made: N; or, in bases of one term, four times
-// N, up to all. Neighbors leave out the same coefficients, so that with N a wall that looks alike from
-// everywhere is too dark or bright as a whole; and one row more or less costs little beside those of a glossy
-// set.
+// Bases of one term are made from rows of so many times N entries. Neighbors leave out the same coefficients,
+// which with N makes whole walls too dark or bright; and one longer row costs little beside those of a glossy
+// set (docs/layouts.md).
+constexpr int kOneTermEntries = 4;
+
+// Returns the most row entries, N or more as above, from which a bake makes a set's transport. Bases that
+// were converted from rows, or baked before this rule, were made from N.
 int rowEntries(const Asset& asset, const MaterialSet& set);
 // Returns their number in the rows of all sets of a vertex.
 uint64_t rowEntries(const Asset& asset, const AssetPart& part);

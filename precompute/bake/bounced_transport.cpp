@@ -34,8 +34,10 @@ BakePlan planOfSources(const BakePlan& plan) {
     sources.options.transportSamples = 1;
     sources.asset.faceSize = sources.options.faceSize = kSourceFaceSize;
     sources.asset.visibilitySize = sources.options.visibilitySize = kSourceVisibilitySize;
-    // Rows have bounceEntries(): as many as rowEntries() gives bases, whatever the bake's layout is.
-    sources.asset.coefficients = sources.options.coefficients = bounceEntries(2);
+    // Rows have bounceEntries(), as rowEntries() has them for bases, whatever the bake's layout is.
+    constexpr int kSourceCoefficients = bounceEntries(2);
+    static_assert(bounceEntries(1) == kOneTermEntries * kSourceCoefficients);
+    sources.asset.coefficients = sources.options.coefficients = kSourceCoefficients;
     sources.asset.visibilityOffset = plan.asset.visibilityOffset;
     sources.blockVertices = plan.blockVertices;
     for (size_t number = 0; number < plan.asset.parts.size(); number++) {

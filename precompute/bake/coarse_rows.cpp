@@ -86,7 +86,8 @@ uint64_t CoarseRows::interpolatedBytes(const BakePlan& plan) {
     uint64_t bytes = 0;
     for (const AssetPart& part : plan.asset.parts) {
         const int rows = termCount(part);
-        bytes += part.mesh.vertexCount() * rowBytes(rows, uint64_t(rows) * kMostInterpolated);
+        const int kept = std::min(plan.asset.coefficients, kMostInterpolated);
+        bytes += part.mesh.vertexCount() * rowBytes(rows, uint64_t(rows) * uint64_t(kept));
     }
     return bytes;
 }

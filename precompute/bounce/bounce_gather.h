@@ -18,9 +18,9 @@ namespace relume {
 constexpr int kBounceFaceSize = 16;
 constexpr int kBounceCoefficients = 6 * kBounceFaceSize * kBounceFaceSize;
 
-// Returns the most row entries that are kept of bounced light to a part of so many terms, or of its source:
-// fewer of many terms, since these entries are most of what a bake with bounces holds in memory and gathers.
-constexpr int bounceEntries(int terms) { return terms == 1 ? 768 : 192; }
+// Returns the most entries of a row of bounced light to a part that has so many terms in all its sets, or of
+// a row of its source, a set of so many terms. They are most of what a bake with bounces holds in memory.
+constexpr int bounceEntries(int terms) { return (terms == 1 ? kOneTermEntries : 1) * 192; }
 
 // Returns the index in a cube of kBounceFaceSize of a coefficient (face · size² + y · size + x) of a larger
 // cube, or nothing if it is too fine. The Haar basis is nested: the coefficients of a cube of n texels per

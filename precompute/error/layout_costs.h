@@ -13,7 +13,7 @@ namespace relume {
 constexpr std::array<double, 7> kTriedLayoutErrors = {0.4, 0.25, 0.15, 0.1, 0.05, 0.03, 0.015};
 
 struct LayoutCosts {
-    // By tried error: RMS difference in radiance between bases and rows of plan.options.coefficients,
+    // By tried error: RMS difference in radiance between bases and the rows that they are made from,
     // relative to the exact radiance, of sums of terms under the whole light, without a residual; and bytes
     // of the whole asset's transport in memory.
     std::array<double, kTriedLayoutErrors.size()> errors{}, bytes{};

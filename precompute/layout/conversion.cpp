@@ -61,7 +61,7 @@ Conversion convertLayout(Asset& asset, const LayoutOptions& given, const Convers
     Conversion conversion;
     conversion.bytesBefore = bytesOf(sets);
     if (areShorter) asset.coefficients = *coefficients;
-    if (needsRows) makeRows(sets, asset, passes);
+    if (needsRows) makeRows(sets, asset, isCompressed(options.layout), passes);
     if (isCompressed(options.layout)) {
         conversion.error = compress(asset, sets, options, passes);
         if (!std::isfinite(*conversion.error)) throw Error(kTooLarge);

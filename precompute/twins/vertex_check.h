@@ -9,7 +9,7 @@ namespace relume {
 struct TermReference {
     std::vector<vec3> transport;    // 6 · F² values before the Haar transform
     std::vector<vec3> coefficients; // after it
-    std::vector<uint16_t> selected; // the N largest, N being the asset's
+    std::vector<uint16_t> selected; // the asset.coefficients largest, as rows keep them
     PackedRow row;
 };
 

@@ -7,7 +7,10 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 
+#include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
+#include <numeric>
 
 using namespace relume;
 using relume::test::TemporaryFolder;
@@ -97,6 +100,37 @@ TEST_CASE("bake: bases of one term are made from four times as many entries") {
     CHECK_EQ(truncation("white-diffuse", Bases, 32), truncation("white-diffuse", Rows, 128));
     CHECK_EQ(truncation("gold", Bases, 32), truncation("gold", Rows, 32));
     CHECK_LT(truncation("white-diffuse", Bases, 6 * 32 * 32), 1e-6f); // never more than all
+}
+
+TEST_CASE("bake: bases of one term that are converted to bases keep their entries") {
+    const TestDevice device;
+    Scene scene;
+    scene.parts.push_back({"knot", makeKnot(400), "white-diffuse", "built-in knot", ""});
+    BakeOptions options;
+    options.visibilitySize = 64;
+    options.faceSize = 32;
+    options.coefficients = 32;
+    options.layout.error = 0.01;
+    Asset asset = bake(device, scene, options);
+    const Transport before = asset.parts[0].sets[0].transport;
+    convertLayout(asset, {.error = 0.001});
+    const Transport& after = asset.parts[0].sets[0].transport;
+    double lost = 0, lostByN = 0, all = 0; // squared: by the conversion, by rows of N
+    for (size_t row = 0; row < verticesOf(before); row++) {
+        const std::vector<vec3> expected = dequantizedRow(before, row, 6 * 32 * 32),
+                                found = dequantizedRow(after, row, 6 * 32 * 32);
+        std::vector<double> squares;
+        for (size_t i = 0; i < expected.size(); i++) {
+            const vec3 difference = found[i] - expected[i];
+            lost += double(glm::dot(difference, difference));
+            squares.push_back(double(glm::dot(expected[i], expected[i])));
+        }
+        std::ranges::sort(squares);
+        all = std::accumulate(squares.begin(), squares.end(), all);
+        lostByN = std::accumulate(squares.begin(), squares.end() - options.coefficients, lostByN);
+    }
+    MESSAGE("lost ", std::sqrt(lost / all), ", by rows of N ", std::sqrt(lostByN / all));
+    CHECK_LT(lost, 0.25 * lostByN);
 }
 
 TEST_CASE("bake: bases are as good as a conversion of the rows, block by block or not") {

@@ -58,7 +58,7 @@ json unchanged() {
             {"samples", 4},
             {"material", ""},
             {"ground-style", "shadow"},
-            {"coefficients", 512}};
+            {"coefficients", 1024}};
 }
 
 void checkIsRendered(ViewerSession& session, const std::string& words, const std::string& file) {

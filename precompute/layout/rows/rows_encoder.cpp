@@ -5,17 +5,19 @@
 
 namespace relume {
 
-void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, ConversionPasses& passes) {
+void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, bool becomeBases,
+              ConversionPasses& passes) {
     constexpr uint32_t kTogether = 64;
     const std::vector<SetPlace> places = placesOf(sets, kTogether);
     std::vector<std::vector<PackedRow>> packed(places.size());
     passes.run(places, [&](size_t i) {
         const Transport& transport = sets[places[i].set]->transport;
+        const int kept = becomeBases ? rowEntries(asset, *sets[places[i].set]) : asset.coefficients;
         const size_t terms = termsOf(transport), first = places[i].first * terms;
         for (size_t row = first; row < first + places[i].count * terms; row++) {
             const std::vector<vec3> coefficients =
                 dequantizedRow(transport, row, size_t(6 * asset.faceSize * asset.faceSize));
-            packed[i].push_back(packLargest(coefficients, asset.coefficients));
+            packed[i].push_back(packLargest(coefficients, kept));
         }
     });
     std::vector<SparseTransport> made(sets.size());

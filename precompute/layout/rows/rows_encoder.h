@@ -5,8 +5,10 @@
 
 namespace relume {
 
-// Converts the sets' transport from any layout to rows of at most asset.coefficients entries.
-void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, ConversionPasses& passes);
+// Converts the sets' transport from any layout to rows of at most asset.coefficients entries; or, if they are
+// to become bases again, of rowEntries().
+void makeRows(std::span<MaterialSet* const> sets, const Asset& asset, bool becomeBases,
+              ConversionPasses& passes);
 
 // The functions that layouts.h requires of a layout.
 inline void prepareLayout(SparseTransport&, const FactoredBrdf&, bool) {}
