@@ -127,17 +127,6 @@ std::string describeTerms(const Asset& asset) {
                        hasCenters ? "at the maps' texel centers" : "averaged over the maps' texels");
 }
 
-} // namespace
-
-std::string describeRowEntries(const Asset& asset) {
-    std::set<int> numbers;
-    for (const AssetPart& part : asset.parts)
-        for (const MaterialSet& set : part.sets) numbers.insert(rowEntries(asset, set));
-    return fmt::format("{}", fmt::join(numbers, " or "));
-}
-
-namespace {
-
 OrderedJson describeApproximations(const Asset& asset) {
     const int all = 6 * asset.faceSize * asset.faceSize;
     OrderedJson list = OrderedJson::array();
@@ -240,6 +229,13 @@ std::string describeAssetJson(const Asset& asset, uint64_t fileBytes, uint64_t v
         info["refinement"] = refinement;
     if (asset.provenance.bakedShare) info["preview"] = {{"baked_share", *asset.provenance.bakedShare}};
     return info.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+}
+
+std::string describeRowEntries(const Asset& asset) {
+    std::set<int> numbers;
+    for (const AssetPart& part : asset.parts)
+        for (const MaterialSet& set : part.sets) numbers.insert(rowEntries(asset, set));
+    return fmt::format("{}", fmt::join(numbers, " or "));
 }
 
 } // namespace relume

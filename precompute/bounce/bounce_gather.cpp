@@ -135,7 +135,7 @@ void BounceGather::gatherVertex(size_t number, uint32_t vertex, std::span<const 
         }
     }
 
-    const int kept = bounceEntries(int(terms)); // of all sets
+    const int kept = bounceEntries(int(terms));
     size_t row = 0;
     for (SparseTransport& own : rows) {
         for (uint32_t term = 0; term < own.terms; term++, row++) {

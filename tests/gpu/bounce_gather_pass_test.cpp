@@ -35,8 +35,8 @@ TEST_CASE("bounce gather pass: gathers the CPU's rows, in every set, term and ch
     const Asset asset = makeBounceScene(6, 4);
     const BounceHits hits(asset, defaultAppearance(asset));
     std::mt19937 random(21);
-    for (const int coefficients :
-         {8, 200, 1000}) { // fewer and more than bounced rows of many terms, and one, keep
+    // These are fewer and more than bounced rows keep, of many terms and of one.
+    for (const int coefficients : {8, 200, 1000}) {
         CAPTURE(coefficients);
         const std::vector<SparseTransport> from = {randomRows(asset.parts[0], random, coefficients),
                                                    randomRows(asset.parts[1], random, coefficients)};
