@@ -74,5 +74,5 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "relume, python3-matplotlib, python3-
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librelume-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libvulkan-dev, libglm-dev, libfmt-dev, libzstd-dev, libxxhash-dev, libspirv-cross-c-shared-dev, libopenexr-dev, libpng-dev, libtinygltf-dev, libtinyobjloader-dev, libmeshoptimizer-dev, libstb-dev, nlohmann-json3-dev")
+    "libvulkan-dev, libglm-dev, libfmt-dev, libzstd-dev, libxxhash-dev, libspirv-cross-c-shared-dev, libopenexr-dev, libpng-dev, zlib1g-dev, libtinygltf-dev, libtinyobjloader-dev, libmeshoptimizer-dev, libstb-dev, nlohmann-json3-dev")
 include(CPack)

@@ -1,6 +1,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
+#include "engine/import/exr_check.h"
 #include "engine/import/image_codecs.h"
 
 #include <OpenEXR/ImfArray.h>
@@ -70,8 +71,13 @@ int32_t versionOf(std::span<const std::byte> bytes) {
     return version;
 }
 
+struct CheckedHeader {
+    Imf::Header header;
+    size_t bytes;
+};
+
 // Reads the header of a single-part image file.
-Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name) {
+CheckedHeader readHeader(std::span<const std::byte> bytes, const std::string& name) {
     constexpr size_t kPrefixBytes = 8; // magic number, then version and flags
     if (bytes.size() < kPrefixBytes)
         throw Error(fmt::format("{}: the file ends within its OpenEXR header", name));
@@ -81,7 +87,7 @@ Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name
             fmt::format("{}: expected an OpenEXR file of one part of flat pixels, found a multi-part or deep "
                         "one; save one flat part",
                         name));
-    checkExrHeader(bytes, name);
+    const size_t headerBytes = checkExrHeader(bytes, name);
     MemoryReader reader(bytes, name);
     reader.seekg(kPrefixBytes);
     Imf::Header header;
@@ -89,7 +95,7 @@ Imf::Header readHeader(std::span<const std::byte> bytes, const std::string& name
     header.sanityCheck(Imf::isTiled(version));
     if (header.hasType() && !Imf::isImage(header.type()))
         throw Error(fmt::format("{}: expected OpenEXR pixels, found a part of type {}", name, header.type()));
-    return header;
+    return {header, headerBytes};
 }
 
 size_t bytesPerPixel(const Imf::ChannelList& channels) {
@@ -102,8 +108,8 @@ size_t bytesPerPixel(const Imf::ChannelList& channels) {
 // Throws if decoding would need implausibly much memory for the file's size. OpenEXR decodes whole chunks (up
 // to 256 rows, or a tile) and stores an 8-byte offset for each. Even a scanline file may describe tiles,
 // which nothing has checked.
-void checkChunks(const Imf::Header& header, bool isTiled, int64_t width, int64_t height, size_t fileBytes,
-                 const std::string& name) {
+void checkChunkSizes(const Imf::Header& header, bool isTiled, int64_t width, int64_t height, size_t fileBytes,
+                     const std::string& name) {
     constexpr int64_t kMostRows = 256;
     int64_t chunkWidth = width, chunkHeight = kMostRows;
     if (isTiled) {
@@ -187,16 +193,18 @@ bool isExr(std::span<const std::byte> bytes) {
 }
 
 ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) try {
-    const Imf::Header header = readHeader(bytes, name);
+    const auto [header, headerBytes] = readHeader(bytes, name);
+    const bool isTiled = Imf::isTiled(versionOf(bytes));
     const Imath::Box2i window = header.dataWindow();
     const int64_t width = int64_t(window.max.x) - window.min.x + 1;
     const int64_t height = int64_t(window.max.y) - window.min.y + 1;
     checkImageSize(name, width, height, bytes.size());
     checkDensity(name, width, height, bytes.size());
-    checkChunks(header, Imf::isTiled(versionOf(bytes)), width, height, bytes.size(), name);
+    checkChunkSizes(header, isTiled, width, height, bytes.size(), name);
     const bool luminance = isLuminance(header.channels(), name);
     warnOfPrimaries(header, name);
     const ImageProjection projection = projectionOf(header, name);
+    checkExrChunks(bytes, headerBytes, header, isTiled, name);
     MemoryReader reader(bytes, name);
     Imf::InputFile file(reader);
     return {readPixels(file, window, luminance), projection};

@@ -2,7 +2,7 @@
 // known types it reads the number of bytes it expects, whatever the stated size, and would then take
 // arbitrary bytes for sizes.
 #include "engine/base/error.h"
-#include "engine/import/image_codecs.h"
+#include "engine/import/exr_check.h"
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,9 @@ class HeaderWalk {
   public:
     HeaderWalk(Bytes bytes, const std::string& name) : mRest(bytes), mName(name) {}
 
-    void run() {
+    // Returns the number of bytes of the header.
+    size_t run() {
+        const size_t all = mRest.size();
         take(8); // magic number, version and flags
         while (!takeText().empty()) {
             const std::string_view type = takeText();
@@ -44,6 +46,7 @@ class HeaderWalk {
             HeaderWalk value(take(size_t(size)), mName);
             value.checkValue(type);
         }
+        return all - mRest.size();
     }
 
   private:
@@ -102,6 +105,6 @@ class HeaderWalk {
 
 } // namespace
 
-void checkExrHeader(Bytes bytes, const std::string& name) { HeaderWalk(bytes, name).run(); }
+size_t checkExrHeader(Bytes bytes, const std::string& name) { return HeaderWalk(bytes, name).run(); }
 
 } // namespace relume

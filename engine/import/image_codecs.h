@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/import/image_file.h"
+#include "engine/scene/texture.h"
 
 #include <cstddef>
 #include <span>
@@ -12,6 +13,7 @@ namespace relume {
 
 bool isExr(std::span<const std::byte> bytes);
 bool isRadiance(std::span<const std::byte> bytes);
+bool isPng(std::span<const std::byte> bytes);
 
 // Decodes a file's bytes as readImage() does; `name` names the file in errors.
 ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name);
@@ -20,10 +22,11 @@ ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name)
 ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name);
 Image decodeRadiance(std::span<const std::byte> bytes, const std::string& name);
 
-// Throws Error unless the header attributes of a one-part OpenEXR file have sizes that fit their types.
-void checkExrHeader(std::span<const std::byte> bytes, const std::string& name);
-
 std::vector<std::byte> encodeExr(const Image& image);
+
+// Decodes a PNG file, its colors as they are stored; `missingAlpha` is the alpha of all texels if it has
+// none. Throws Error.
+Texture decodePng(std::span<const std::byte> bytes, const std::string& name, uint8_t missingAlpha);
 
 // Encodes texels of four bytes, red, green, blue and alpha, row by row; `name` names the file in errors.
 // Throws Error.
@@ -37,5 +40,8 @@ void checkImageSize(const std::string& name, int64_t width, int64_t height, size
 
 // A stricter check for float pixels, which take sixteen bytes each in memory: zeros compress a thousandfold.
 void checkDensity(const std::string& name, int64_t width, int64_t height, size_t bytes);
+
+// Throws Error as checkImageSize() does, and for more than kLongestTextureSide a side.
+void checkTextureSize(const std::string& name, int64_t width, int64_t height, size_t bytes);
 
 } // namespace relume

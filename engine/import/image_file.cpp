@@ -65,6 +65,14 @@ void checkDensity(const std::string& name, int64_t width, int64_t height, size_t
             name, width, height, bytes, kAlwaysFine, kPixelsPerByte));
 }
 
+void checkTextureSize(const std::string& name, int64_t width, int64_t height, size_t bytes) {
+    if (width > kLongestTextureSide || height > kLongestTextureSide)
+        throw Error(
+            fmt::format("{}: is {} x {} pixels, expected at most {} a side for a texture: scale it down",
+                        name, width, height, kLongestTextureSide));
+    checkImageSize(name, width, height, bytes);
+}
+
 ImageFile decodeImage(std::span<const std::byte> bytes, const std::string& name) {
     ImageFile file;
     if (isExr(bytes))

@@ -1,5 +1,6 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/import/exr_check.h"
 #include "engine/import/image_codecs.h"
 #include "tests/support/exr_sample.h"
 #include "tests/support/temporary_folder.h"
@@ -210,6 +211,38 @@ TEST_CASE("image file: damaged OpenEXR is an error, never a crash") {
     tiled.setTileDescription(Imf::TileDescription(8, 4));
     test::writeHalves(folder.path() / "halves.exr", tiled, {"R", "G", "B"});
     checkBitFlips(readFile(folder.path() / "halves.exr"), 300);
+}
+
+TEST_CASE("image file: an OpenEXR chunk that unpacks to less than its pixels is refused") {
+    const std::string runs("\x03\x07", 2),
+        deflated("x\x9c\x63\x60\x60\x60\0\0\0\x04\0\x01", 12); // four bytes
+    for (const bool isTiled : {false, true})
+        for (const auto& [compression, packed] : {std::pair(Imf::NO_COMPRESSION, std::string(60, '\x3c')),
+                                                  {Imf::RLE_COMPRESSION, runs},
+                                                  {Imf::ZIPS_COMPRESSION, deflated},
+                                                  {Imf::ZIP_COMPRESSION, deflated},
+                                                  {Imf::PIZ_COMPRESSION, ""},
+                                                  {Imf::PXR24_COMPRESSION, ""},
+                                                  {Imf::B44_COMPRESSION, ""},
+                                                  {Imf::DWAA_COMPRESSION, ""},
+                                                  {Imf::DWAB_COMPRESSION, ""}}) {
+            CAPTURE(isTiled);
+            CAPTURE(int(compression));
+            Imf::Header header(20, 18);
+            header.compression() = compression;
+            if (isTiled) header.setTileDescription(Imf::TileDescription(16, 4));
+            test::writeHalves(folder.path() / "halves.exr", header, {"R", "G", "B"});
+            Bytes bytes = readFile(folder.path() / "halves.exr");
+            CHECK(readBytes(bytes).image.at(19, 17).z == doctest::Approx(191).epsilon(0.02));
+            // The first chunk, of which the table after the header says where it starts.
+            uint64_t start;
+            std::memcpy(&start, &bytes[checkExrHeader(bytes, "bytes")], sizeof start);
+            start += isTiled ? 16 : 4;
+            const auto size = int32_t(packed.size());
+            std::memcpy(&bytes[start], &size, sizeof size);
+            std::memcpy(&bytes[start + sizeof size], packed.data(), packed.size());
+            CHECK_THROWS_WITH_AS(readBytes(bytes), doctest::Contains("do not unpack"), Error);
+        }
 }
 
 TEST_CASE("image file: OpenEXR attributes of other sizes than their types have are refused") {

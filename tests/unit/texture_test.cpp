@@ -163,9 +163,11 @@ TEST_CASE("texture: truncated, absurd and foreign files") {
     CHECK(textureFailure(samplePngHeader(8192, 8192) + png.substr(33)).find("hold") != std::string::npos);
     CHECK(textureFailure(samplePngHeader(0, 4) + png.substr(33)) != "");
     CHECK(textureFailure(samplePngHeader(40, 25) + png.substr(33)) != "");
-    std::string damaged = png;
-    damaged[50] ^= 1;
-    CHECK(textureFailure(damaged).find("check sum") != std::string::npos);
+    for (size_t i = 0; i < png.size(); i++) {
+        std::string damaged = png;
+        damaged[i] ^= 1;
+        CHECK(textureFailure(damaged).find("picture") != std::string::npos);
+    }
     CHECK(textureFailure(png + "after the end") == "");
 }
 

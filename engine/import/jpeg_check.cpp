@@ -1,7 +1,6 @@
-#include "engine/import/texture_check.h"
+#include "engine/import/jpeg_check.h"
 
 #include "engine/base/error.h"
-#include "engine/scene/texture.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +13,6 @@ namespace relume {
 namespace {
 
 using Bytes = std::span<const std::byte>;
-
-constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
 
 // Takes big-endian numbers from the front of a file or segment.
 class Reader {
@@ -38,7 +35,6 @@ class Reader {
         return value;
     }
 
-    const std::string& name() const { return mName; }
     Reader takeReader(size_t count) { return {take(count), mName}; }
 
     [[noreturn]] void fail(std::string_view what) const {
@@ -49,30 +45,6 @@ class Reader {
     Bytes mBytes;
     const std::string& mName;
 };
-
-void checkSides(uint32_t width, uint32_t height, const std::string& name) {
-    if (width > uint32_t(kLongestTextureSide) || height > uint32_t(kLongestTextureSide))
-        throw Error(
-            fmt::format("{}: is {} x {} pixels, expected at most {} a side for a texture: scale it down",
-                        name, width, height, kLongestTextureSide));
-}
-
-// Returns the CRC-32 of PNG (ISO 3309).
-uint32_t checkSum(Bytes bytes) {
-    static const std::array<uint32_t, 256> kTable = [] {
-        std::array<uint32_t, 256> table;
-        for (uint32_t i = 0; i < 256; i++) {
-            uint32_t value = i;
-            for (int bit = 0; bit < 8; bit++) value = value & 1 ? 0xedb88320u ^ value >> 1 : value >> 1;
-            table[i] = value;
-        }
-        return table;
-    }();
-    uint32_t sum = 0xffffffff;
-    for (const std::byte byte : bytes)
-        sum = kTable[(sum ^ std::to_integer<uint32_t>(byte)) & 0xff] ^ sum >> 8;
-    return ~sum;
-}
 
 // Walks a JPEG file's segments (ITU-T T.81, annex B) to the end of the image.
 class JpegWalk {
@@ -134,9 +106,7 @@ class JpegWalk {
 
     void readFrame(Reader& segment) {
         if (!mComponents.empty()) segment.fail("it has more than one frame");
-        segment.take(1);
-        const uint32_t height = segment.takeNumber(2);
-        checkSides(segment.takeNumber(2), height, segment.name());
+        segment.take(5); // precision, height and width
         const uint32_t count = segment.takeNumber(1);
         for (uint32_t i = 0; i < count; i++) {
             const uint32_t id = segment.takeNumber(1);
@@ -187,32 +157,9 @@ class JpegWalk {
 
 } // namespace
 
-bool isPng(Bytes bytes) {
-    return bytes.size() >= kPngSignature.size() &&
-           std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin(),
-                      [](char a, std::byte b) { return std::byte(a) == b; });
-}
-
 bool isJpeg(Bytes bytes) {
     return bytes.size() >= 3 && bytes[0] == std::byte(0xff) && bytes[1] == std::byte(0xd8) &&
            bytes[2] == std::byte(0xff);
-}
-
-void checkPng(Bytes bytes, const std::string& name) {
-    constexpr uint32_t kEnd = 0x49454e44, kHeader = 0x49484452; // IEND, IHDR
-    Reader file(bytes.subspan(kPngSignature.size()), name);
-    for (uint32_t kind = 0; kind != kEnd;) {
-        const uint32_t size = file.takeNumber(4);
-        if (size > 0x7fffffff) file.fail("a chunk claims to be larger than any");
-        const Bytes chunk = file.take(size_t(size) + 4);
-        Reader content(chunk, name);
-        kind = content.takeNumber(4);
-        if (kind == kHeader) {
-            const uint32_t width = content.takeNumber(4);
-            checkSides(width, content.takeNumber(4), name);
-        }
-        if (file.takeNumber(4) != checkSum(chunk)) file.fail("a check sum does not agree");
-    }
 }
 
 void checkJpeg(Bytes bytes, const std::string& name) { JpegWalk(bytes, name).run(); }
