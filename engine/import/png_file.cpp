@@ -64,23 +64,23 @@ void take(png_structp reader, png_bytep target, size_t size) {
     rest = rest.subspan(size);
 }
 
-// Reads all before the pixels, and asks for four bytes of each. Returns false if libpng fails.
-bool readHeader(png_structp reader, png_infop info, uint8_t missingAlpha) {
+// Reads all before the pixels. Returns false if libpng fails.
+bool readHeader(png_structp reader, png_infop info) {
     if (setjmp(png_jmpbuf(reader))) return false;
     png_set_crc_action(reader, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_read_info(reader, info);
+    return true;
+}
+
+// Reads the pixels, four bytes of each, and what follows them. Returns false if libpng fails.
+bool readRows(png_structp reader, png_infop info, uint8_t missingAlpha, png_bytepp rows) {
+    if (setjmp(png_jmpbuf(reader))) return false;
     png_set_expand(reader);
     png_set_strip_16(reader);
     png_set_gray_to_rgb(reader);
     png_set_add_alpha(reader, missingAlpha, PNG_FILLER_AFTER);
     png_set_interlace_handling(reader);
-    png_read_update_info(reader, info);
-    return true;
-}
-
-// Reads the pixels and what follows them. Returns false if libpng fails.
-bool readRows(png_structp reader, png_bytepp rows) {
-    if (setjmp(png_jmpbuf(reader))) return false;
+    png_read_update_info(reader, info); // allocates rows
     png_read_image(reader, rows);
     png_read_end(reader, nullptr);
     return true;
@@ -119,7 +119,7 @@ Texture decodePng(std::span<const std::byte> bytes, const std::string& name, uin
     require(reader.info);
     png_set_user_limits(reader.png, kMostSide, kMostSide);
     png_set_read_fn(reader.png, &rest, take);
-    require(readHeader(reader.png, reader.info, missingAlpha));
+    require(readHeader(reader.png, reader.info));
     const size_t width = png_get_image_width(reader.png, reader.info),
                  height = png_get_image_height(reader.png, reader.info);
     checkTextureSize(name, int64_t(width), int64_t(height), bytes.size());
@@ -128,7 +128,7 @@ Texture decodePng(std::span<const std::byte> bytes, const std::string& name, uin
     std::vector<png_bytep> rows;
     for (size_t y = 0; y < height; y++)
         rows.push_back(reinterpret_cast<png_bytep>(&texture.texels[y * width]));
-    require(readRows(reader.png, rows.data()));
+    require(readRows(reader.png, reader.info, missingAlpha, rows.data()));
     return texture;
 }
 
