@@ -8,8 +8,11 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <sys/resource.h>
+#include <unistd.h>
 
 using namespace relume;
 using namespace relume::test;
@@ -170,6 +173,22 @@ TEST_CASE("texture: truncated, absurd and foreign files") {
     }
     CHECK(textureFailure(png + "after the end") == "");
 }
+
+#ifndef RELUME_SANITIZE // sanitizers reserve more than there is
+TEST_CASE("texture: a PNG's size is checked before there is memory for its rows") {
+    const std::string file =
+        samplePngHeader(12'000'000, 1) + samplePng(gradient()).substr(33); // 200 MB in libpng
+    size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit usual;
+    REQUIRE(getrlimit(RLIMIT_AS, &usual) == 0);
+    const rlimit scarce{pages * size_t(sysconf(_SC_PAGESIZE)) + (size_t(64) << 20), usual.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_AS, &scarce) == 0);
+    const std::string failure = textureFailure(file);
+    setrlimit(RLIMIT_AS, &usual);
+    CHECK(failure.find("12000000 x 1 pixels") != std::string::npos);
+}
+#endif
 
 TEST_CASE("texture: JPEG tables that overflow or are missing") {
     const std::string jpeg = sampleJpeg(gradient());
