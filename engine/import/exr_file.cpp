@@ -207,6 +207,8 @@ ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) t
     checkExrChunks(bytes, headerBytes, header, isTiled, name);
     MemoryReader reader(bytes, name);
     Imf::InputFile file(reader);
+    if (!file.isComplete())
+        throw Error(fmt::format("{}: damaged OpenEXR file: it lacks pixels; get the file again", name));
     return {readPixels(file, window, luminance), projection};
 } catch (const Error&) {
     throw;

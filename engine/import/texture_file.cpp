@@ -22,11 +22,12 @@ Texture decodeJpeg(std::span<const std::byte> bytes, const std::string& name, ui
         throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
     checkTextureSize(name, width, height, bytes.size());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+        stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
     if (!pixels) throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
     Texture texture{width, height, {}};
+    texture.texels.reserve(texture.texelCount());
     for (size_t i = 0; i < texture.texelCount(); i++) {
-        const stbi_uc* pixel = &pixels.get()[3 * i];
+        const stbi_uc* pixel = &pixels.get()[4 * i];
         texture.texels.push_back(uint32_t(missingAlpha) << 24 | uint32_t(pixel[2]) << 16 |
                                  uint32_t(pixel[1]) << 8 | uint32_t(pixel[0]));
     }
@@ -36,15 +37,17 @@ Texture decodeJpeg(std::span<const std::byte> bytes, const std::string& name, ui
 } // namespace
 
 Texture decodeTexture(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
-    // stb_image would try many more formats, some of which it does not read safely.
-    if (!isPng(bytes) && !isJpeg(bytes))
-        throw Error(fmt::format("{}: expected a PNG or JPEG image, found neither: convert it", name));
     if (bytes.size() > kLargestTextureFile)
         throw Error(fmt::format("{}: has {} bytes, expected at most {} for a texture: scale it down", name,
                                 bytes.size(), kLargestTextureFile));
     const uint8_t missingAlpha = srgb ? 255 : 0; // a linear image holds weights, of which a missing one is 0
-    Texture texture =
-        isPng(bytes) ? decodePng(bytes, name, missingAlpha) : decodeJpeg(bytes, name, missingAlpha);
+    Texture texture;
+    if (isPng(bytes))
+        texture = decodePng(bytes, name, missingAlpha);
+    else if (isJpeg(bytes))
+        texture = decodeJpeg(bytes, name, missingAlpha);
+    else // stb_image would try many more formats, some of which it does not read safely
+        throw Error(fmt::format("{}: expected a PNG or JPEG image, found neither: convert it", name));
     texture.srgb = srgb;
     return texture;
 }

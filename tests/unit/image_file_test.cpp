@@ -12,11 +12,12 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <algorithm>
-
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <doctest/doctest.h>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stb_image.h>
 #include <stb_image_write.h>
@@ -224,6 +225,7 @@ TEST_CASE("image file: an OpenEXR chunk that unpacks to less than its pixels is 
                                                   {Imf::PIZ_COMPRESSION, ""},
                                                   {Imf::PXR24_COMPRESSION, ""},
                                                   {Imf::B44_COMPRESSION, ""},
+                                                  {Imf::B44A_COMPRESSION, ""},
                                                   {Imf::DWAA_COMPRESSION, ""},
                                                   {Imf::DWAB_COMPRESSION, ""}}) {
             CAPTURE(isTiled);
@@ -243,6 +245,39 @@ TEST_CASE("image file: an OpenEXR chunk that unpacks to less than its pixels is 
             std::memcpy(&bytes[start + sizeof size], packed.data(), packed.size());
             CHECK_THROWS_WITH_AS(readBytes(bytes), doctest::Contains("do not unpack"), Error);
         }
+}
+
+TEST_CASE("image file: OpenEXR chunks are where the library looks for them") {
+    const auto written = [](Imf::LineOrder order, std::optional<Imf::TileDescription> tiles = std::nullopt) {
+        Imf::Header header(20, 18);
+        header.compression() = Imf::RLE_COMPRESSION;
+        header.lineOrder() = order;
+        if (tiles) header.setTileDescription(*tiles);
+        test::writeHalves(folder.path() / "halves.exr", header, {"R", "G", "B"});
+        return readFile(folder.path() / "halves.exr");
+    };
+    const Imf::TileDescription tiles(8, 4), mipmaps(8, 4, Imf::MIPMAP_LEVELS);
+    for (const Bytes& bytes : {written(Imf::INCREASING_Y), written(Imf::DECREASING_Y),
+                               written(Imf::INCREASING_Y, tiles), written(Imf::DECREASING_Y, tiles)})
+        CHECK(readBytes(bytes).image.at(19, 17) == vec4(189, 190, 191, 1));
+
+    const auto tableOf = [](Bytes& bytes) { return &bytes[checkExrHeader(bytes, "bytes")]; };
+    // The library reads the lines that follow the first ones, not those that the table names.
+    Bytes moved = written(Imf::INCREASING_Y);
+    std::array<uint64_t, 3> starts;
+    std::memcpy(starts.data(), tableOf(moved), sizeof starts);
+    const Bytes chunk(&moved[starts[1]], &moved[starts[2]]);
+    starts[1] = moved.size();
+    std::memcpy(tableOf(moved), starts.data(), sizeof starts);
+    moved.insert(moved.end(), chunk.begin(), chunk.end());
+    CHECK_THROWS_WITH_AS(readBytes(moved), doctest::Contains("follow one another"), Error);
+
+    Bytes repeated = written(Imf::INCREASING_Y, tiles);
+    std::memcpy(tableOf(repeated) + 8, tableOf(repeated), 8); // a tile in two places
+    CHECK_THROWS_WITH_AS(readBytes(repeated), doctest::Contains("another place"), Error);
+    // Levels that were not written: the library would make a table of what it finds.
+    CHECK_THROWS_WITH_AS(readBytes(written(Imf::INCREASING_Y, mipmaps)), doctest::Contains("lacks pixels"),
+                         Error);
 }
 
 TEST_CASE("image file: OpenEXR attributes of other sizes than their types have are refused") {
