@@ -39,6 +39,10 @@ struct ChannelFactors {
     }
 };
 
+bool areIsotropic(std::span<const BrdfTable> tables) {
+    return std::ranges::all_of(tables, &BrdfTable::isIsotropic);
+}
+
 // Square roots of the weights of errors of f. A factorization minimizes ‖light · error · diag(view)‖.
 struct Weights {
     MatrixXf light;     // n × n, upper triangular; empty if diagonal
@@ -52,14 +56,22 @@ struct Weights {
     }
 };
 
-Weights weightsOf(const BrdfTable& table, Factorization method) {
+// Nine terms resolve little of an anisotropic lobe at grazing angles, and there is no residual of bounced
+// light, which then is too dark there. So these views count for more, cos^.65 θo instead of cosθo.
+Weights weightsOf(std::span<const BrdfTable> tables, Factorization method) {
+    const BrdfTable& table = tables[0];
     const auto n = Index(table.directions.size());
     if (method == Factorization::Environment) return {lightMetric(table), {}, viewMetric(table)};
     VectorXf root = VectorXf::Ones(n);
     if (method != Factorization::Paper)
         for (Index i = 0; i < n; i++)
             root[i] = table.directions[size_t(i)].z * std::sqrt(table.solidAngles[size_t(i)]);
-    if (method == Factorization::NonNegative) return {{}, root, viewMetric(table)};
+    if (method == Factorization::NonNegative) {
+        VectorXf view = viewMetric(table);
+        if (!areIsotropic(tables))
+            for (Index o = 0; o < n; o++) view[o] *= std::pow(table.directions[size_t(o)].z, -0.175f);
+        return {{}, root, view};
+    }
     return {{}, root, root};
 }
 
@@ -213,7 +225,7 @@ std::array<ChannelFactors, 3> factorizeTogether(std::span<const BrdfTable> table
 
 std::array<ChannelFactors, 3> factorizeChannels(std::span<const BrdfTable> tables, Factorization method,
                                                 int terms) {
-    const Weights weights = weightsOf(tables[0], method);
+    const Weights weights = weightsOf(tables, method);
     const bool isSymmetric = tables.size() == 1 && tables[0].asymmetry <= kReciprocalAsymmetry &&
                              (method == Factorization::Paper || method == Factorization::Cosine);
     const std::array<size_t, 3> first = firstEqualChannels(tables);
@@ -266,8 +278,8 @@ int termsFor(float wanted, std::span<const BrdfTable> tables, const FactoredBrdf
 // Returns K where none is given.
 int defaultTerms(std::span<const BrdfTable> tables, Factorization method) {
     if (method == Factorization::Normalized) return 1;
-    const bool isIsotropic = std::ranges::all_of(tables, &BrdfTable::isIsotropic);
-    return method == Factorization::NonNegative && !isIsotropic ? kAnisotropicTerms : kIsotropicTerms;
+    return method == Factorization::NonNegative && !areIsotropic(tables) ? kAnisotropicTerms
+                                                                         : kIsotropicTerms;
 }
 
 } // namespace

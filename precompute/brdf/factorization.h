@@ -22,8 +22,8 @@ enum class Factorization {
     // radiance under typical environments.
     Environment,
     // Least squares of f cosθi over the pixels of a convex object, with nonnegative maps: sums cannot
-    // undershoot, but the error is larger. All channels share gray light maps. The terms reflect as much of
-    // an even light into every view as f.
+    // undershoot, but the error is larger. Grazing views of anisotropic BRDFs count for more. All
+    // channels share gray light maps. The terms reflect as much of an even light into every view as f.
     NonNegative,
     // One term, the normalized decomposition (Kautz and McCool 1999), with p = 2: the view map is the norm of
     // f over incoming directions, the light map the mean over outgoing directions of f divided by the view
