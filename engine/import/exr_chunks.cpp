@@ -43,6 +43,7 @@ bool isRunLengthsOf(Bytes packed, size_t wanted) {
     return unpacked == wanted;
 }
 
+// Returns whether a zlib stream inflates to `wanted` bytes, which are counted and not kept.
 bool isDeflatedFrom(Bytes packed, size_t wanted) {
     z_stream stream{};
     if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();

@@ -64,12 +64,11 @@ void take(png_structp reader, png_bytep target, size_t size) {
     rest = rest.subspan(size);
 }
 
-// Reads all before the pixels. Returns false if libpng fails.
+// Reads all before the pixels, of which only what they need is unpacked. Returns false if libpng fails.
 bool readHeader(png_structp reader, png_infop info) {
     if (setjmp(png_jmpbuf(reader))) return false;
     png_set_crc_action(reader, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    png_set_keep_unknown_chunks(reader, PNG_HANDLE_CHUNK_NEVER, nullptr,
-                                -1);                                   // only what pixels need is unpacked
+    png_set_keep_unknown_chunks(reader, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_option(reader, PNG_MAXIMUM_INFLATE_WINDOW, PNG_OPTION_ON); // some files claim too small a one
     png_read_info(reader, info);
     return true;
