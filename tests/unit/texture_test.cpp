@@ -194,13 +194,6 @@ TEST_CASE("texture: a PNG's size is checked before there is memory for its rows"
 }
 #endif
 
-TEST_CASE("texture: text in a PNG is not unpacked") {
-    std::string text("note\0\0damaged", 13), file = samplePng(gradient());
-    const std::string size("\0\0\0\x0d", 4), chunk = "zTXt" + text;
-    file.insert(33, size + chunk + pngSum(chunk));
-    CHECK(decode(file).texels == gradient().texels);
-}
-
 TEST_CASE("texture: JPEG tables that overflow or are missing") {
     const std::string jpeg = sampleJpeg(gradient());
     const size_t huffman = jpeg.find("\xff\xc4"), scan = jpeg.find("\xff\xda");
