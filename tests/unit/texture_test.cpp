@@ -13,6 +13,7 @@
 #include <random>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <zlib.h>
 
 using namespace relume;
 using namespace relume::test;
@@ -35,6 +36,19 @@ Texture gradient() {
     for (uint32_t y = 0; y < 24; y++)
         for (uint32_t x = 0; x < 40; x++) texture.texels.push_back(6 * x | 10 * y << 8 | 0xff800000);
     return texture;
+}
+
+// Bytes of this process's memory at their most since resetPeakMemory(), which returns what they are now.
+size_t peakMemory() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) << 10;
+    return 0;
+}
+
+size_t resetPeakMemory() {
+    std::ofstream("/proc/self/clear_refs") << 5;
+    return peakMemory();
 }
 
 } // namespace
@@ -193,6 +207,24 @@ TEST_CASE("texture: a PNG's size is checked before there is memory for its rows"
     CHECK(failure.find("12000000 x 1 pixels") != std::string::npos);
 }
 #endif
+
+TEST_CASE("texture: texts in a PNG are not unpacked") {
+    const std::string text(size_t(7) << 20, ' '); // libpng unpacks texts of up to 8 MB
+    uLongf packedBytes = 60000;
+    std::string packed(packedBytes, '\0');
+    REQUIRE(compress(reinterpret_cast<Bytef*>(packed.data()), &packedBytes,
+                     reinterpret_cast<const Bytef*>(text.data()), text.size()) == Z_OK);
+    const std::string content = std::string("Title\0\0", 7) + packed.substr(0, packedBytes); // 0: deflate
+    std::string chunk = std::string("\0\0\0\0zTXt", 8) + content + "sum.";
+    chunk[2] = char(content.size() >> 8);
+    chunk[3] = char(content.size());
+    std::string file = samplePng(gradient());
+    for (int copy = 0; copy < 40; copy++) file.insert(33, chunk);
+    resealPng(file);
+    const size_t before = resetPeakMemory();
+    CHECK(textureFailure(file) == "");
+    CHECK(peakMemory() - before < size_t(32) << 20);
+}
 
 TEST_CASE("texture: JPEG tables that overflow or are missing") {
     const std::string jpeg = sampleJpeg(gradient());
