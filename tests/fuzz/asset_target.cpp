@@ -20,24 +20,21 @@ enum Depth { kRaw, kSealed, kEdits, kOldSealed, kOldEdits, kBouncedEdits, kDepth
 
 // mixedAsset() without residuals, which files of the version before lack.
 Asset oldAsset() {
-    Asset asset = mixedAsset();
+    Asset asset = mixedAsset(1, kSmallSample);
     asset.parts[1].sets[0].residual = nullptr;
     return asset;
 }
 
-const std::vector<RawChunk>& oldChunks() {
-    static const std::vector<RawChunk> chunks = [] {
-        std::vector<std::byte> file = oldFileOf(oldAsset());
-        poke(file, 8, kAssetFormatVersion, 4); // for the reader of chunks
-        reseal(file);
-        return chunksOf(file);
-    }();
-    return chunks;
+EditableFile oldFile() {
+    Bytes file = oldFileOf(oldAsset());
+    poke(file, 8, kAssetFormatVersion, 4); // for the reader of chunks
+    reseal(file);
+    return EditableFile(chunksOf(file));
 }
 
 // mixedAsset() with shares of direct light.
 Asset bouncedAsset() {
-    Asset asset = mixedAsset();
+    Asset asset = mixedAsset(1, kSmallSample);
     asset.bounces = 2;
     MaterialSet& set = asset.parts[1].sets[0];
     set.directShares.assign(asset.parts[1].mesh.vertexCount() * set.shareWords(), 0x80ff01ffu);
@@ -64,13 +61,14 @@ void tryVisibility(std::span<const std::byte> file) {
 }
 
 void run(std::span<const std::byte> input) {
-    static const std::vector<RawChunk> sample = keptChunks(), bounced = chunksOf(encodeAsset(bouncedAsset()));
+    static const EditableFile sample(keptChunks(kSmallSample)),
+        bounced(chunksOf(encodeAsset(bouncedAsset()))), old = oldFile();
     const int depth = input.empty() ? kRaw : int(input[0]) % kDepths;
     const auto rest = input.subspan(std::min<size_t>(input.size(), 1));
     Bytes file(rest.begin(), rest.end());
     if (depth == kEdits) file = editedFile(sample, ByteReader(rest, "edits"));
     if (depth == kBouncedEdits) file = editedFile(bounced, ByteReader(rest, "edits"));
-    if (depth == kOldEdits) file = editedFile(oldChunks(), ByteReader(rest, "edits"));
+    if (depth == kOldEdits) file = editedFile(old, ByteReader(rest, "edits"));
     if (depth == kOldSealed || depth == kOldEdits) poke(file, 8, kAssetFormatVersion - 1, 4);
     if (depth != kRaw) reseal(file);
     if (isOldAsset(file)) {
@@ -90,8 +88,8 @@ void run(std::span<const std::byte> input) {
 
 std::vector<Bytes> seeds() {
     const std::string edit = std::string("\x01\x01\x10\0\xff\xff\xff\xff", 8);
-    return {seedOf({kRaw}, fileOf(keptChunks())),
-            seedOf({kSealed}, encodeAsset(mixedAsset())),
+    return {seedOf({kRaw}, fileOf(keptChunks(kSmallSample))),
+            seedOf({kSealed}, encodeAsset(mixedAsset(1, kSmallSample))),
             seedOf({kEdits}, edit),
             seedOf({kOldSealed}, oldFileOf(oldAsset())),
             seedOf({kOldEdits}, edit),

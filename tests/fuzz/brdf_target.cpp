@@ -1,5 +1,7 @@
-// Readers of measured BRDFs. The first byte of an input chooses: 0: the rest is the text of a Cornell file;
-// 1: the same, which is made into a table; 2: a MERL file. The values of MERL files are the target merl's.
+// Readers of measured BRDFs, in three targets. brdf: the first byte of an input chooses whether the rest is
+// the text of a Cornell file or a MERL file, which then is too short. cornell: such a text is made into a
+// table. merl: edits of a whole file's values. The last two take milliseconds for an input, whatever its
+// size.
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "precompute/brdf/cornell.h"
@@ -14,22 +16,18 @@ namespace relume::test {
 
 namespace {
 
-enum Kind { kCornellText, kCornell, kMerl, kKinds };
-
 void checkTable(const IsotropicTable& table) {
     for (size_t cell = 0; cell < table.cellCount(); cell++)
         for (int c = 0; c < 3; c++) RELUME_CHECK(std::isfinite(table[cell][c]) && table[cell][c] >= 0);
 }
 
 void run(std::span<const std::byte> input) {
-    const int kind = input.empty() ? kMerl : int(input[0]) % kKinds;
-    const auto rest = input.subspan(std::min<size_t>(input.size(), 1));
+    if (input.empty()) return;
+    const auto rest = input.subspan(1);
     try {
-        if (kind == kCornellText) {
+        if (int(input[0]) % 2 == 0) {
             for (const CornellSample& sample : readCornellText(textOf(rest), "input").samples)
                 for (const float value : sample.values) RELUME_CHECK(std::isfinite(value));
-        } else if (kind == kCornell) {
-            checkTable(parseCornell(textOf(rest), "input"));
         } else {
             parseMerl(rest, "input");
         }
@@ -37,15 +35,29 @@ void run(std::span<const std::byte> input) {
     }
 }
 
-std::vector<Bytes> seeds() {
+void runCornell(std::span<const std::byte> input) {
+    try {
+        checkTable(parseCornell(textOf(input), "input"));
+    } catch (const Error&) {
+    }
+}
+
+std::string cornellText() {
     std::string text = "# a comment\n5\n400 450 500\n600 700\n";
     for (int i = 0; i < 17; i++)
         text += fmt::format("{} 0 {} -1.5 0.1 0.2 {} 0.1 0.05\n", 0.08 * i, 0.05 * i, 0.01 * i);
-    const std::string merl("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12);
-    return {seedOf({kCornellText}, text), seedOf({kCornell}, text), seedOf({kMerl}, merl)};
+    return text;
 }
 
-const AddFuzzTarget kAdded({"brdf", run, seeds, uint64_t(64) << 20, 64, 20});
+std::vector<Bytes> seeds() {
+    const std::string merl("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12);
+    return {seedOf({0}, cornellText()), seedOf({1}, merl)};
+}
+
+std::vector<Bytes> cornellSeeds() { return {seedOf({}, cornellText())}; }
+
+const AddFuzzTarget kAdded({"brdf", run, seeds}),
+    kAddedCornell({"cornell", runCornell, cornellSeeds, uint64_t(64) << 20, 64, 20});
 
 constexpr size_t kMerlBytes = 12 + 3 * 1458000 * sizeof(double);
 

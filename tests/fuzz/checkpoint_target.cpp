@@ -49,8 +49,12 @@ void runCache(int depth, std::span<const std::byte> rest) {
     if (depth == kCacheEdits) RELUME_CHECK(file == sample);
 }
 
+// A bake of two parts, of two blocks and of one.
+CheckpointSample sampleIn(TransportLayout layout) { return CheckpointSample(layout, shardedAsset(70, 3)); }
+
 void runCheckpoint(int depth, std::span<const std::byte> rest) {
-    static const CheckpointSample rows(TransportLayout::Rows), bases(TransportLayout::Bases);
+    static const CheckpointSample rows = sampleIn(TransportLayout::Rows),
+                                  bases = sampleIn(TransportLayout::Bases);
     const bool isInBases = !rest.empty() && int(rest[0]) % 2 == 1;
     const CheckpointSample& sample = isInBases ? bases : rows;
     rest = rest.subspan(std::min<size_t>(rest.size(), 1));
@@ -82,8 +86,7 @@ std::vector<Bytes> seeds() {
     std::vector<Bytes> all = {seedOf({kCache}, sampleCache()), seedOf({kCacheEdits}, edit),
                               seedOf({kCacheSealedEdits}, version)};
     for (const int layout : {0, 1}) {
-        const Bytes file =
-            CheckpointSample(layout == 0 ? TransportLayout::Rows : TransportLayout::Bases).file();
+        const Bytes file = sampleIn(layout == 0 ? TransportLayout::Rows : TransportLayout::Bases).file();
         all.push_back(seedOf({kRaw, layout}, file));
         all.push_back(seedOf({kSealed, layout}, file));
         all.push_back(seedOf({kEdits, layout}, edit));

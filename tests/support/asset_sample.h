@@ -110,18 +110,29 @@ inline std::shared_ptr<ResidualSet> sampleResidual(const FactoredBrdf& brdf) {
     return residual;
 }
 
-inline Asset sampleAsset(uint32_t seed = 1) {
+// What sample assets have: vertices of their parts (the last is in bases), coefficients of rows, and columns
+// of bases.
+struct SampleSize {
+    uint32_t first = 19, second = 11, bases = 300;
+    int coefficients = 24;
+    uint32_t columns = 60;
+};
+
+// Of what a fuzzer can read thousands in a second.
+constexpr SampleSize kSmallSample{5, 3, 9, 6, 12};
+
+inline Asset sampleAsset(uint32_t seed = 1, const SampleSize& size = {}) {
     std::mt19937 random(seed);
     Asset asset;
     asset.faceSize = 8;
     asset.visibilitySize = 32;
-    asset.coefficients = 24;
+    asset.coefficients = size.coefficients;
     asset.transportSamples = 4;
     asset.visibilityOffset = 0.1f;
     asset.truncationError = 0.21f;
     asset.quantizationError = 1e-3f;
-    asset.parts.push_back(samplePart(19, 3, asset.faceSize, asset.coefficients, random));
-    asset.parts.push_back(samplePart(11, 1, asset.faceSize, asset.coefficients, random));
+    asset.parts.push_back(samplePart(size.first, 3, asset.faceSize, asset.coefficients, random));
+    asset.parts.push_back(samplePart(size.second, 1, asset.faceSize, asset.coefficients, random));
     asset.parts[1].name = "ground \xc3\xa9\"\n";
     // The first part has all that a part can have: three layers for two materials, a second set, textures.
     AssetPart& rich = asset.parts[0];
@@ -131,13 +142,13 @@ inline Asset sampleAsset(uint32_t seed = 1) {
     const std::vector<vec3> layer = set.brdf.viewMaps;
     for (int extra = 0; extra < 2; extra++)
         set.brdf.viewMaps.insert(set.brdf.viewMaps.end(), layer.begin(), layer.end());
-    rich.sets.push_back(samplePart(19, 2, asset.faceSize, asset.coefficients, random).sets[0]);
+    rich.sets.push_back(samplePart(size.first, 2, asset.faceSize, asset.coefficients, random).sets[0]);
     rich.sets[1].materials[0].name = "other";
-    for (uint32_t i = 0; i < 19; i++) rich.mesh.uvs.push_back({float(i) / 7, -float(i)});
+    for (uint32_t i = 0; i < size.first; i++) rich.mesh.uvs.push_back({float(i) / 7, -float(i)});
     rich.baseColor = Texture{2, 3, {1, 2, 3, 4, 5, 0xff000000}, true};
     rich.materialMap = Texture{1, 1, {0x12345678}, false};
     // The second is painted by its colors.
-    for (uint32_t i = 0; i < 11; i++) asset.parts[1].mesh.colors.push_back(vec4(float(i) / 10));
+    for (uint32_t i = 0; i < size.second; i++) asset.parts[1].mesh.colors.push_back(vec4(float(i) / 10));
     for (const vec3& normal : asset.parts[1].mesh.normals)
         asset.parts[1].mesh.tangents.push_back(tangentFrame(normal, {1, 2, 3}).s);
     asset.parts[1].paintedByColors = true;
@@ -194,12 +205,12 @@ inline void reseal(std::vector<std::byte>& bytes) {
 }
 
 // The same with a residual, and a third part in bases.
-inline Asset mixedAsset(uint32_t seed = 1) {
-    Asset asset = sampleAsset(seed);
+inline Asset mixedAsset(uint32_t seed = 1, const SampleSize& size = {}) {
+    Asset asset = sampleAsset(seed, size);
     std::mt19937 random(seed + 1);
     asset.parts[1].sets[0].residual = sampleResidual(asset.parts[1].sets[0].brdf);
-    asset.parts.push_back(samplePart(300, 2, asset.faceSize, asset.coefficients, random));
-    asset.parts[2].sets[0].transport = sampleBases(300, 2, asset.faceSize, 60, random);
+    asset.parts.push_back(samplePart(size.bases, 2, asset.faceSize, asset.coefficients, random));
+    asset.parts[2].sets[0].transport = sampleBases(size.bases, 2, asset.faceSize, size.columns, random);
     return asset;
 }
 

@@ -3,12 +3,28 @@
 
 #include "tests/support/asset_sample.h"
 
+#include <map>
+
 namespace relume::test {
 
-// A file of chunks with edits of their content. Each edit is 8 bytes: chunk, kind, offset (2), value (4).
-inline std::vector<std::byte> editedFile(std::vector<RawChunk> chunks, ByteReader in) {
+// The chunks of a file, as they are and as they are stored.
+struct EditableFile {
+    explicit EditableFile(std::vector<RawChunk> content) : chunks(std::move(content)) {
+        for (const RawChunk& chunk : chunks)
+            stored.push_back(storeChunk(chunk.tag, chunk.part, chunk.run, chunk.raw));
+    }
+
+    std::vector<RawChunk> chunks;
+    std::vector<StoredChunk> stored;
+};
+
+// A file with edits of its chunks' content; edited chunks are not compressed, which takes most of the time.
+// Each edit is 8 bytes: chunk, kind, offset (2), value (4).
+inline std::vector<std::byte> editedFile(const EditableFile& file, ByteReader in) {
+    std::map<size_t, RawChunk> edited;
     while (in.left() >= 8) {
-        RawChunk& chunk = chunks[in.get<uint8_t>() % chunks.size()];
+        const size_t number = in.get<uint8_t>() % file.chunks.size();
+        RawChunk& chunk = edited.try_emplace(number, file.chunks[number]).first->second;
         const auto kind = in.get<uint8_t>();
         const size_t offset = in.get<uint16_t>() % chunk.raw.size();
         const auto value = in.get<uint32_t>();
@@ -30,7 +46,19 @@ inline std::vector<std::byte> editedFile(std::vector<RawChunk> chunks, ByteReade
             break;
         }
     }
-    return fileOf(chunks);
+    ChunkWriter writer;
+    for (size_t i = 0; i < file.chunks.size(); i++) {
+        const auto found = edited.find(i);
+        if (found == edited.end()) {
+            writer.addStored(file.stored[i].entry, [&bytes = file.stored[i].bytes] { return bytes; });
+        } else {
+            const RawChunk& chunk = found->second;
+            const size_t size = chunk.raw.size();
+            writer.addStored({chunk.tag, chunk.part, chunk.run, 0, size, size, hash64(chunk.raw)},
+                             [&chunk] { return chunk.raw; });
+        }
+    }
+    return writer.finish();
 }
 
 // Bytes with edits. Each is 8 bytes: kind (2), offset (2), value (4).

@@ -11,8 +11,8 @@ namespace relume::test {
 constexpr const char* kVisibilityKey = "0123456789abcdef0123456789abcdef";
 
 // Of visibility in the least size that can be kept.
-inline Asset keptAsset() {
-    Asset asset = sampleAsset();
+inline Asset keptAsset(const SampleSize& size = {}) {
+    Asset asset = sampleAsset(1, size);
     asset.visibilitySize = 64;
     return asset;
 }
@@ -34,8 +34,8 @@ inline void setVisibilityKey(std::vector<RawChunk>& chunks, const std::string& k
 }
 
 // The chunks of keptAsset() with its visibility.
-inline std::vector<RawChunk> keptChunks() {
-    const Asset asset = keptAsset();
+inline std::vector<RawChunk> keptChunks(const SampleSize& size = {}) {
+    const Asset asset = keptAsset(size);
     std::vector<RawChunk> chunks = chunksOf(encodeAsset(asset));
     setVisibilityKey(chunks, kVisibilityKey);
     const uint32_t block = visibilityRunVertices(asset);

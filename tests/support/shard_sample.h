@@ -7,14 +7,14 @@
 
 namespace relume::test {
 
-// Parts of five and of two blocks, the first with two sets.
-inline Asset shardedAsset() {
+// Two parts, the first with two sets; with no other numbers of vertices, of five and of two blocks.
+inline Asset shardedAsset(uint32_t first = 300, uint32_t second = 70) {
     std::mt19937 random(5);
     Asset asset = sampleAsset();
     asset.truncationError = asset.quantizationError = 0;
-    asset.parts = {samplePart(300, 3, asset.faceSize, 4, random),
-                   samplePart(70, 1, asset.faceSize, 3, random)};
-    asset.parts[0].sets.push_back(samplePart(300, 2, asset.faceSize, 5, random).sets[0]);
+    asset.parts = {samplePart(first, 3, asset.faceSize, 4, random),
+                   samplePart(second, 1, asset.faceSize, 3, random)};
+    asset.parts[0].sets.push_back(samplePart(first, 2, asset.faceSize, 5, random).sets[0]);
     asset.parts[0].sets[1].materials[0].name = "other";
     return asset;
 }
