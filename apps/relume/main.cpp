@@ -5,7 +5,7 @@
 using namespace relume;
 
 int main(int argc, char** argv) {
-    logToStderr("relume");
+    startProgram("relume");
 
     CLI::App program{"Relights glossy objects in real time from transport baked once per vertex.", "relume"};
     program.set_version_flag("--version", "relume " RELUME_VERSION);

@@ -1,11 +1,14 @@
 #include "apps/relume/run_program.h"
 
 #include "engine/base/error.h"
+#include "engine/base/error_message.h"
 #include "engine/base/log.h"
 #include "engine/base/nearest_name.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <fmt/core.h>
 #include <iostream>
 #include <malloc.h>
@@ -25,6 +28,20 @@ void keepFreedMemory() {
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
     mallopt(M_MMAP_THRESHOLD, 32 << 20); // the value it would grow to by itself if the other were not set
 #endif
+}
+
+// Ends the program where an exception leaves what must not throw.
+[[noreturn]] void endAtException() {
+    try {
+        if (const std::exception_ptr cause = std::current_exception()) std::rethrow_exception(cause);
+    } catch (const std::bad_alloc& failure) {
+        std::fprintf(stderr, "error: %s\n", errorMessage(failure));
+        std::_Exit(kExitFailed);
+    } catch (const std::exception& bug) {
+        std::fprintf(stderr, "error: unexpected: %s\n", bug.what());
+    } catch (...) {
+    }
+    std::abort();
 }
 
 constexpr const char* kUnwritten =
@@ -67,7 +84,8 @@ class PrintableText : public spdlog::custom_flag_formatter {
 
 } // namespace
 
-void logToStderr(const char* name) {
+void startProgram(const char* name) {
+    std::set_terminate(endAtException);
     spdlog::set_default_logger(spdlog::stderr_color_mt(name));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
     formatter->add_flag<PrintableText>('*').set_pattern("%^%l%$: %*");
@@ -108,11 +126,8 @@ int runProgram(CLI::App& program, int argc, char** argv, const std::function<voi
     } catch (const NoDeviceError& none) {
         spdlog::error("{}", none.what());
         return kExitNoDevice;
-    } catch (const std::bad_alloc&) {
-        spdlog::error("out of memory");
-        return kExitFailed;
     } catch (const std::exception& failure) {
-        spdlog::error("{}", std::ferror(stdout) ? kUnwritten : failure.what());
+        spdlog::error("{}", std::ferror(stdout) ? kUnwritten : errorMessage(failure));
         return kExitFailed;
     }
 }

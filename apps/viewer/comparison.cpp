@@ -1,5 +1,7 @@
 #include "apps/viewer/comparison.h"
 
+#include "engine/base/error_message.h"
+
 #include <chrono>
 #include <sys/resource.h>
 #include <tbb/task_arena.h>
@@ -81,7 +83,7 @@ void Comparison::run(std::stop_token stop) {
             } catch (const std::exception& why) { // missing measured data, too little memory
                 reference.reset();
                 model.reset();
-                publish({.failure = why.what()}, pass);
+                publish({.failure = errorMessage(why)}, pass);
             }
         });
     }

@@ -11,7 +11,7 @@
 using namespace relume;
 
 int main(int argc, char** argv) {
-    logToStderr("relume-viewer");
+    startProgram("relume-viewer");
 
     CLI::App program{"Shows bakes and meshes under any distant light, live.", "relume-viewer"};
     program.set_version_flag("--version", "relume-viewer " RELUME_VERSION);

@@ -1,6 +1,8 @@
 // The last message to the user, shown at the window's lower edge and written to the terminal.
 #pragma once
 
+#include "engine/base/error_message.h"
+
 #include <chrono>
 #include <string>
 
@@ -32,7 +34,7 @@ void attempt(Notice& notice, Work work) {
     try {
         work();
     } catch (const std::exception& why) {
-        notice.tell(why.what(), true);
+        notice.tell(errorMessage(why), true);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "apps/viewer/screenshot.h"
 #include "apps/viewer/video.h"
 #include "engine/base/error.h"
+#include "engine/base/error_message.h"
 #include "engine/base/file.h"
 #include "engine/import/image_file.h"
 #include "engine/import/timing_file.h"
@@ -114,7 +115,7 @@ void Outputs::save(const SceneState& state, const Model* model, GroundStyle grou
             saveScreenshot(file, screen, state, model, ground);
             mTell(file.string() + " is written", false);
         } catch (const std::exception& why) {
-            failure = why.what();
+            failure = errorMessage(why);
         }
     }
     if (!failure.empty()) throw Error(failure);

@@ -104,6 +104,7 @@ void Ui::destroyFramebuffers() {
 
 void Ui::resized() {
     destroyFramebuffers();
+    mFramebuffers.reserve(mSwapchain.images().size()); // nothing may throw between creation and ownership
     for (const vk::Image& image : mSwapchain.images()) {
         const VkImageView view = image.view();
         VkFramebufferCreateInfo create{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};

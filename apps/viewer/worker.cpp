@@ -1,5 +1,7 @@
 #include "apps/viewer/worker.h"
 
+#include "engine/base/error_message.h"
+
 namespace relume {
 
 Worker::Worker(std::function<void()> wake)
@@ -58,7 +60,7 @@ void Worker::run(std::stop_token stop) {
         try {
             result = job.work();
         } catch (const std::exception& failure) {
-            result = [onError = job.onError, text = std::string(failure.what())] { onError(text); };
+            result = [onError = job.onError, text = std::string(errorMessage(failure))] { onError(text); };
         }
         {
             const std::lock_guard lock(mMutex);

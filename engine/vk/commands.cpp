@@ -243,6 +243,7 @@ VkBufferView Commands::texelView(const Binding& binding) {
     const uint64_t texel = texelBytes(binding.texelFormat);
     RELUME_CHECK_LE(binding.bytes / texel, mDevice.mostTexels(texel));
     create.range = binding.bytes / texel * texel;
+    mTexelViews.reserve(mTexelViews.size() + 1); // nothing may throw between creation and ownership
     return mTexelViews.emplace_back(RELUME_VK_CREATE(vkCreateBufferView, mDevice.handle(), create));
 }
 
@@ -263,6 +264,7 @@ VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
             create.maxSets = kSetsPerPool;
             create.poolSizeCount = uint32_t(std::size(sizes));
             create.pPoolSizes = sizes;
+            mDescriptorPools.reserve(mDescriptorPools.size() + 1); // as in texelView()
             const VkDescriptorPool pool = mDescriptorPools.emplace_back(
                 RELUME_VK_CREATE(vkCreateDescriptorPool, mDevice.handle(), create));
             mDevice.setName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, reinterpret_cast<uint64_t>(pool), "descriptors");

@@ -11,6 +11,7 @@
 #include "shaders/portable_shaders.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <fmt/core.h>
 #include <sstream>
@@ -367,11 +368,12 @@ uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags properties,
 
 void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) const {
     if (!mSetName) return;
-    const std::string text(name);
+    char text[128]; // longer names are cut off: what has just been made must not be lost for want of memory
+    std::snprintf(text, sizeof text, "%.*s", int(name.size()), name.data());
     VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
     info.objectType = type;
     info.objectHandle = handle;
-    info.pObjectName = text.c_str();
+    info.pObjectName = text;
     mSetName(mDevice, &info);
 }
 

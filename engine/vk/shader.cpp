@@ -2,13 +2,36 @@
 
 #include "engine/base/check.h"
 
+#include <memory>
+#include <new>
 #include <spirv_cross/spirv_cross_c.h>
+#include <string_view>
+#include <type_traits>
 
 namespace relume::vk {
 
 namespace {
 
-void checkSpvc(spvc_result result) { RELUME_CHECK_EQ(int(result), int(SPVC_SUCCESS)); }
+struct DestroyContext {
+    void operator()(spvc_context context) const { spvc_context_destroy(context); }
+};
+using Context = std::unique_ptr<std::remove_pointer_t<spvc_context>, DestroyContext>;
+
+Context makeContext() {
+    spvc_context context;
+    if (spvc_context_create(&context) != SPVC_SUCCESS) throw std::bad_alloc();
+    return Context(context);
+}
+
+// Shaders are the program's own: what fails for another reason than memory, which some functions tell only in
+// words, is a bug.
+void checkSpvc(const Context& context, spvc_result result) {
+    if (result == SPVC_SUCCESS) return;
+    const std::string_view why = spvc_context_get_last_error_string(context.get());
+    if (result == SPVC_ERROR_OUT_OF_MEMORY || why.find("bad_alloc") != std::string_view::npos)
+        throw std::bad_alloc();
+    failCheck("a shader can be read", why, __FILE__, __LINE__);
+}
 
 VkShaderStageFlagBits stageOf(SpvExecutionModel model) {
     switch (model) {
@@ -21,11 +44,11 @@ VkShaderStageFlagBits stageOf(SpvExecutionModel model) {
     }
 }
 
-void addBindings(spvc_compiler compiler, spvc_resources resources, spvc_resource_type type,
-                 VkDescriptorType descriptor, ShaderInterface& interface) {
+void addBindings(const Context& context, spvc_compiler compiler, spvc_resources resources,
+                 spvc_resource_type type, VkDescriptorType descriptor, ShaderInterface& interface) {
     const spvc_reflected_resource* list;
     size_t count;
-    checkSpvc(spvc_resources_get_resource_list_for_type(resources, type, &list, &count));
+    checkSpvc(context, spvc_resources_get_resource_list_for_type(resources, type, &list, &count));
     for (size_t i = 0; i < count; i++) {
         RELUME_CHECK_EQ(spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationDescriptorSet), 0u);
         interface.bindings[spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding)] =
@@ -33,15 +56,15 @@ void addBindings(spvc_compiler compiler, spvc_resources resources, spvc_resource
     }
 }
 
-uint32_t pushConstantBytes(spvc_compiler compiler, spvc_resources resources) {
+uint32_t pushConstantBytes(const Context& context, spvc_compiler compiler, spvc_resources resources) {
     const spvc_reflected_resource* list;
     size_t count;
-    checkSpvc(spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, &list,
-                                                        &count));
+    checkSpvc(context, spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT,
+                                                                 &list, &count));
     if (count == 0) return 0;
     size_t bytes;
     const spvc_type type = spvc_compiler_get_type_handle(compiler, list[0].base_type_id);
-    checkSpvc(spvc_compiler_get_declared_struct_size(compiler, type, &bytes));
+    checkSpvc(context, spvc_compiler_get_declared_struct_size(compiler, type, &bytes));
     return uint32_t(bytes);
 }
 
@@ -63,28 +86,26 @@ std::array<uint32_t, 3> groupSize(spvc_compiler compiler, const Constants& const
 } // namespace
 
 ShaderInterface reflect(std::span<const uint32_t> spirv, const Constants& constants) {
-    spvc_context context;
-    checkSpvc(spvc_context_create(&context));
+    const Context context = makeContext();
     spvc_parsed_ir ir;
-    checkSpvc(spvc_context_parse_spirv(context, spirv.data(), spirv.size(), &ir));
+    checkSpvc(context, spvc_context_parse_spirv(context.get(), spirv.data(), spirv.size(), &ir));
     spvc_compiler compiler;
-    checkSpvc(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
-                                           &compiler));
+    checkSpvc(context, spvc_context_create_compiler(context.get(), SPVC_BACKEND_NONE, ir,
+                                                    SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler));
     spvc_resources resources;
-    checkSpvc(spvc_compiler_create_shader_resources(compiler, &resources));
+    checkSpvc(context, spvc_compiler_create_shader_resources(compiler, &resources));
 
     ShaderInterface interface {};
     interface.stage = stageOf(spvc_compiler_get_execution_model(compiler));
-    addBindings(compiler, resources, SPVC_RESOURCE_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                interface);
-    addBindings(compiler, resources, SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,
+    addBindings(context, compiler, resources, SPVC_RESOURCE_TYPE_STORAGE_BUFFER,
+                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, interface);
+    addBindings(context, compiler, resources, SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,
                 VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, interface);
     // SPIR-V 1.6 has no samplers for buffers; the shaders use no other images without samplers.
-    addBindings(compiler, resources, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
+    addBindings(context, compiler, resources, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
                 VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, interface);
-    interface.pushConstantBytes = pushConstantBytes(compiler, resources);
+    interface.pushConstantBytes = pushConstantBytes(context, compiler, resources);
     if (interface.stage == VK_SHADER_STAGE_COMPUTE_BIT) interface.groupSize = groupSize(compiler, constants);
-    spvc_context_destroy(context);
     return interface;
 }
 

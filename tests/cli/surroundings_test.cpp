@@ -17,8 +17,8 @@ const std::string kFlatBake =
     "--face-size 32 --map-size 8 -q ";
 
 // A picture of in.relume that takes no time.
-const std::string kDraw = "render in.relume --size 16x12 --distant-light 0,45 --residual off --samples 1 "
-                          "--background none --exposure=0 -o ";
+const std::string kDraw = "render in.relume --size 16x12 --residual off --samples 1 --background none "
+                          "--exposure=0 -o ";
 
 struct MeshFolder : TemporaryFolder {
     MeshFolder() { write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"); }
@@ -143,7 +143,7 @@ TEST_CASE("surroundings: at every write of a picture the disk can be full, or th
             CAPTURE(kind);
             const auto draw = [&](int call) {
                 folder.write(output, "precious");
-                return runRelume(folder, kDraw + output,
+                return runRelume(folder, kDraw + output + " --distant-light 0,45",
                                  std::string(kNoThreads) +
                                      " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_PATH=" + output +
                                      " RELUME_FAULT=" + kind + " RELUME_FAULT_CALL=" + std::to_string(call));
@@ -163,4 +163,43 @@ TEST_CASE("surroundings: at every write of a picture the disk can be full, or th
             CHECK_GT(call, 3); // a write, a flush and a rename
             CHECK_NE(contents(folder.path() / output), "precious");
         }
+}
+
+TEST_CASE("surroundings: a file that cannot be opened or read to its end is an error that names it") {
+    const MeshFolder folder;
+    folder.write("in.relume", baked(folder, "-m clay"));
+    folder.write("scene.json", R"({"parts": [{"mesh": "mesh.obj", "material": "tin.json"}]})");
+    folder.write("tin.json", R"({"model": "plastic"})");
+    folder.write("lamp.json", R"({"distant": [{"azimuth": 0, "elevation": 45, "irradiance": [1, 1, 1]}]})");
+    succeed(folder, "render in.relume -o room.exr --size 16x8");
+    const std::string bake = "bake scene.json" + kFlatBake.substr(kFlatBake.find(" --")) + "-o out.relume",
+                      draw = kDraw + "out.png ";
+    const std::pair<std::string, std::string> readings[] = {{"scene.json", bake},
+                                                            {"mesh.obj", bake},
+                                                            {"tin.json", bake},
+                                                            {"in.relume", draw + "--distant-light 0,45"},
+                                                            {"room.exr", draw + "-e room.exr"},
+                                                            {"lamp.json", draw + "--light lamp.json"}};
+    for (const auto& [file, command] : readings) {
+        CAPTURE(command);
+        CAPTURE(file);
+        const std::string output = command.starts_with("bake") ? "out.relume" : "out.png";
+        int call = 1;
+        for (;; call++) {
+            CAPTURE(call);
+            folder.write(output, "precious");
+            const Outcome outcome = runRelume(
+                folder, command,
+                std::string(kNoThreads) + " LD_PRELOAD='" RELUME_FAULTS "' RELUME_FAULT_PATH=" + file +
+                    " RELUME_FAULT=unreadable RELUME_FAULT_CALL=" + std::to_string(call));
+            CAPTURE(outcome.err);
+            if (outcome.exitCode == 0) break;
+            REQUIRE_EQ(outcome.exitCode, 1);
+            CHECK(says(outcome.err, "error: "));
+            REQUIRE(says(outcome.err, file));
+            REQUIRE(says(outcome.err, "cannot be read"));
+            CHECK_EQ(contents(folder.path() / output), "precious");
+        }
+        CHECK_GT(call, 2);
+    }
 }

@@ -35,32 +35,40 @@ class Sweep {
         for (const char* image : kImages) mWhole.push_back(mSession.bytes(image));
     }
 
-    // Fails every `stride`-th call (faultStride()), of all functions or of one. The number of frames, and
-    // with it of calls, differs a little from run to run. What a failed call leaves is null, since GLFW and
-    // Dear ImGui use it.
+    // Fails every `stride`-th call of Vulkan (faultStride()), of all functions or of one. The number of
+    // frames, and with it of calls, differs a little from run to run. What a failed call leaves is null,
+    // since GLFW and Dear ImGui use it.
     Tally fail(const std::string& result, int stride, const std::string& function = "") {
-        stride = faultStride(stride);
-        const auto faulty = [&](int call) {
-            return run(kFaults + ("RELUME_FAULT_VULKAN_NULL=1 RELUME_FAULT_VULKAN=" + result) +
-                       " RELUME_FAULT_VULKAN_CALL=" + std::to_string(call) +
-                       (function.empty() ? "" : " RELUME_FAULT_VULKAN_FUNCTION=" + function));
-        };
-        Tally tally;
-        const std::string said = faulty(0).err;
-        REQUIRE_EQ(std::sscanf(said.c_str() + said.rfind("faults: "), "faults: %d calls", &tally.calls), 1);
-        for (int call = 1; call <= tally.calls; call += stride) {
-            CAPTURE(result);
-            CAPTURE(call);
-            check(faulty(call), result, tally);
-        }
-        MESSAGE(result << " " << function << ": " << tally.calls << " calls, " << tally.failed << " failed, "
-                       << tally.recovered << " recovered, " << tally.told << " told, " << tally.refused
-                       << " errors");
-        return tally;
+        return sweep("RELUME_FAULT_VULKAN_NULL=1 RELUME_FAULT_VULKAN=" + result +
+                         (function.empty() ? "" : " RELUME_FAULT_VULKAN_FUNCTION=" + function) +
+                         " RELUME_FAULT_VULKAN_CALL=",
+                     result, 1, faultStride(stride));
+    }
+
+    // Fails every `stride`-th allocation, but the first ones, which make variables before main().
+    Tally failMemory(int stride) {
+        return sweep("RELUME_FAULT_MEMORY_CALL=", "memory", 60, faultStride(stride));
     }
 
   private:
     static constexpr const char* kImages[] = {"first.exr", "small.exr"};
+
+    // Fails calls by a variable of the environment that ends in the number of one.
+    Tally sweep(const std::string& environment, const std::string& kind, int first, int stride) {
+        const auto faulty = [&](int call) { return run(kFaults + environment + std::to_string(call)); };
+        Tally tally;
+        const std::string said = faulty(0).err;
+        REQUIRE_EQ(std::sscanf(said.c_str() + said.rfind("faults: "), "faults: %d ", &tally.calls), 1);
+        for (int call = first; call <= tally.calls; call += stride) {
+            CAPTURE(environment);
+            CAPTURE(call);
+            check(faulty(call), kind, tally);
+        }
+        MESSAGE(environment << ": " << tally.calls << " calls, " << tally.failed << " failed, "
+                            << tally.recovered << " recovered, " << tally.told << " told, " << tally.refused
+                            << " errors");
+        return tally;
+    }
 
     Outcome run(const std::string& environment) {
         for (const char* image : kImages) std::filesystem::remove(mSession.path(image));
@@ -76,10 +84,10 @@ class Sweep {
                                "--no-vsync ring.relume room.exr", environment);
     }
 
-    void check(const Outcome& outcome, const std::string& result, Tally& tally) {
+    void check(const Outcome& outcome, const std::string& kind, Tally& tally) {
         CAPTURE(outcome.err);
         CHECK_FALSE(says(outcome.err, "validation:"));
-        const size_t fault = outcome.err.find("faults: vk");
+        const size_t fault = says(outcome.err, " fails\n") ? outcome.err.find("faults: ") : std::string::npos;
         char function[64] = "";
         if (fault != std::string::npos)
             REQUIRE_EQ(std::sscanf(outcome.err.c_str() + fault, "faults: %63s fails", function), 1);
@@ -93,13 +101,17 @@ class Sweep {
             CHECK(says(outcome.err, "error: this display cannot show what Vulkan draws"));
         } else if (isRefused || isTold) {
             if (isRefused) CHECK_EQ(outcome.exitCode, 1);
+            if (kind == "memory") {
+                CHECK(says(outcome.err, "out of memory"));
+                return;
+            }
             // After a loss the first call to fail may be a wait whose result nobody checks.
             const bool isNamed = says(outcome.err, std::string("error: ") + function);
-            CHECK((isNamed || says(outcome.err, "error: Dear ImGui") || result == "lost"));
-            CHECK(says(outcome.err, result == "lost"            ? "the Vulkan device was lost"
-                                    : result == "device-memory" ? "too little free memory"
-                                                                : "ErrorSurfaceLostKHR"));
-            CHECK(says(outcome.err, result == "device-memory" ? "close other programs" : "--device"));
+            CHECK((isNamed || says(outcome.err, "error: Dear ImGui") || kind == "lost"));
+            CHECK(says(outcome.err, kind == "lost"            ? "the Vulkan device was lost"
+                                    : kind == "device-memory" ? "too little free memory"
+                                                              : "ErrorSurfaceLostKHR"));
+            CHECK(says(outcome.err, kind == "device-memory" ? "close other programs" : "--device"));
         } else {
             for (size_t i = 0; i < std::size(kImages); i++) CHECK((mSession.bytes(kImages[i]) == mWhole[i]));
         }
@@ -122,6 +134,11 @@ TEST_CASE("viewer surroundings: lost images and surfaces are made again, and a l
     CHECK_GT(sweep.fail("lost", 97).refused, 1);
     CHECK_GT(sweep.fail("device-memory", 401).refused, 1);
     sweep.fail("device-memory", 61, "vkWaitForFences");
+}
+
+TEST_CASE("viewer surroundings: memory that runs out is an error, or costs a step") {
+    Sweep sweep;
+    CHECK_GT(sweep.failMemory(601).refused, 1);
 }
 
 TEST_CASE("viewer surroundings: without a writable home a bake is shown, with a warning") {

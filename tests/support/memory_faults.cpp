@@ -1,0 +1,109 @@
+// Makes memory run out at a chosen allocation: part of a library for LD_PRELOAD, set by environment
+// variables. RELUME_FAULT_MEMORY_CALL   its number, from 1, among the allocations by C++'s operators in code
+// of the program itself,
+//                            not of its libraries; 0: none. stderr says when it fails, and in the end how
+//                            many there were
+// RELUME_FAULT_MEMORY_BYTES  counts allocations of at least so many bytes alone
+#include "tests/support/faults.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <execinfo.h>
+#include <iterator>
+#include <link.h>
+#include <new>
+
+using namespace relume::test;
+
+namespace {
+
+std::atomic<long> gAllocations = 0;
+
+// The addresses of the program's code and data.
+struct Range {
+    uintptr_t first = 0, end = 0;
+};
+
+Range programRange() {
+    Range range;
+    // The program itself is the first that is visited.
+    dl_iterate_phdr(
+        [](dl_phdr_info* info, size_t, void* target) {
+            auto& found = *static_cast<Range*>(target);
+            found.first = info->dlpi_addr;
+            for (int i = 0; i < info->dlpi_phnum; i++)
+                if (info->dlpi_phdr[i].p_type == PT_LOAD)
+                    found.end = std::max(found.end, uintptr_t(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr +
+                                                              info->dlpi_phdr[i].p_memsz));
+            return 1;
+        },
+        &range);
+    return range;
+}
+
+// Returns whether it is a driver that allocates, by a function of the standard library's that the program
+// has, too.
+bool isCalledByDriver() {
+    void* frames[64];
+    const int count = backtrace(frames, int(std::size(frames)));
+    for (int i = 0; i < count; i++) {
+        Dl_info info{};
+        if (!dladdr(frames[i], &info) || !info.dli_fname) continue;
+        for (const char* library : {"/libvulkan", "/libVkLayer", "/libLLVM"})
+            if (std::strstr(info.dli_fname, library)) return true;
+    }
+    return false;
+}
+
+// Counts an allocation and returns whether it fails. `caller` is where the operator returns to.
+bool fails(size_t bytes, const void* caller) {
+    static const Range program = programRange();
+    static const bool isCounted = std::getenv("RELUME_FAULT_MEMORY_CALL") != nullptr;
+    static const auto least = size_t(number("RELUME_FAULT_MEMORY_BYTES"));
+    static const long chosen = number("RELUME_FAULT_MEMORY_CALL");
+    const auto address = reinterpret_cast<uintptr_t>(caller);
+    if (!isCounted || bytes < least || address < program.first || address >= program.end) return false;
+    if (++gAllocations != chosen || isCalledByDriver()) return false;
+    std::fprintf(stderr, "faults: an allocation of %zu bytes fails\n", bytes);
+    return true;
+}
+
+void* allocate(size_t bytes, size_t alignment, const void* caller) {
+    if (fails(bytes, caller)) return nullptr;
+    if (alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__) return std::malloc(std::max<size_t>(bytes, 1));
+    return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+void* require(void* block) {
+    if (!block) throw std::bad_alloc();
+    return block;
+}
+
+constexpr size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+
+[[gnu::destructor]] void sayAllocations() {
+    if (std::getenv("RELUME_FAULT_MEMORY_CALL"))
+        std::fprintf(stderr, "faults: %ld allocations\n", long(gAllocations));
+}
+
+} // namespace
+
+// All but those that free, which free what malloc() gives.
+#define RELUME_CALLER __builtin_return_address(0)
+void* operator new(size_t size) { return require(allocate(size, kUsual, RELUME_CALLER)); }
+void* operator new[](size_t size) { return require(allocate(size, kUsual, RELUME_CALLER)); }
+void* operator new(size_t size, std::align_val_t alignment) {
+    return require(allocate(size, size_t(alignment), RELUME_CALLER));
+}
+void* operator new[](size_t size, std::align_val_t alignment) {
+    return require(allocate(size, size_t(alignment), RELUME_CALLER));
+}
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
+    return allocate(size, kUsual, RELUME_CALLER);
+}
+void* operator new[](size_t size, const std::nothrow_t&) noexcept {
+    return allocate(size, kUsual, RELUME_CALLER);
+}
