@@ -19,10 +19,17 @@ constexpr int kFilter = PNG_FILTER_SUB, kLevel = 4;
 
 constexpr png_uint_32 kMostSide = 0x7fffffff; // of the format; libpng's own limit is a million
 
-// Keeps what libpng says of a failure, until an error can be thrown.
+// Keeps what libpng says of a failure, until an error can be thrown. It makes its own structures without a
+// word.
 struct Failure {
-    char why[128] = "";
+    char why[128] = "out of memory";
 };
+
+// Throws std::bad_alloc if memory ran out, which libpng tells in several ways, otherwise Error with the text.
+[[noreturn]] void failPng(const Failure& failure, const std::string& text) {
+    if (std::strstr(failure.why, "memory")) throw std::bad_alloc();
+    throw Error(text);
+}
 
 // Writes all of a PNG file. Returns false if libpng fails: it leaves by longjmp(), past any destructor.
 bool encode(png_structp writer, png_infop info, int width, int height, const uint8_t* texels) {
@@ -108,11 +115,12 @@ bool isPng(std::span<const std::byte> bytes) {
 }
 
 Texture decodePng(std::span<const std::byte> bytes, const std::string& name, uint8_t missingAlpha) {
-    Failure failure{"there is no memory left"};
+    Failure failure;
     const auto require = [&](bool isRead) {
         if (!isRead)
-            throw Error(fmt::format("{}: is truncated or corrupt: {}; get the file again, or save it anew",
-                                    name, failure.why));
+            failPng(failure,
+                    fmt::format("{}: is truncated or corrupt: {}; get the file again, or save it anew", name,
+                                failure.why));
     };
     std::span<const std::byte> rest = bytes;
     ReadStructs reader;
@@ -136,7 +144,7 @@ Texture decodePng(std::span<const std::byte> bytes, const std::string& name, uin
 
 std::vector<std::byte> encodePng(int width, int height, std::span<const uint8_t> texels,
                                  const std::string& name) {
-    Failure failure{"there is no memory left"};
+    Failure failure;
     png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, leave, ignore);
     png_infop info = writer ? png_create_info_struct(writer) : nullptr;
     std::vector<std::byte> bytes;
@@ -147,7 +155,7 @@ std::vector<std::byte> encodePng(int width, int height, std::span<const uint8_t>
         isEncoded = encode(writer, info, width, height, texels.data());
     }
     png_destroy_write_struct(&writer, &info);
-    if (!isEncoded) throw Error(fmt::format("{}: the PNG encoder failed: {}", name, failure.why));
+    if (!isEncoded) failPng(failure, fmt::format("{}: the PNG encoder failed: {}", name, failure.why));
     return bytes;
 }
 

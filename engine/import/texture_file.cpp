@@ -7,23 +7,31 @@
 
 #include <fmt/core.h>
 #include <memory>
+#include <new>
 #include <stb_image.h>
+#include <string_view>
 
 namespace relume {
 
 namespace {
+
+// Throws for the last failure of the library's: std::bad_alloc if memory ran out, else Error.
+[[noreturn]] void failJpeg(const std::string& name) {
+    const std::string_view why = stbi_failure_reason();
+    if (why == "outofmem") throw std::bad_alloc();
+    throw Error(fmt::format("{}: is not a valid image: {}", name, why));
+}
 
 Texture decodeJpeg(std::span<const std::byte> bytes, const std::string& name, uint8_t missingAlpha) {
     checkJpeg(bytes, name);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = int(bytes.size());
     int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels)) failJpeg(name);
     checkTextureSize(name, width, height, bytes.size());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
-    if (!pixels) throw Error(fmt::format("{}: is not a valid image: {}", name, stbi_failure_reason()));
+    if (!pixels) failJpeg(name);
     Texture texture{width, height, {}};
     texture.texels.reserve(texture.texelCount());
     for (size_t i = 0; i < texture.texelCount(); i++) {

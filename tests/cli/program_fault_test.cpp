@@ -183,6 +183,10 @@ TEST_CASE("memory faults: while its options are made, the program ends with an e
     for (int call = kFirst; call < last; call += faultStride(2003)) {
         CAPTURE(call);
         const Outcome outcome = runMemoryFault(folder, "--version", call);
+        if (outcome.exitCode == 0) { // a text that was to be shrunk keeps its memory
+            CHECK(says(outcome.out, "relume "));
+            continue;
+        }
         CHECK_EQ(outcome.exitCode, 1);
         CHECK(says(outcome.err, "error: out of memory; close other programs"));
     }

@@ -91,7 +91,7 @@ constexpr size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 
 } // namespace
 
-// All but those that free, which free what malloc() gives.
+// All of them, so that none is a sanitizer's own.
 #define RELUME_CALLER __builtin_return_address(0)
 void* operator new(size_t size) { return require(allocate(size, kUsual, RELUME_CALLER)); }
 void* operator new[](size_t size) { return require(allocate(size, kUsual, RELUME_CALLER)); }
@@ -107,3 +107,11 @@ void* operator new(size_t size, const std::nothrow_t&) noexcept {
 void* operator new[](size_t size, const std::nothrow_t&) noexcept {
     return allocate(size, kUsual, RELUME_CALLER);
 }
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete[](void* block) noexcept { std::free(block); }
+void operator delete(void* block, size_t) noexcept { std::free(block); }
+void operator delete[](void* block, size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, size_t, std::align_val_t) noexcept { std::free(block); }
+void operator delete[](void* block, size_t, std::align_val_t) noexcept { std::free(block); }

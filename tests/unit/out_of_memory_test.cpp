@@ -102,6 +102,11 @@ std::vector<Reading> readings() {
                  decodeMesh(bytesOf(ply), "a.ply", UpAxis::Y, {true, true});
              }},
             {"PNG", [] { decodeTexture(bytesOf(png), "a.png", true); }},
+            {"PNG, written",
+             [] {
+                 encodePng(2, 3, std::span(reinterpret_cast<const uint8_t*>(texture.texels.data()), 24),
+                           "a.png");
+             }},
             {"JPEG", [] { decodeTexture(bytesOf(jpeg), "a.jpg", true); }},
             // The library itself leaks attributes of a header when memory runs out among them.
             {"OpenEXR", [] { decodeImage(exr, "a.exr"); }, 2},

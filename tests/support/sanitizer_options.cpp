@@ -1,0 +1,14 @@
+// Part of programs with the address sanitizer that use Vulkan or are made to fail.
+extern "C" {
+
+// Tests preload libraries that make calls fail, which then come before the sanitizer's own.
+const char* __asan_default_options() { return "verify_asan_link_order=0"; }
+
+// Of version 1.3.239 the validation layer frees little of what it allocates.
+const char* __lsan_default_suppressions() { return "leak:libVkLayer_khronos_validation\n"; }
+
+// Keeps libraries loaded: what an unloaded driver still holds can be neither found nor named, and would be a
+// leak.
+int dlclose(void*) { return 0; }
+
+} // extern "C"
