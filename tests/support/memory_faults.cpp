@@ -1,8 +1,8 @@
 // Makes memory run out at a chosen allocation: part of a library for LD_PRELOAD, set by environment
-// variables. RELUME_FAULT_MEMORY_CALL   its number, from 1, among the allocations by C++'s operators in code
-// of the program itself,
-//                            not of its libraries; 0: none. stderr says when it fails, and in the end how
-//                            many there were
+// variables.
+// RELUME_FAULT_MEMORY_CALL   its number, from 1, among the allocations by C++'s operators in the program's
+//                            own code, not in its libraries'; 0: none. stderr says that it fails, and in the
+//                            end how many there were
 // RELUME_FAULT_MEMORY_BYTES  counts allocations of at least so many bytes alone
 #include "tests/support/faults.h"
 

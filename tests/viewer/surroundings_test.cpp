@@ -58,7 +58,9 @@ class Sweep {
         const auto faulty = [&](int call) { return run(kFaults + environment + std::to_string(call)); };
         Tally tally;
         const std::string said = faulty(0).err;
-        REQUIRE_EQ(std::sscanf(said.c_str() + said.rfind("faults: "), "faults: %d ", &tally.calls), 1);
+        const size_t last = said.rfind("faults: ");
+        REQUIRE_MESSAGE(last != std::string::npos, said);
+        REQUIRE_EQ(std::sscanf(said.c_str() + last, "faults: %d ", &tally.calls), 1);
         for (int call = first; call <= tally.calls; call += stride) {
             CAPTURE(environment);
             CAPTURE(call);
