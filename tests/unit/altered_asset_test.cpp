@@ -4,10 +4,12 @@
 #include "engine/transport/asset_meta.h"
 #include "engine/transport/rows/rows_chunk.h"
 #include "tests/support/asset_sample.h"
+#include "tests/support/failure.h"
 #include "tests/support/old_sample.h"
 
 #include <doctest/doctest.h>
 #include <functional>
+#include <zstd.h>
 
 using namespace relume;
 using namespace relume::test;
@@ -208,6 +210,90 @@ TEST_CASE("asset file: a table cannot promise what the file does not hold") {
     // A second chunk that lies on the first.
     CHECK(refusal(32 + 48 + 16, ByteReader(std::span(bytes).subspan(32 + 16), "").get<uint64_t>(), 8)
               .find("expected at byte") != std::string::npos);
+}
+
+TEST_CASE("asset file: a chunk is no larger than chunks may be, nor than its bytes can stand for") {
+    const auto refusal = [](std::vector<std::byte> raw, uint64_t rawSize) {
+        ChunkWriter writer;
+        writer.addStored({chunkTag("TEST"), 0, 0, 0, raw.size(), rawSize, hash64(raw)}, [&] { return raw; });
+        const std::vector<std::byte> file = writer.finish();
+        return failureOf([&] {
+            const ChunkFile chunks(file, "file");
+            chunks.load(chunks.entries()[0]);
+        });
+    };
+    CHECK(refusal(std::vector<std::byte>(100), 100) == "");
+    CHECK(says(refusal(std::vector<std::byte>(100), 50), "cannot stand for"));
+    CHECK(says(refusal(std::vector<std::byte>(kLargestChunk + 1), kLargestChunk + 1), "cannot stand for"));
+    // Zeros compress to more than a thousandth, which chunks may not.
+    std::vector<std::byte> zeros(ZSTD_compressBound(kLargestChunk));
+    const std::vector<std::byte> raw(kLargestChunk);
+    zeros.resize(ZSTD_compress(zeros.data(), zeros.size(), raw.data(), raw.size(), 1));
+    REQUIRE(zeros.size() < 1000);
+    CHECK(says(refusal(zeros, kLargestChunk), "cannot stand for"));
+    // A frame that is damaged in its middle.
+    const std::string text = std::string(5000, 'a') + "bcd";
+    StoredChunk stored = storeChunk(chunkTag("TEST"), 0, 0, std::as_bytes(std::span(text)));
+    for (size_t i = stored.bytes.size() / 2; i < stored.bytes.size(); i++) stored.bytes[i] = std::byte(0xff);
+    CHECK(says(refusal(stored.bytes, 5003), "TEST"));
+}
+
+TEST_CASE("asset file: what changes after it was checked is noticed") {
+    const std::vector<std::byte> bytes = encodeAsset(sampleAsset());
+    bool isChanged = false;
+    ByteSource source{bytes.size(), [&](uint64_t offset, size_t count, std::vector<std::byte>& room) {
+                          room.assign(bytes.begin() + ptrdiff_t(offset),
+                                      bytes.begin() + ptrdiff_t(offset + count));
+                          if (isChanged) room[0] ^= std::byte(1);
+                          return std::span<const std::byte>(room);
+                      }};
+    const ChunkFile file(source, "file");
+    isChanged = true;
+    CHECK(says(failureOf([&] { file.loadStored(file.entries()[0]); }), "fails its checksum"));
+    CHECK(says(failureOf([&] { file.load(file.entries()[0]); }), "file"));
+}
+
+TEST_CASE("asset file: arrays are cut between their elements") {
+    std::vector<RawChunk> chunks = sampleChunks();
+    const RawChunk whole = chunk(chunks, "MPOS", 0);
+    std::erase_if(chunks,
+                  [](const RawChunk& each) { return each.tag == chunkTag("MPOS") && each.part == 0; });
+    for (uint32_t run = 0; run * 5 < whole.raw.size(); run++) {
+        const auto first = whole.raw.begin() + ptrdiff_t(5 * run);
+        const auto end = whole.raw.begin() + ptrdiff_t(std::min<size_t>(5 * run + 5, whole.raw.size()));
+        chunks.push_back({whole.tag, whole.part, run, {first, end}});
+    }
+    const std::vector<std::byte> file = fileOf(chunks);
+    CHECK(says(failureOf([&] { decodeAsset(file, "file"); }), "not a multiple of 12"));
+}
+
+TEST_CASE("asset file: META of the version before must have every member, of its type") {
+    const std::vector<uint64_t> entries(3, 0);
+    const auto refusal = [&](const std::function<void(OrderedJson&)>& change) {
+        OrderedJson meta = OrderedJson::parse(oldMeta(sampleAsset(), entries));
+        change(meta);
+        const std::string text = meta.dump();
+        std::vector<RawChunk> chunks = sampleChunks();
+        const auto bytes = std::as_bytes(std::span(text));
+        chunks[0].raw.assign(bytes.begin(), bytes.end());
+        std::vector<std::byte> file = fileOf(chunks);
+        poke(file, 8, kAssetFormatVersion - 1, 4);
+        reseal(file);
+        return failureOf([&] { updateAsset(file, "old"); });
+    };
+    const OrderedJson whole = OrderedJson::parse(oldMeta(sampleAsset(), entries));
+    for (const auto& [member, value] : whole.items()) {
+        CAPTURE(member);
+        CHECK(says(refusal([&](OrderedJson& meta) { meta.erase(member); }), "expected a member \"" + member));
+        for (const OrderedJson& other : {OrderedJson("text"), OrderedJson::array({1})})
+            CHECK(refusal([&](OrderedJson& meta) { meta[member] = other; }).starts_with("old: "));
+    }
+    std::vector<RawChunk> chunks = sampleChunks();
+    chunks.erase(chunks.begin());
+    std::vector<std::byte> file = fileOf(chunks);
+    poke(file, 8, kAssetFormatVersion - 1, 4);
+    reseal(file);
+    CHECK(says(failureOf([&] { updateAsset(file, "old"); }), "expected one chunk META"));
 }
 
 TEST_CASE("asset file: absurd settings and counts are refused") {

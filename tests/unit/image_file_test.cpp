@@ -338,9 +338,32 @@ TEST_CASE("image file: damaged Radiance is an error, never a crash") {
     CHECK_THROWS_WITH_AS(readText(header + "-Y 8192 +X 8192\n" + std::string(1 << 21, '\x40')),
                          doctest::Contains("scale it down"), Error);
     CHECK_THROWS_AS(readText("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd"), Error);
+    // Runs of pixels that are longer than the line, by their count and by how many counts there are.
+    const std::string line = header + "-Y 1 +X 2\n" + std::string("\x0a\x0a\x0a\x80", 4);
+    for (const std::string& runs :
+         {std::string("\1\1\1\0\1\1\1\xff\1\1\1\xff", 12),
+          std::string("\1\1\1\0\1\1\1\0\1\1\1\0\1\1\1\0\1\1\1\0\x09\x09\x09\x80", 24)})
+        CHECK_THROWS_WITH_AS(readText(line + runs), doctest::Contains("a run of impossible length"), Error);
     // A count of zero makes no progress.
     CHECK_THROWS_AS(
         readText(header + "-Y 1 +X 8\n" + std::string("\x02\x02\x00\x08", 4) + std::string(64, '\0')), Error);
+}
+
+TEST_CASE("image file: sizes have limits, whatever the file holds") {
+    constexpr size_t kLarge = size_t(1) << 30;
+    CHECK_NOTHROW(checkImageSize("a", 65536, 4096, kLarge));
+    CHECK_THROWS_WITH_AS(checkImageSize("a", 65536, 65536, kLarge),
+                         doctest::Contains("at most 268435456 pixels"), Error);
+    CHECK_THROWS_WITH_AS(checkImageSize("a", 65537, 1, kLarge), doctest::Contains("65536"), Error);
+    CHECK_THROWS_WITH_AS(checkImageSize("a", 1, 65537, kLarge), doctest::Contains("65536"), Error);
+    CHECK_THROWS_WITH_AS(checkTextureSize("a", 1, 9000, kLarge), doctest::Contains("at most 8192 a side"),
+                         Error);
+    Imf::Header wide(70000, 1);
+    wide.compression() = Imf::NO_COMPRESSION;
+    CHECK_THROWS_WITH_AS(readHalves(wide, {"G"}), doctest::Contains("65536"), Error);
+    Imf::Header tall(1, 70000);
+    tall.compression() = Imf::NO_COMPRESSION;
+    CHECK_THROWS_WITH_AS(readHalves(tall, {"G"}), doctest::Contains("65536"), Error);
 }
 
 TEST_CASE("image file: what is no image is refused") {

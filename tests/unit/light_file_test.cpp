@@ -112,6 +112,24 @@ TEST_CASE("light file: errors name file, place and field") {
           {"\"hours_per_second\"", "beside \"sun\""});
     check(R"({"environment": {"file": "a.exr", "sequence": "#.exr"}})", {"environment", "\"sequence\""});
     check(R"({"environment": {"file": "a.exr", "rate": 3}})", {"environment", "\"rate\""});
+    check(R"({"environment": {}})", {"environment", "\"file\"", "found nothing"});
+    const std::string lamp = R"({"lamps": [{"azimuth": 0, "elevation": 0, "radius": 1)";
+    check(lamp + "}]}", {"lamps[0]", "\"radiance\"", "found nothing"});
+    check(lamp + R"(, "radiance": {"a": 1, "b": 2, "c": 3}}]})", {"\"radiance\"", "three numbers"});
+    for (const char* keys : {"[[]]", "[[0, 1, 2]]", R"([{"a": 1, "b": 2}])", "[5]"})
+        check(R"({"distant": [{"azimuth": {"keys": )" + std::string(keys) +
+                  R"(}, "elevation": 0, "irradiance": [1, 1, 1]}]})",
+              {"azimuth", "keys [seconds, value]"});
+    check(R"({"distant": [{"azimuth": {"keys": [[-0.5, 1]]}, "elevation": 0, "irradiance": [1, 1, 1]}]})",
+          {"azimuth", "rising times from 0"});
+    const TemporaryFolder folder;
+    for (const char* name : {"q1.exr", "q2.exr"}) writeExr(folder.path() / name, Image(4, 2));
+    for (const char* rate : {"-1000000", "-1", "0", "1001"}) {
+        const std::string text =
+            R"({"environment": {"sequence": "q#.exr", "rate": )" + std::string(rate) + "}}";
+        CHECK(says(failureOf([&] { readLight(folder.write("light.json", text)); }),
+                   "\"rate\": expected numbers from 0.001 to 1000"));
+    }
     std::string many = R"({"distant": [)";
     for (int i = 0; i <= 512; i++) many += i ? ",{}" : "{}";
     check(many + "]}", {"at most 512"});

@@ -91,6 +91,10 @@ TEST_CASE("scene: errors name the place, the key and the remedy") {
     CHECK(sceneFailure(R"({"parts": [{"mesh": "none.obj", "material": "clay"}]})").find("none.obj") !=
           std::string::npos);
     CHECK(sceneFailure(R"({"parts": []})").find("parts") != std::string::npos);
+    for (const char* text : {"{}", R"({"parts": 5})", R"({"ground": true})"})
+        CHECK(says(sceneFailure(text), "\"parts\": expected a list"));
+    CHECK(says(sceneFailure(R"({"a\"": )" + std::string(200'000, '[') + std::string(200'000, ']') + "}"),
+               "nested deeper"));
     CHECK(sceneFailure(R"({"part": []})").find("did you mean \"parts\"") != std::string::npos);
     CHECK(sceneFailure(R"([1])").find("object") != std::string::npos);
     CHECK(sceneFailure("{\"parts\": [").find("not valid JSON") != std::string::npos);

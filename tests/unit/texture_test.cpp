@@ -186,6 +186,12 @@ TEST_CASE("texture: truncated, absurd and foreign files") {
         CHECK(textureFailure(damaged).find("picture") != std::string::npos);
     }
     CHECK(textureFailure(png + "after the end") == "");
+    // More bytes than a texture may have are not even looked at.
+    CHECK(says(
+        failureOf([] {
+            decodeTexture({static_cast<const std::byte*>(nullptr), (size_t(1) << 29) + 1}, "picture", true);
+        }),
+        "expected at most"));
 }
 
 #ifndef RELUME_SANITIZE // sanitizers reserve more than there is
@@ -238,6 +244,19 @@ TEST_CASE("texture: JPEG tables that overflow or are missing") {
     const std::string many =
         std::string("\xff\xc4\x01\x13\x00", 5) + std::string(14, '\0') + "\x80\xff" + std::string(383, 'x');
     CHECK(textureFailure(jpeg.substr(0, huffman) + many + jpeg.substr(huffman)) != "");
+    std::string symbols =
+        std::string("\xff\xc4\x01\x14\x00", 5) + std::string(16, '\0') + std::string(257, 'x');
+    symbols[5 + 8] = char(255); // codes of nine bits
+    symbols[5 + 9] = char(2);
+    CHECK(says(textureFailure(jpeg.substr(0, huffman) + symbols + jpeg.substr(huffman)),
+               "more than 256 symbols"));
+    std::string components = jpeg;
+    components[scan + 4] = char(255);
+    CHECK(says(textureFailure(components), "more than four components"));
+    std::string tall = jpeg;
+    const size_t size = jpeg.find("\xff\xc0") + 5;
+    tall.replace(size, 4, std::string("\x40\0\0\x08", 4)); // 16384 lines of eight
+    CHECK(says(textureFailure(tall), "at most 8192 a side"));
     const size_t quantization = jpeg.find("\xff\xdb"), frame = jpeg.find("\xff\xc0");
     CHECK(textureFailure(jpeg.substr(0, quantization) + jpeg.substr(frame)).find("not described") !=
           std::string::npos);
