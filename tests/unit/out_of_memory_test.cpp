@@ -37,6 +37,14 @@ void* allocate(size_t size, size_t alignment) {
     return block;
 }
 
+void* tryToAllocate(size_t size) noexcept {
+    try {
+        return allocate(size, kUsual);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 void release(void* block) {
     if (block) blocksHeld--;
     std::free(block);
@@ -49,6 +57,8 @@ void* operator new(size_t size) { return allocate(size, kUsual); }
 void* operator new[](size_t size) { return allocate(size, kUsual); }
 void* operator new(size_t size, std::align_val_t alignment) { return allocate(size, size_t(alignment)); }
 void* operator new[](size_t size, std::align_val_t alignment) { return allocate(size, size_t(alignment)); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return tryToAllocate(size); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return tryToAllocate(size); }
 void operator delete(void* block) noexcept { release(block); }
 void operator delete[](void* block) noexcept { release(block); }
 void operator delete(void* block, size_t) noexcept { release(block); }
