@@ -1,4 +1,4 @@
-// What people are told of an exception.
+// The text of an exception, as people read it.
 #pragma once
 
 #include <exception>

@@ -39,9 +39,9 @@ struct FaultFolder : TemporaryFolder {
     }
 };
 
-// What fails in runs of a command: `environment` chooses a kind of calls for the library of faults, `counter`
-// is the variable that chooses one of them. A refusal says `advice`, and after "error: " what failed:
-// `named`, or the function of Vulkan.
+// A kind of calls that fail in runs of a command: `environment` chooses a kind of calls for the library of
+// faults, `counter` is the variable that chooses one of them. A refusal says `advice`, and after "error: "
+// what failed: `named`, or the function of Vulkan.
 struct Fault {
     std::string environment, counter, advice, named;
 };

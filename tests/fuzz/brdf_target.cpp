@@ -1,7 +1,6 @@
-// Readers of measured BRDFs, in three targets. brdf: the first byte of an input chooses whether the rest is
-// the text of a Cornell file or a MERL file, which then is too short. cornell: such a text is made into a
-// table. merl: edits of a whole file's values. The last two take milliseconds for an input, whatever its
-// size.
+// Readers of measured BRDFs, in three targets. An input of `brdf` is, by its first byte, the text of a
+// Cornell file or a MERL file, which is then too short. `cornell` makes such a text into a table. An input of
+// `merl` is edits of the values of a whole file. The last two take milliseconds for any input.
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "precompute/brdf/cornell.h"

@@ -12,7 +12,7 @@ namespace {
 
 enum Depth { kRaw, kSealed, kEdits, kDepths };
 
-// Of two blocks and of one.
+// Two shards, of two blocks and of one.
 std::vector<Bytes> sampleShards() { return shardsOf(shardedAsset(70, 3), 2); }
 
 void run(std::span<const std::byte> input) {

@@ -110,15 +110,15 @@ inline std::shared_ptr<ResidualSet> sampleResidual(const FactoredBrdf& brdf) {
     return residual;
 }
 
-// What sample assets have: vertices of their parts (the last is in bases), coefficients of rows, and columns
-// of bases.
+// The size of a sample asset: vertices of its parts, of which the last is in bases, coefficients of rows, and
+// columns of bases.
 struct SampleSize {
     uint32_t first = 19, second = 11, bases = 300;
     int coefficients = 24;
     uint32_t columns = 60;
 };
 
-// Of what a fuzzer can read thousands in a second.
+// A size that a fuzzer can read thousands of times in a second.
 constexpr SampleSize kSmallSample{5, 3, 9, 6, 12};
 
 inline Asset sampleAsset(uint32_t seed = 1, const SampleSize& size = {}) {

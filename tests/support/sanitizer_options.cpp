@@ -4,7 +4,7 @@ extern "C" {
 // Tests preload libraries that make calls fail, which then come before the sanitizer's own.
 const char* __asan_default_options() { return "verify_asan_link_order=0"; }
 
-// Of version 1.3.239 the validation layer frees little of what it allocates. What a driver holds for an
+// The validation layer, of version 1.3.239, frees little of what it allocates. What a driver holds for an
 // object that is left, validation tells; a test leaves one on purpose.
 const char* __lsan_default_suppressions() {
     return "leak:libVkLayer_khronos_validation\nleak:libvulkan_lvp\n";

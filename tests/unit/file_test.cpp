@@ -1,4 +1,4 @@
-// What is read of files, and files that appear whole or not at all.
+// Tests reading of files, and files that appear whole or not at all.
 #include "engine/base/file.h"
 #include "tests/support/failure.h"
 #include "tests/support/temporary_folder.h"

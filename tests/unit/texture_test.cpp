@@ -38,7 +38,7 @@ Texture gradient() {
     return texture;
 }
 
-// Bytes of this process's memory at their most since resetPeakMemory(), which returns what they are now.
+// Returns the most bytes that this process has held since resetPeakMemory(), which returns what it holds now.
 size_t peakMemory() {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)
