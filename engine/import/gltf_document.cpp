@@ -3,6 +3,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/import/gltf_compression.h"
+#include "engine/import/gltf_json.h"
 #include "engine/import/json_object.h"
 
 #include <algorithm>
@@ -157,7 +158,7 @@ tinygltf::FsCallbacks callbacksOf(Buffers& buffers) {
 // chunk, which may be padded.
 std::vector<unsigned char> readBuffer(const Json& buffer, Container& container,
                                       const std::filesystem::path& folder, const std::string& place) {
-    const std::string uri = buffer.contains("uri") && buffer["uri"].is_string() ? buffer["uri"] : Json("");
+    const std::string uri = gltfText(buffer, "uri", place);
     std::vector<unsigned char> bytes;
     if (uri.empty()) {
         bytes = std::exchange(container.binary, {});

@@ -372,6 +372,8 @@ TEST_CASE("asset file: residuals that do not add up are refused") {
     CHECK(refusal([](ResidualSet& residual) {
               residual.irradianceWeights.pop_back();
           }).find("irradiance weights") != std::string::npos);
+    CHECK(says(refusal([](ResidualSet& residual) { residual.irradianceWeights[0].y = std::nanf(""); }),
+               "finite irradiance weights"));
     CHECK(refusal([&](ResidualSet& residual) {
               withKernel(residual, [](SphereKernel& kernel) { kernel.frequencies++; });
           }).find("values of a kernel") != std::string::npos);
@@ -426,56 +428,4 @@ TEST_CASE("asset file: contents that make no sense are refused") {
     CHECK_THROWS_WITH_AS(decodeAsset(nan, "file"), doctest::Contains("finite positions"), Error);
     const auto corner = withChunk("MTRI", 1, [](std::vector<std::byte>& raw) { raw[0] = std::byte(11); });
     CHECK_THROWS_WITH_AS(decodeAsset(corner, "file"), doctest::Contains("corners are vertices"), Error);
-}
-
-TEST_CASE("asset file: an asset that could not be read back is not written") {
-    const float nan = std::numeric_limits<float>::quiet_NaN(),
-                infinite = std::numeric_limits<float>::infinity();
-    const auto refuses = [](const std::function<void(Asset&)>& change) {
-        Asset asset = sampleAsset();
-        change(asset);
-        CHECK_THROWS_AS(encodeAsset(asset), Error);
-    };
-    refuses([](Asset& a) { a.parts.clear(); });
-    refuses([](Asset& a) { a.faceSize = 16, a.visibilitySize = 8; });
-    refuses([&](Asset& a) { a.visibilityOffset = nan; });
-    refuses([](Asset& a) { a.occluder.triangles[3].y = 19; });
-    refuses([&](Asset& a) { a.occluder.positions[3].y = infinite; });
-    refuses([](Asset& a) { a.parts[0].mesh.triangles.clear(); });
-    refuses([](Asset& a) { a.parts[0].mesh.normals.pop_back(); });
-    refuses([](Asset& a) { a.parts[0].mesh.normals[2] *= 1.01f; });
-    refuses([&](Asset& a) { a.parts[0].mesh.normals[2].x = nan; });
-    refuses([&](Asset& a) { a.parts[0].sets[0].brdf.lightMaps[5].z = nan; });
-    refuses([](Asset& a) { a.parts[0].sets[0].brdf.viewMaps.pop_back(); });
-    refuses([&](Asset& a) { a.parts[0].sets[0].brdf.eigenvalues[0][1] = infinite; });
-    refuses([](Asset& a) { a.parts[0].sets[0].brdf.mapping = DiskMapping(4); });
-    refuses([](Asset& a) { a.parts[0].sets.clear(); });
-    refuses([](Asset& a) { a.parts[0].sets[0].materials.clear(); });
-    refuses([](Asset& a) { a.parts[0].sets[0].materials[1].layer = 0; });
-    refuses([](Asset& a) { a.parts[0].sets[0].materials.pop_back(); }); // two layers of nobody
-    refuses([](Asset& a) { a.parts[0].sets[0].materials[0].name = "a\x1b[2J"; });
-    refuses([](Asset& a) { a.parts[0].baseColor.reset(); });
-    refuses([](Asset& a) { a.parts[0].baseColor->texels.pop_back(); });
-    refuses([&](Asset& a) { a.parts[0].mesh.uvs[3].x = nan; });
-    refuses([](Asset& a) { a.parts[0].mesh.uvs.pop_back(); });
-    refuses([](Asset& a) { a.parts[1].mesh.colors[2].y = 1.5f; });
-    refuses([](Asset& a) { a.parts[1].mesh.tangents.pop_back(); });
-    refuses([](Asset& a) { a.parts[1].mesh.tangents[3] *= 1.01f; });
-    refuses([](Asset& a) { a.parts[1].mesh.tangents[3] = a.parts[1].mesh.normals[3]; });
-    refuses([&](Asset& a) { a.parts[1].mesh.tangents[3].x = nan; });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).terms = 2; });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).vertices = 18; });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).rowStarts[1] = 1000000; });
-    refuses([](Asset& a) {
-        std::swap(rowsOf(a.parts[0].sets[0].transport).rowStarts[1],
-                  rowsOf(a.parts[0].sets[0].transport).rowStarts[2]);
-    });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).rowStarts.pop_back(); });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).scales[0] = -1; });
-    refuses([](Asset& a) {
-        rowsOf(a.parts[0].sets[0].transport).indices[1] = rowsOf(a.parts[0].sets[0].transport).indices[0];
-    });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).indices.back() = 384; });
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).values[0] = 0x400; });       // red -1024
-    refuses([](Asset& a) { rowsOf(a.parts[0].sets[0].transport).values[0] = 0x80000000u; }); // blue -512
 }

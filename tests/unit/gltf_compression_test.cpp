@@ -95,6 +95,9 @@ TEST_CASE("glTF compression: descriptions that lie") {
     glb.description(3)["byteStride"] = 8;
     CHECK(says(unpackFailure(glb), "stride 8"));
     glb = PackedGlb();
+    glb.description(3)["filter"] = "EXPONENTIAL"; // filters are for attributes
+    CHECK(says(unpackFailure(glb), "filter \"EXPONENTIAL\""));
+    glb = PackedGlb();
     glb.description(0)["count"] = 3; // fewer than its accessor has
     CHECK(unpackFailure(glb) != "");
 }

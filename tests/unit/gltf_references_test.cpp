@@ -60,6 +60,8 @@ TEST_CASE("glTF: references beyond what there is, and views that do not hold wha
             {R"("indices":1)", R"("indices":1,"mode":0)", "holds no triangles"},
             {R"("asset":{"version":"2.0"})", R"("asset":5)", "asset version 2.0"},
             {R"([{"byteLength":44}])", "[5]", "is not valid glTF"},
+            {R"("byteLength":44)", R"("byteLength":44,"uri":5)", "buffers[0]: \"uri\""},
+            {R"({"buffer":0,"byteOffset":0,)", R"({"byteOffset":0,)", "is not valid glTF"},
             {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":0})", "expected VEC2"}}) {
         const std::string failure = fails(from, to);
         CAPTURE(to);

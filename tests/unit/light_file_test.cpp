@@ -5,7 +5,11 @@
 #include "tests/support/failure.h"
 #include "tests/support/temporary_folder.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
+#include <fmt/core.h>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 using namespace relume;
 using namespace relume::test;
@@ -140,4 +144,74 @@ TEST_CASE("light file: errors name file, place and field") {
     CHECK(names(R"({"environment": {"file": "none.exr"}})", "none.exr"));
     CHECK(names(R"({"environment": {"sequence": "a_##.exr"}})", "a_##.exr: expected files with a number"));
     CHECK(names(R"({"environment": {"sequence": "a.exr"}})", "a.exr: expected one run of #"));
+}
+
+TEST_CASE("light file: every number has a range, and the ends are within it") {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.exr", "q1.exr", "q2.exr"}) writeExr(folder.path() / name, Image(4, 2));
+    const nlohmann::json light = nlohmann::json::parse(R"({
+        "environment": {"file": "a.exr", "rotate": 90, "gain": 2},
+        "blend": {"sequence": "q#.exr", "rotate": 90, "gain": 2, "weight": 0.25},
+        "strokes": [{"azimuth": 90, "elevation": 0, "radius": 20, "radiance": [1, 2, 3], "softness": 0.25,
+                     "opacity": 0.75}],
+        "lamps": [{"azimuth": 0, "elevation": 90, "radius": 1, "radiance": [4, 5, 6]}],
+        "distant": [{"azimuth": 180, "elevation": 30, "irradiance": [7, 8, 9]}]
+    })");
+    nlohmann::json clock = light, sun = light;
+    clock["sky"] = {{"time", "2026-06-21T12:00Z"},
+                    {"latitude", 48},
+                    {"longitude", 11},
+                    {"north", 90},
+                    {"hours_per_second", 1}};
+    sun["sky"] = {{"sun", {{"azimuth", 90}, {"elevation", 30}}},
+                  {"turbidity", 4},
+                  {"gain", 1},
+                  {"ground", {0, 0.5, 1}}};
+    struct Range {
+        const nlohmann::json& light;
+        const char* place;
+        float low, high;
+    };
+    constexpr float kTurns = 36000;
+    for (const Range& range :
+         std::initializer_list<Range>{{light, "/environment/rotate", -kTurns, kTurns},
+                                      {light, "/environment/gain", 0, kMostGain},
+                                      {light, "/blend/rotate", -kTurns, kTurns},
+                                      {light, "/blend/gain", 0, kMostGain},
+                                      {light, "/blend/weight", 0, 1},
+                                      {light, "/strokes/0/azimuth", -kTurns, kTurns},
+                                      {light, "/strokes/0/elevation", -90, 90},
+                                      {light, "/strokes/0/radius", kSmallestLampRadius, 180},
+                                      {light, "/strokes/0/radiance/0", 0, kMostRadiance},
+                                      {light, "/strokes/0/softness", 0, 1},
+                                      {light, "/strokes/0/opacity", 0, 1},
+                                      {light, "/lamps/0/azimuth", -kTurns, kTurns},
+                                      {light, "/lamps/0/elevation", -90, 90},
+                                      {light, "/lamps/0/radius", kSmallestLampRadius, 180},
+                                      {light, "/lamps/0/radiance/1", 0, kMostRadiance},
+                                      {light, "/distant/0/azimuth", -kTurns, kTurns},
+                                      {light, "/distant/0/elevation", -90, 90},
+                                      {light, "/distant/0/irradiance/2", 0, kMostRadiance},
+                                      {clock, "/sky/latitude", -90, 90},
+                                      {clock, "/sky/longitude", -180, 180},
+                                      {clock, "/sky/north", -kTurns, kTurns},
+                                      {clock, "/sky/hours_per_second", -100, 100},
+                                      {sun, "/sky/sun/azimuth", -kTurns, kTurns},
+                                      {sun, "/sky/sun/elevation", -90, 90},
+                                      {sun, "/sky/turbidity", 2, 10},
+                                      {sun, "/sky/ground/0", 0, 1},
+                                      {sun, "/sky/gain", 0, kMostGain}}) {
+        const auto failureAt = [&](float value) {
+            nlohmann::json changed = range.light;
+            changed[nlohmann::json::json_pointer(range.place)] = value;
+            const auto path = folder.write("light.json", changed.dump());
+            return failureOf([&] { readLight(path).at(0); });
+        };
+        CAPTURE(range.place);
+        for (const float end : {range.low, range.high}) CHECK_EQ(failureAt(end), "");
+        constexpr float kFar = std::numeric_limits<float>::max();
+        for (const float beyond : {std::nextafter(range.low, -kFar), std::nextafter(range.high, kFar)})
+            CHECK(says(failureAt(beyond),
+                       fmt::format("expected numbers from {:g} to {:g}", range.low, range.high)));
+    }
 }

@@ -205,11 +205,15 @@ TEST_CASE("OBJ: errors name the line, and nothing but the surface is read") {
     CHECK(meshFailure(corners, "a.obj").find("no triangles") != std::string::npos);
     CHECK(meshFailure("v 0 0 0\nv 1 nan 0\n", "a.obj").find("line 2") != std::string::npos);
     CHECK(meshFailure("v 0 0 0\r\nv 1 0\r\n", "a.obj").find("line 2") != std::string::npos);
-    CHECK(meshFailure("v 0 0 1e999\n", "a.obj").find("line 1") != std::string::npos);
+    for (const char* number : {"1e999", "0x1", "1,5", "inf", "++1", ""})
+        CHECK(says(meshFailure(fmt::format("v 0 0 {}\n", number), "a.obj"), "line 1: expected three finite"));
+    std::string face = "f";
+    for (int i = 0; i < 256 + 3; i++) face += " 1"; // the library would count three corners
+    CHECK(says(meshFailure(corners + face + "\n", "a.obj"), "line 4: a face has 259 corners"));
     CHECK(meshFailure(corners + "f 1 2 4\n", "a.obj").find("vertex 4") != std::string::npos);
     // Neither cut off nor wrapped, 4294967299 would be 3.
     for (const char* corner : {"-4", "0", "x", "3.7", "3abc", "4294967299", "99999999999999999999", "3/",
-                               "3//", "3/1/1/1", "3//0", "3//-2", "+3", "3/x/1"}) {
+                               "3//", "3/1/1/1", "3//0", "3//-2", "+3", "3/x/1", "0x3"}) {
         CAPTURE(corner);
         const std::string failure = meshFailure(corners + "vn 0 0 1\nf 1 2 " + corner + "\n", "a.obj");
         CHECK(failure.find("line 5: expected a corner") != std::string::npos);
@@ -225,6 +229,7 @@ TEST_CASE("OBJ: errors name the line, and nothing but the surface is read") {
           std::string::npos);
     CHECK(meshFailure("v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").find("within") !=
           std::string::npos);
+    CHECK(says(meshFailure("v 0 0 0\nv 1e-12 0 0\nv 0 1e-12 0\nf 1 2 3\n", "a.obj"), "units across"));
     // Subdivision tags claim any amount of memory, material libraries name other files.
     const std::string hostile = "t x 2000000000/2000000000/2000000000\rvw 0 1\nmtllib /dev/zero\nusemtl a\n";
     CHECK(decode(hostile + corners + hostile + "f 1 2 3\n" + hostile, "a.obj").triangleCount() == 1);
@@ -289,6 +294,13 @@ TEST_CASE("PLY: counts and indices that are not true") {
           std::string::npos);
     CHECK(meshFailure("ply\nformat ascii 2.0\n" + good.substr(4 + format.size()), "a.ply")
               .find("version 2.0") != std::string::npos);
+    for (const char* line :
+         {"format ascii", "format text 1.0", "element edge", "element edge 1 2", "elements edge 1",
+          "property", "property float", "property real z", "property list uchar int",
+          "property list float int z", "property list uchar whole z"})
+        CHECK(says(meshFailure("ply\n" + format + "element face 1\n" + line + "\nend_header\n", "a.ply"),
+                   "header line"));
+    CHECK(says(meshFailure("ply\n" + format + "property float x\nend_header\n", "a.ply"), "header line 3"));
     std::string comments = "ply\n" + format;
     for (int i = 0; i < 1000; i++) comments += "comment\n";
     CHECK(meshFailure(comments + good.substr(4 + format.size()), "a.ply").find("more than 1000 lines") !=

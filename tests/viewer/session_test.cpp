@@ -2,7 +2,7 @@
 #include "apps/viewer/session.h"
 
 #include "apps/viewer/screenshot.h"
-#include "engine/base/error.h"
+#include "tests/support/failure.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
@@ -30,12 +30,11 @@ struct SessionFolder : TemporaryFolder {
     Session read(const json& session) const {
         return readSession(write("a.session.json", session.dump()), shownState());
     }
-    Session readWith(const json& material) const {
-        return read({{"session", 1},
-                     {"bake", "a.relume"},
-                     {"eye", {0, 3, 5}},
-                     {"target", {0, 0, 0}},
-                     {"material", material}});
+    // Reads the least session with one more value, or another one.
+    Session readWith(const char* key, const json& value) const {
+        json session = {{"session", 1}, {"bake", "a.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}}};
+        session[key] = value;
+        return read(session);
     }
 };
 
@@ -78,6 +77,41 @@ TEST_CASE("session: materials that `relume render` refuses are refused") {
                                  json::array({"gold= 1"}), json::array({"gold=nan"}),
                                  json::array({"gold", "gold=2"}), json::array({"gold=0"})}) {
         CAPTURE(material.dump());
-        CHECK_THROWS_WITH_AS(folder.readWith(material), doctest::Contains("\"material\""), Error);
+        CHECK_THROWS_WITH_AS(folder.readWith("material", material), doctest::Contains("\"material\""), Error);
     }
+}
+
+TEST_CASE("session: values of other types, and pairs that exclude each other, are refused by name") {
+    const SessionFolder folder;
+    const auto refuses = [&](const char* key, const json& value, const std::string& expected) {
+        const std::string failure = failureOf([&] { folder.readWith(key, value); });
+        CAPTURE(key);
+        CAPTURE(value.dump());
+        CAPTURE(failure);
+        CHECK(says(failure, std::string("a.session.json: \"") + key + "\": expected " + expected));
+    };
+    REQUIRE_NOTHROW(folder.readWith("fov", 40));
+    refuses("session", 2, "version 1");
+    refuses("session", "1", "numbers");
+    refuses("bake", json(), "a .relume file");
+    for (const char* key : {"model", "environment", "size", "residual", "tone", "background", "ground-style"})
+        for (const json& value : {json(7), json(""), json::array({"a"})}) refuses(key, value, "a text");
+    for (const char* key : {"eye", "target"}) {
+        for (const json& value : {json(), json(7), json({0, 1})}) refuses(key, value, "three numbers");
+        for (const json& value : {json({0, 1e7, 0}), json({"0", 0, 0})}) refuses(key, value, "numbers from");
+    }
+    refuses("eye", {0, 0, 0}, "a point other than the target");
+    for (const char* key : {"fov", "rotate", "coefficients", "threshold", "time", "samples", "terms",
+                            "exposure", "background-blur"})
+        for (const json& value : {json("7"), json(1e7), json(-1e7)}) refuses(key, value, "numbers from");
+    refuses("light", 7, "a text");
+    for (const json& value : {json("gold"), json::array(), json::array({7})})
+        refuses("material", value, "a list of names");
+    const auto refusesPair = [&](const json& more, const char* said) {
+        json session = {{"session", 1}, {"bake", "a.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}}};
+        session.update(more);
+        CHECK(says(failureOf([&] { folder.read(session); }), said));
+    };
+    refusesPair({{"environment", "a.exr"}, {"light", "b.json"}}, "no such key beside \"light\"");
+    refusesPair({{"threshold", 0.1}, {"coefficients", 64}}, "no such key beside \"coefficients\"");
 }
