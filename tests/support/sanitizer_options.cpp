@@ -10,6 +10,9 @@ const char* __lsan_default_suppressions() {
     return "leak:libVkLayer_khronos_validation\nleak:libvulkan_lvp\n";
 }
 
+// Tests read what programs say on stderr, and take any word of validation for its message.
+const char* __lsan_default_options() { return "print_suppressions=0"; }
+
 // Keeps libraries loaded: what an unloaded driver still holds can be neither found nor named, and would be a
 // leak.
 int dlclose(void*) { return 0; }

@@ -269,6 +269,8 @@ TEST_CASE("glTF parts: materials that lie") {
     glb = {};
     glb.materials = "[{}]";
     CHECK(says(partsFailure(glb), "number 1 of its materials"));
+    glb.materials = "5";
+    CHECK(says(partsFailure(glb), "number 0 of its materials"));
 }
 
 TEST_CASE("glTF parts: one small image that many materials have does not become gigabytes") {

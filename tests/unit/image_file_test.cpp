@@ -159,6 +159,17 @@ TEST_CASE("image file: OpenEXR that cannot be used is refused") {
         other[5] |= std::byte(flag);
         CHECK_THROWS_AS(readBytes(other), Error);
     }
+    const std::string type("type\0string\0\x09\0\0\0hologram!", 25);
+    Bytes strange = bytes;
+    strange.insert(strange.begin() + 8, reinterpret_cast<const std::byte*>(type.data()),
+                   reinterpret_cast<const std::byte*>(type.data()) + type.size());
+    CHECK_THROWS_WITH_AS(readBytes(strange), doctest::Contains("a part of type hologram!"), Error);
+    // Of the channels A, B, G and R the first has the number of columns that a sample stands for, then rows.
+    for (size_t sampling : {8u, 12u}) {
+        Bytes coarse = bytes;
+        patchAttribute(coarse, std::string("channels\0chlist\0", 16), 2 + sampling, 2);
+        CHECK_THROWS_WITH_AS(readBytes(coarse), doctest::Contains("channel A is subsampled"), Error);
+    }
 }
 
 TEST_CASE("image file: claims beyond what the file can hold are refused") {

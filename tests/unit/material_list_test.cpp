@@ -82,6 +82,10 @@ TEST_CASE("material list: what makes no sense is refused, and says why") {
     refuses(many + "]}", "more than 16");
     refuses(R"({"set": ["clay","clay","clay","clay","clay","clay","clay","clay","clay"]})", "can hold 8");
     refuses(R"({"set": [{"name": "a\u0000b", "model": "plastic"}]})", "control characters");
+    const TemporaryFolder folder; // a material is named after its file
+    folder.write("a\tb.json", R"({"model": "plastic"})");
+    CHECK_THROWS_WITH_AS(readMaterials("a\tb.json", folder.path()), doctest::Contains("control characters"),
+                         Error);
 }
 
 TEST_CASE("material factory: members of a set share light maps, each has its view maps") {

@@ -257,6 +257,16 @@ TEST_CASE("merge: a shard must hold its own blocks and no others, and what each 
     CHECK(says(refusalOf(kShard, [](auto& raw) { poke(raw, 0, 2, 4); }), "0: says to be shard 2 of 2"));
     CHECK(says(refusalOf(kShard, [](auto& raw) { poke(raw, 4, 0, 4); }), "0: says to be shard 0 of 0"));
     CHECK(says(refusalOf(kShard, [](auto& raw) { raw.push_back({}); }), "0: expected one chunk SHRD"));
+    own.push_back({kShard, kWholeFile, 1, std::ranges::find(own, kShard, &RawChunk::tag)->raw});
+    CHECK(says(refusal({fileOf(own), files[1]}), "0: expected one chunk SHRD"));
+    own.pop_back();
+    CHECK(says(refusalOf(SparseTransport::kTag,
+                         [](auto& raw) {
+                             const size_t rows =
+                                 ByteReader(std::span(raw).subspan(4), "").get<uint32_t>() * 3;
+                             poke(raw, 12 + 5 * rows, 0xffff, 2); // the high plane of the scales
+                         }),
+               "scales"));
     own.push_back({chunkTag("NEWS"), kWholeFile, 0, {std::byte(1)}});
     CHECK(says(refusal({fileOf(own), files[1]}), "NEWS"));
     own.back().tag = chunkTag("news");

@@ -166,11 +166,11 @@ TEST_CASE("viewer surroundings: settings that cannot be written are a warning") 
     ViewerSession session;
     // The first frame says so: its image is out of date. A script would remember nothing.
     auto viewer = std::async(std::launch::async, [&] {
-        return session.view("ring.relume",
-                            kFaults + std::string("RELUME_FAULT_VULKAN=out-of-date "
-                                                  "RELUME_FAULT_VULKAN_FUNCTION=vkQueuePresentKHR "
-                                                  "RELUME_FAULT_VULKAN_CALL=1 XDG_STATE_HOME=/proc/state "
-                                                  "sh -c 'echo $$ >pid.txt; exec \"$0\" \"$@\"'"));
+        return session.view("ring.relume", "sh -c 'echo $$ >pid.txt; exec env \"$@\"' sh " +
+                                               std::string(kFaults) +
+                                               "RELUME_FAULT_VULKAN=out-of-date "
+                                               "RELUME_FAULT_VULKAN_FUNCTION=vkQueuePresentKHR "
+                                               "RELUME_FAULT_VULKAN_CALL=1 XDG_STATE_HOME=/proc/state");
     });
     const auto isOver = [&] {
         return viewer.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
