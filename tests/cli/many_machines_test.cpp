@@ -1,10 +1,15 @@
 // A bake in shards, and the shards merged: to the bytes of the whole bake.
+#include "engine/base/file.h"
+#include "engine/transport/asset_arrays.h"
+#include "tests/support/asset_sample.h"
 #include "tests/support/run_relume.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include <random>
 
+using namespace relume;
 using namespace relume::test;
 
 namespace {
@@ -107,6 +112,17 @@ TEST_CASE("many machines: shards in bases, merged, are the whole bake") {
         REQUIRE_MESSAGE(merge.exitCode == 0, merge.err);
         CHECK(folder.read("merged.relume") == folder.read("whole.relume"));
     }
+    // Kept visibility that lacks a byte, with a right checksum.
+    std::vector<RawChunk> chunks = chunksOf(readFile(folder.path() / "part-0.relume"));
+    std::ranges::find(chunks, kVisibility, &RawChunk::tag)->raw.pop_back();
+    const std::vector<std::byte> damaged = fileOf(chunks);
+    folder.put("part-0.relume", {reinterpret_cast<const char*>(damaged.data()), damaged.size()});
+    std::string parts;
+    for (int index = 0; index < 12; index++) parts += " part-" + std::to_string(index) + ".relume";
+    const Outcome merge = runRelume(folder, "merge" + parts + " -o merged.relume");
+    CHECK_EQ(merge.exitCode, 1);
+    CHECK(says(merge.err, "part-0.relume: chunk visb of part 0, run 0: "));
+    CHECK(folder.read("merged.relume") == folder.read("whole.relume")); // of the merge before
 }
 
 TEST_CASE("many machines: a shard counts its own vertices, and goes on from its own checkpoint") {

@@ -83,6 +83,13 @@ TEST_CASE("mesh files: normals keep creases apart, incomplete or broken ones are
     const Mesh zero = decode(corners + "vn 0 0 0\nvn 5 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n", "a.obj");
     CHECK(zero.vertexCount() == 4);
     CHECK(zero.normals[0] == partial.normals[0]);
+    Mesh strange;
+    strange.positions = {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)};
+    strange.triangles = {uvec3(0, 1, 2)};
+    for (const float wrong : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+        strange.normals.assign(3, vec3(0, 0, wrong));
+        CHECK(cleanUp(strange, "a").normals == std::vector<vec3>(3, vec3(0, 0, 1)));
+    }
 }
 
 TEST_CASE("OBJ: texture coordinates from the top left, where wanted, split vertices along seams") {
