@@ -175,9 +175,9 @@ Bvh buildBvh(const Mesh& mesh) {
     arguments.createLeaf = createLeaf;
     const auto* root = static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
     if (!root)
-        throw Error(
-            fmt::format("Embree could not build a hierarchy of the occluder's {} triangles: out of memory?",
-                        mesh.triangleCount()));
+        throw Error(fmt::format("out of memory, as it seems: Embree built no hierarchy of the occluder's {} "
+                                "triangles; close other programs, or simplify it: --occluder TRIANGLES",
+                                mesh.triangleCount()));
     Flattener flattener(mesh, bvh);
     if (root->triangleCount == 0)
         flattener.addNode(*root, 1);

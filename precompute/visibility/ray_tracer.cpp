@@ -18,7 +18,9 @@ void throwOnError(RTCDevice device, const char* what) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
     if (error == RTC_ERROR_OUT_OF_MEMORY)
-        throw Error(fmt::format("Embree ran out of memory while {}; bake with a smaller occluder", what));
+        throw Error(fmt::format(
+            "out of memory while Embree was {}; close other programs, or bake with a smaller occluder",
+            what));
     throw Error(fmt::format("Embree failed while {}: error {}; check the installation of Embree 3.13", what,
                             int(error)));
 }
