@@ -164,7 +164,7 @@ TEST_CASE("image file: OpenEXR that cannot be used is refused") {
     strange.insert(strange.begin() + 8, reinterpret_cast<const std::byte*>(type.data()),
                    reinterpret_cast<const std::byte*>(type.data()) + type.size());
     CHECK_THROWS_WITH_AS(readBytes(strange), doctest::Contains("a part of type hologram!"), Error);
-    // Of the channels A, B, G and R the first has the number of columns that a sample stands for, then rows.
+    // The first channel is A; its xSampling is 8 bytes behind its name, its ySampling 12.
     for (size_t sampling : {8u, 12u}) {
         Bytes coarse = bytes;
         patchAttribute(coarse, std::string("channels\0chlist\0", 16), 2 + sampling, 2);

@@ -30,10 +30,10 @@ struct SessionFolder : TemporaryFolder {
     Session read(const json& session) const {
         return readSession(write("a.session.json", session.dump()), shownState());
     }
-    // Reads the least session with one more value, or another one.
-    Session readWith(const char* key, const json& value) const {
+    // Reads the smallest valid session, with these values added or replaced.
+    Session readWith(const json& values) const {
         json session = {{"session", 1}, {"bake", "a.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}}};
-        session[key] = value;
+        session.update(values);
         return read(session);
     }
 };
@@ -77,20 +77,21 @@ TEST_CASE("session: materials that `relume render` refuses are refused") {
                                  json::array({"gold= 1"}), json::array({"gold=nan"}),
                                  json::array({"gold", "gold=2"}), json::array({"gold=0"})}) {
         CAPTURE(material.dump());
-        CHECK_THROWS_WITH_AS(folder.readWith("material", material), doctest::Contains("\"material\""), Error);
+        CHECK_THROWS_WITH_AS(folder.readWith({{"material", material}}), doctest::Contains("\"material\""),
+                             Error);
     }
 }
 
 TEST_CASE("session: values of other types, and pairs that exclude each other, are refused by name") {
     const SessionFolder folder;
     const auto refuses = [&](const char* key, const json& value, const std::string& expected) {
-        const std::string failure = failureOf([&] { folder.readWith(key, value); });
+        const std::string failure = failureOf([&] { folder.readWith({{key, value}}); });
         CAPTURE(key);
         CAPTURE(value.dump());
         CAPTURE(failure);
         CHECK(says(failure, std::string("a.session.json: \"") + key + "\": expected " + expected));
     };
-    REQUIRE_NOTHROW(folder.readWith("fov", 40));
+    REQUIRE_NOTHROW(folder.readWith({{"fov", 40}}));
     refuses("session", 2, "version 1");
     refuses("session", "1", "numbers");
     refuses("bake", json(), "a .relume file");
@@ -107,10 +108,8 @@ TEST_CASE("session: values of other types, and pairs that exclude each other, ar
     refuses("light", 7, "a text");
     for (const json& value : {json("gold"), json::array(), json::array({7})})
         refuses("material", value, "a list of names");
-    const auto refusesPair = [&](const json& more, const char* said) {
-        json session = {{"session", 1}, {"bake", "a.relume"}, {"eye", {0, 3, 5}}, {"target", {0, 0, 0}}};
-        session.update(more);
-        CHECK(says(failureOf([&] { folder.read(session); }), said));
+    const auto refusesPair = [&](const json& pair, const char* said) {
+        CHECK(says(failureOf([&] { folder.readWith(pair); }), said));
     };
     refusesPair({{"environment", "a.exr"}, {"light", "b.json"}}, "no such key beside \"light\"");
     refusesPair({{"threshold", 0.1}, {"coefficients", 64}}, "no such key beside \"coefficients\"");
