@@ -11,7 +11,6 @@
 #include <array>
 #include <cstring>
 #include <fmt/core.h>
-#include <map>
 #include <new>
 #include <optional>
 #include <zlib.h>
@@ -21,13 +20,6 @@ namespace relume {
 namespace {
 
 using Bytes = std::span<const std::byte>;
-
-int64_t divideDown(int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-
-// Returns the number of multiples of `step` from `first` to `last`.
-int64_t multiples(int64_t step, int64_t first, int64_t last) {
-    return divideDown(last, step) - divideDown(first - 1, step);
-}
 
 // Returns whether run lengths unpack to `wanted` bytes: after n >= 0 comes a byte that repeats n + 1 times,
 // after n < 0 there are -n bytes.
@@ -41,24 +33,6 @@ bool isRunLengthsOf(Bytes packed, size_t wanted) {
         packed = packed.subspan(taken);
     }
     return unpacked == wanted;
-}
-
-// Returns whether a zlib stream inflates to `wanted` bytes, which are counted and not kept.
-bool isDeflatedFrom(Bytes packed, size_t wanted) {
-    z_stream stream{};
-    if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data())); // zlib only reads them
-    stream.avail_in = uInt(packed.size());
-    std::array<Bytef, 16384> unpacked;
-    int state = Z_OK;
-    while (state == Z_OK && stream.total_out <= wanted) {
-        stream.next_out = unpacked.data();
-        stream.avail_out = uInt(unpacked.size());
-        state = inflate(&stream, Z_NO_FLUSH);
-    }
-    const bool isWanted = state == Z_STREAM_END && stream.total_out == wanted;
-    inflateEnd(&stream);
-    return isWanted;
 }
 
 // Returns the number of lines of a chunk that is no tile.
@@ -84,51 +58,31 @@ int64_t linesOf(Imf::Compression compression) {
 class ChunkWalk {
   public:
     ChunkWalk(Bytes file, size_t tableStart, const Imf::Header& header, const std::string& name)
-        : mFile(file), mTableStart(tableStart), mHeader(header), mName(name) {
-        const Imath::Box2i& window = header.dataWindow();
-        for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
-            const Imf::Channel& channel = i.channel();
-            mLineBytes[channel.ySampling] +=
-                size_t(multiples(channel.xSampling, window.min.x, window.max.x)) *
-                (channel.type == Imf::HALF ? 2 : 4);
-        }
-    }
+        : mFile(file), mTableStart(tableStart), mHeader(header), mWindow(header.dataWindow()), mName(name) {}
 
     // The library seeks the first block of lines and reads on from there, whatever the table says.
     void checkLines() const {
-        const Imath::Box2i& window = mHeader.dataWindow();
         const int64_t lines = linesOf(mHeader.compression());
         const bool isIncreasing = mHeader.lineOrder() == Imf::INCREASING_Y;
         std::optional<Chunk> previous;
         size_t number = 0;
-        for (int64_t y = window.min.y; y <= window.max.y; y += lines) {
+        for (int64_t y = mWindow.min.y; y <= mWindow.max.y; y += lines) {
             const Chunk chunk = chunkAt(number++, std::array{int32_t(y)});
             if (previous && (isIncreasing ? previous->end != chunk.start : chunk.end != previous->start))
                 fail("its lines do not follow one another");
-            size_t wanted = 0;
-            const int64_t last = std::min<int64_t>(y + lines - 1, window.max.y);
-            for (const auto& [sampling, bytes] : mLineBytes)
-                wanted += size_t(multiples(sampling, y, last)) * bytes;
-            check(chunk, wanted);
+            check(chunk, boxAt(mWindow.min.x, y, int64_t(mWindow.max.x) - mWindow.min.x + 1, lines));
             previous = chunk;
         }
     }
 
     // Checks the tiles of the full resolution, which come first in the table.
     void checkTiles() const {
-        const Imath::Box2i& window = mHeader.dataWindow();
-        const int64_t width = int64_t(window.max.x) - window.min.x + 1,
-                      height = int64_t(window.max.y) - window.min.y + 1;
-        const int64_t tileWidth = mHeader.tileDescription().xSize,
-                      tileHeight = mHeader.tileDescription().ySize;
-        const size_t pixelBytes = mLineBytes.at(1) / size_t(width); // tiles have no subsampling
+        const int64_t width = mHeader.tileDescription().xSize, height = mHeader.tileDescription().ySize;
         size_t number = 0;
-        for (int64_t y = 0; y * tileHeight < height; y++)
-            for (int64_t x = 0; x * tileWidth < width; x++) {
-                const int64_t area = std::min(tileWidth, width - x * tileWidth) *
-                                     std::min(tileHeight, height - y * tileHeight);
-                check(chunkAt(number++, std::array{int32_t(x), int32_t(y), 0, 0}), size_t(area) * pixelBytes);
-            }
+        for (int64_t y = mWindow.min.y, row = 0; y <= mWindow.max.y; y += height, row++)
+            for (int64_t x = mWindow.min.x, column = 0; x <= mWindow.max.x; x += width, column++)
+                check(chunkAt(number++, std::array{int32_t(column), int32_t(row), 0, 0}),
+                      boxAt(x, y, width, height));
     }
 
   private:
@@ -161,12 +115,31 @@ class ChunkWalk {
         return {start, first + uint64_t(size), mFile.subspan(first, size_t(size))};
     }
 
-    void check(const Chunk& chunk, size_t wanted) const {
-        if (chunk.packed.size() < wanted && !unpacksTo(chunk.packed, wanted))
+    // Returns the box of a chunk's pixels: the last ones may have fewer than others.
+    Imath::Box2i boxAt(int64_t x, int64_t y, int64_t width, int64_t height) const {
+        return {{int(x), int(y)},
+                {int(std::min<int64_t>(x + width - 1, mWindow.max.x)),
+                 int(std::min<int64_t>(y + height - 1, mWindow.max.y))}};
+    }
+
+    size_t bytesOf(const Imath::Box2i& box) const {
+        size_t bytes = 0;
+        for (auto i = mHeader.channels().begin(); i != mHeader.channels().end(); ++i) {
+            const Imf::Channel& channel = i.channel();
+            bytes += size_t(countMultiples(channel.xSampling, box.min.x, box.max.x)) *
+                     countMultiples(channel.ySampling, box.min.y, box.max.y) *
+                     (channel.type == Imf::HALF ? 2 : 4);
+        }
+        return bytes;
+    }
+
+    void check(const Chunk& chunk, const Imath::Box2i& box) const {
+        const size_t wanted = bytesOf(box);
+        if (chunk.packed.size() < wanted && !unpacksTo(chunk.packed, wanted, box))
             fail("pixels do not unpack to what they should");
     }
 
-    bool unpacksTo(Bytes packed, size_t wanted) const {
+    bool unpacksTo(Bytes packed, size_t wanted, const Imath::Box2i& box) const {
         switch (mHeader.compression()) {
         case Imf::NO_COMPRESSION:
             return false;
@@ -175,8 +148,10 @@ class ChunkWalk {
         case Imf::ZIPS_COMPRESSION:
         case Imf::ZIP_COMPRESSION:
             return isDeflatedFrom(packed, wanted);
-        default: // the library itself refuses what is short, but for nothing at all, and some of DWAA and
-                 // DWAB
+        case Imf::DWAA_COMPRESSION:
+        case Imf::DWAB_COMPRESSION:
+            return isDwaOf(packed, mHeader.channels(), box);
+        default: // the library itself refuses what is short, but for nothing at all
             return !packed.empty();
         }
     }
@@ -184,8 +159,8 @@ class ChunkWalk {
     Bytes mFile;
     size_t mTableStart;
     const Imf::Header& mHeader;
+    const Imath::Box2i mWindow;
     const std::string& mName;
-    std::map<int, size_t> mLineBytes; // of a line, by the ySampling of channels
 };
 
 } // namespace
@@ -197,6 +172,29 @@ void checkExrChunks(Bytes bytes, size_t headerBytes, const Imf::Header& header, 
         walk.checkTiles();
     else
         walk.checkLines();
+}
+
+bool isDeflatedFrom(Bytes packed, uint64_t wanted, const std::function<void(Bytes)>& take) {
+    z_stream stream{};
+    if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data())); // zlib only reads them
+    stream.avail_in = uInt(packed.size());
+    std::array<std::byte, 16384> unpacked;
+    int state = Z_OK;
+    while (state == Z_OK && stream.total_out <= wanted) {
+        stream.next_out = reinterpret_cast<Bytef*>(unpacked.data());
+        stream.avail_out = uInt(unpacked.size());
+        state = inflate(&stream, Z_NO_FLUSH);
+        if (take) take(Bytes(unpacked).first(unpacked.size() - stream.avail_out));
+    }
+    const bool isWanted = state == Z_STREAM_END && stream.total_out == wanted;
+    inflateEnd(&stream);
+    return isWanted;
+}
+
+uint32_t countMultiples(int step, int first, int last) {
+    const auto divideDown = [](int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 : 0); };
+    return uint32_t(divideDown(last, step) - divideDown(int64_t(first) - 1, step));
 }
 
 } // namespace relume

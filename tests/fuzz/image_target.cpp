@@ -53,6 +53,10 @@ std::vector<Bytes> seeds() {
         writeHalves(file, header, {"Y"});
         all.push_back(readFile(file));
     }
+    Imf::Header layers(64, 32);
+    layers.compression() = Imf::DWAA_COMPRESSION;
+    writeHalves(file, layers, {"R", "G", "B", "A", "Z", "left.R", "left.G", "left.B"});
+    all.push_back(readFile(file));
     return all;
 }
 
