@@ -22,7 +22,8 @@ void checkExrChunks(std::span<const std::byte> bytes, size_t headerBytes, const 
                     bool isTiled, const std::string& name);
 
 // Returns whether a chunk in DWAA or DWAB has values for all pixels of `box`, coded as the library codes
-// channels of their names and types.
+// channels of their names and types, but for what the library itself refuses: DC coefficients and run lengths
+// that unpack to less than the chunk says.
 bool isDwaOf(std::span<const std::byte> packed, const Imf::ChannelList& channels, const Imath::Box2i& box);
 
 // Decodes values in OpenEXR's Huffman coding, which `take` gets one by one. Returns whether there are

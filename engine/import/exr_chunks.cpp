@@ -13,6 +13,7 @@
 #include <fmt/core.h>
 #include <new>
 #include <optional>
+#include <vector>
 #include <zlib.h>
 
 namespace relume {
@@ -33,6 +34,22 @@ bool isRunLengthsOf(Bytes packed, size_t wanted) {
         packed = packed.subspan(taken);
     }
     return unpacked == wanted;
+}
+
+// Returns false for what the library does not refuse itself: a chunk in PIZ without bytes, or whose few
+// values have so many codes that it would take long. A chunk has the first and the last byte of a bit map,
+// the map from the one to the other, the number of bytes that follow, and values in Huffman coding.
+bool isPizOf(Bytes packed, size_t wanted) {
+    std::array<uint16_t, 2> map;
+    if (packed.size() < sizeof map) return false;
+    std::memcpy(map.data(), packed.data(), sizeof map);
+    const size_t start = sizeof map + (map[0] <= map[1] ? size_t(map[1] - map[0]) + 1 : 0) + sizeof(int32_t);
+    if (packed.size() < start) return false;
+    const Bytes values = packed.subspan(start);
+    uint32_t bits = 0;
+    if (values.size() >= 16) std::memcpy(&bits, &values[12], sizeof bits);
+    constexpr uint32_t kFast = 128; // more bits go to another decoder, of which many codes cost little
+    return bits > kFast || decodeExrHuffman(values, wanted / 2, [](uint16_t) {});
 }
 
 // Returns the number of lines of a chunk that is no tile.
@@ -78,11 +95,16 @@ class ChunkWalk {
     // Checks the tiles of the full resolution, which come first in the table.
     void checkTiles() const {
         const int64_t width = mHeader.tileDescription().xSize, height = mHeader.tileDescription().ySize;
-        size_t number = 0;
+        std::vector<std::pair<uint64_t, uint64_t>> places;
         for (int64_t y = mWindow.min.y, row = 0; y <= mWindow.max.y; y += height, row++)
-            for (int64_t x = mWindow.min.x, column = 0; x <= mWindow.max.x; x += width, column++)
-                check(chunkAt(number++, std::array{int32_t(column), int32_t(row), 0, 0}),
-                      boxAt(x, y, width, height));
+            for (int64_t x = mWindow.min.x, column = 0; x <= mWindow.max.x; x += width, column++) {
+                const Chunk chunk = chunkAt(places.size(), std::array{int32_t(column), int32_t(row), 0, 0});
+                check(chunk, boxAt(x, y, width, height));
+                places.emplace_back(chunk.start, chunk.end);
+            }
+        std::ranges::sort(places);
+        for (size_t i = 1; i < places.size(); i++)
+            if (places[i].first < places[i - 1].second) fail("its tiles overlap");
     }
 
   private:
@@ -148,6 +170,8 @@ class ChunkWalk {
         case Imf::ZIPS_COMPRESSION:
         case Imf::ZIP_COMPRESSION:
             return isDeflatedFrom(packed, wanted);
+        case Imf::PIZ_COMPRESSION:
+            return isPizOf(packed, wanted);
         case Imf::DWAA_COMPRESSION:
         case Imf::DWAB_COMPRESSION:
             return isDwaOf(packed, mHeader.channels(), box);

@@ -78,7 +78,8 @@ class BlockCounter {
     int mFilled = 0;
 };
 
-// Returns whether there are `count` values, and they fill `blocks` blocks.
+// Returns whether there are `count` values, and they fill `blocks` blocks, or more: what is no number is
+// written as a value, and read as zeros.
 bool fillBlocks(Bytes packed, uint64_t compression, uint64_t count, uint64_t blocks) {
     enum { Huffman, Deflate };
     BlockCounter counter;
@@ -89,7 +90,7 @@ bool fillBlocks(Bytes packed, uint64_t compression, uint64_t count, uint64_t blo
     };
     return (compression == Huffman ? decodeExrHuffman(packed, count, takeOne)
                                    : compression == Deflate && isDeflatedFrom(packed, 2 * count, takeAll)) &&
-           counter.blocks() == blocks;
+           counter.blocks() >= blocks;
 }
 
 } // namespace
@@ -119,11 +120,13 @@ bool isDwaOf(Bytes packed, const Imf::ChannelList& channels, const Imath::Box2i&
         return false;
     Bytes rest = packed.subspan(sizeof sizes + rules.size());
     if (sizes.deflatedPacked > rest.size()) return false;
-    if (deflatedBytes > 0 && !isDeflatedFrom(rest.first(sizes.deflatedPacked), deflatedBytes)) return false;
+    if (deflatedBytes == 0 ? sizes.deflatedPacked > 0
+                           : !isDeflatedFrom(rest.first(sizes.deflatedPacked), deflatedBytes))
+        return false;
     rest = rest.subspan(sizes.deflatedPacked);
-    return blocks == 0 ||
-           (sizes.acPacked <= rest.size() &&
-            fillBlocks(rest.first(sizes.acPacked), sizes.acCompression, sizes.acCount, blocks));
+    if (sizes.acPacked > rest.size() || sizes.acCount > 63 * blocks) return false;
+    if (blocks == 0) return sizes.acPacked == 0 && sizes.dcPacked == 0;
+    return fillBlocks(rest.first(sizes.acPacked), sizes.acCompression, sizes.acCount, blocks);
 }
 
 } // namespace relume

@@ -1,4 +1,6 @@
-// Decodes values of 16 bits from OpenEXR's canonical Huffman coding, as ImfHuf.cpp of the library does.
+// Decodes values of 16 bits from OpenEXR's canonical Huffman coding. The library has two decoders, ImfHuf.cpp
+// and ImfFastHuf.cpp, which differ where no encoder leads: what they would read differently, or slowly, is
+// refused.
 #include "engine/import/exr_check.h"
 
 #include <algorithm>
@@ -41,16 +43,25 @@ class BitReader {
 // one in the order of their symbols, and shorter codes are above longer ones.
 class CanonicalCode {
   public:
-    static constexpr int kLongest = 58;
+    static constexpr size_t kLongest = 52; // of which double precision, in the library, has all
 
-    void add(uint32_t symbol, int length) { mSymbols[size_t(length)].push_back(symbol); }
+    void add(uint32_t symbol, size_t length) {
+        mSymbols[length].push_back(symbol);
+        mCount++;
+    }
 
-    void finish() {
+    size_t count() const { return mCount; }
+
+    // Returns whether the code is complete: whether any bits are those of symbols.
+    bool finish() {
         uint64_t code = 0;
         for (size_t length = kLongest; length > 0; length--) {
             mFirst[length] = code;
-            code = (code + mSymbols[length].size()) >> 1;
+            code += mSymbols[length].size();
+            if (code % 2 != 0) return false;
+            code /= 2;
         }
+        return code == 1;
     }
 
     std::optional<uint32_t> decode(BitReader& bits) const {
@@ -68,6 +79,7 @@ class CanonicalCode {
   private:
     std::array<std::vector<uint32_t>, kLongest + 1> mSymbols; // by length
     std::array<uint64_t, kLongest + 1> mFirst{};
+    size_t mCount = 0;
 };
 
 // Reads the lengths of the codes of the symbols from `first` to `last`, in 6 bits each; 59 to 62 stand for 2
@@ -77,8 +89,9 @@ std::optional<CanonicalCode> readCode(BitReader& bits, uint32_t first, uint32_t 
     for (uint32_t symbol = first; symbol <= last;) {
         const std::optional<uint32_t> length = bits.take(6);
         if (!length) return std::nullopt;
-        if (*length <= CanonicalCode::kLongest) {
-            if (*length > 0) code.add(symbol, int(*length));
+        if (*length <= 58) {
+            if (*length > CanonicalCode::kLongest) return std::nullopt;
+            if (*length > 0) code.add(symbol, *length);
             symbol++;
         } else {
             uint32_t absent = *length - 57;
@@ -91,7 +104,7 @@ std::optional<CanonicalCode> readCode(BitReader& bits, uint32_t first, uint32_t 
             if (symbol > last + 1) return std::nullopt;
         }
     }
-    code.finish();
+    if (!code.finish()) return std::nullopt;
     return code;
 }
 
@@ -107,7 +120,9 @@ bool decodeExrHuffman(Bytes packed, uint64_t count, const std::function<void(uin
     const Bytes rest = packed.subspan(sizeof numbers);
     BitReader codeReader(rest, 8 * rest.size());
     const std::optional<CanonicalCode> code = readCode(codeReader, first, last);
-    if (!code) return false;
+    // All symbols occur, but the one that repeats; for more of them the library takes a time that is
+    // quadratic.
+    if (!code || code->count() > size_t(valueBits) + 1) return false;
     BitReader bits(rest.subspan(codeReader.bytesRead()), valueBits);
     uint64_t taken = 0;
     for (std::optional<uint32_t> symbol, previous; !bits.isEmpty();) {
@@ -115,7 +130,7 @@ bool decodeExrHuffman(Bytes packed, uint64_t count, const std::function<void(uin
         uint32_t repeats = 1;
         if (symbol == last) { // the value before, as often as 8 bits say
             const std::optional<uint32_t> times = bits.take(8);
-            if (!times || !previous) return false;
+            if (!times || *times == 0) return false;
             repeats = *times;
             symbol = previous;
         }

@@ -1,4 +1,5 @@
-// OpenEXR's lossy compressions, DWAA and DWAB, whose chunks say themselves how their channels are coded.
+// Checks of OpenEXR chunks that the library reads wrongly, or for long: DWAA, DWAB and PIZ, and tiles that
+// overlap.
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/import/exr_check.h"
@@ -11,7 +12,9 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
+#include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 #include <doctest/doctest.h>
@@ -86,6 +89,16 @@ Bytes withMore(Bytes file, size_t place, int64_t more) {
     return file;
 }
 
+// Replaces what is packed in the only chunk of a file of lines.
+Bytes withChunk(Bytes file, const std::string& packed) {
+    const auto size = int32_t(packed.size());
+    const size_t start = firstChunk(file);
+    file.resize(start + 8 + packed.size());
+    std::memcpy(&file[start + 4], &size, sizeof size);
+    std::memcpy(file.data() + start + 8, packed.data(), packed.size());
+    return file;
+}
+
 std::string deflated(const std::string& bytes) {
     std::string packed(compressBound(bytes.size()), '\0');
     uLongf size = packed.size();
@@ -102,8 +115,8 @@ void checkRefused(const Bytes& file) {
 // Returns a file of 256 x 32 black pixels, R, G and B, that are one chunk in DWAA, with these rules,
 // coefficients (AC) and number of DC coefficients.
 Bytes fileOf(const std::string& rules, const std::vector<uint16_t>& coefficients, size_t dcCount) {
-    Bytes file = written(headerOf(256, 32, Imf::DWAA_COMPRESSION),
-                         {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF}});
+    const Bytes file = written(headerOf(256, 32, Imf::DWAA_COMPRESSION),
+                               {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF}});
     const std::string packed = deflated(
                           {reinterpret_cast<const char*>(coefficients.data()), 2 * coefficients.size()}),
                       packedDc = deflated(std::string(2 * dcCount, '\0'));
@@ -111,12 +124,27 @@ Bytes fileOf(const std::string& rules, const std::vector<uint16_t>& coefficients
         2, 0, 0, packed.size(), packedDc.size(), 0, 0, 0, coefficients.size(), dcCount, 1};
     const std::string chunk =
         std::string(reinterpret_cast<const char*>(sizes.data()), kSizesBytes) + rules + packed + packedDc;
-    const auto size = int32_t(chunk.size());
-    const size_t start = firstChunk(file);
-    file.resize(start + 8 + chunk.size());
-    std::memcpy(&file[start + 4], &size, sizeof size);
-    std::memcpy(&file[start + 8], chunk.data(), chunk.size());
-    return file;
+    return withChunk(file, chunk);
+}
+
+// Returns values in OpenEXR's Huffman coding: the first and the last symbol, and bits as digits, with spaces.
+Bytes huffmanOf(uint32_t first, uint32_t last, std::string code, std::string values) {
+    std::erase(code, ' ');
+    std::erase(values, ' ');
+    const uint32_t numbers[] = {first, last, 0, uint32_t(values.size()), 0};
+    Bytes packed(sizeof numbers);
+    std::memcpy(packed.data(), numbers, sizeof numbers);
+    for (const std::string& bits : {code, values})
+        for (size_t i = 0; i < bits.size(); i += 8)
+            packed.push_back(std::byte(std::stoi((bits.substr(i, 8) + "0000000").substr(0, 8), nullptr, 2)));
+    return packed;
+}
+
+// Returns the values, or nothing unless there are `count`.
+std::vector<uint16_t> decoded(const Bytes& packed, uint64_t count) {
+    std::vector<uint16_t> values;
+    const bool isWhole = decodeExrHuffman(packed, count, [&](uint16_t value) { values.push_back(value); });
+    return isWhole ? values : std::vector<uint16_t>();
 }
 
 } // namespace
@@ -182,6 +210,12 @@ TEST_CASE("image file: a DWAA chunk has AC coefficients for all blocks") {
     coefficients.insert(coefficients.end(), {0xff3f, 0, 0xff3e});
     const Image black = decodeImage(fileOf(rules, coefficients, kBlocks), "lossy.exr").image;
     CHECK(black.at(255, 31).z == 0);
+    // A value that is no number takes the place of zeros.
+    std::vector<uint16_t> more = coefficients;
+    more.push_back(0xff00);
+    CHECK(decodeImage(fileOf(rules, more, kBlocks), "lossy.exr").image.at(255, 31).z == 0);
+    checkRefused(fileOf(rules, std::vector<uint16_t>(63 * kBlocks + 1, 0xff00), kBlocks));
+    checkRefused(withMore(fileOf(rules + "x", coefficients, kBlocks), 2, 1)); // deflated bytes of no channel
     const std::string zeros = deflated(std::string(2 * kBlocks, '\0'));
     Bytes damaged = fileOf(rules, coefficients, kBlocks);
     damaged[damaged.size() - zeros.size() - 1] ^= std::byte(4); // the check sum of coefficients
@@ -192,6 +226,16 @@ TEST_CASE("image file: a DWAA chunk has AC coefficients for all blocks") {
     checkRefused(fileOf(rules, coefficients, kBlocks));
 }
 
+TEST_CASE("image file: a DWAA chunk of channels that are not transformed has no coefficients") {
+    const Bytes file = written(headerOf(64, 32, Imf::DWAA_COMPRESSION), {{"Y", Imf::UINT}});
+    CHECK(decodeImage(file, "lossy.exr").image.at(2, 1).x == 66);
+    const std::string chunk(reinterpret_cast<const char*>(&file[firstChunk(file) + 8]),
+                            file.size() - firstChunk(file) - 8);
+    checkRefused(withMore(withChunk(file, chunk + "x"), 3, 1));
+    checkRefused(withMore(file, 4, 1));
+    checkRefused(withMore(file, 8, 1));
+}
+
 // The library transforms three channels together where rules give them the places 0, 1 and 2, but has room
 // for DC coefficients of those channels alone that are transformed.
 TEST_CASE("image file: DWAA's rules cannot make the library read beyond its buffers") {
@@ -199,30 +243,6 @@ TEST_CASE("image file: DWAA's rules cannot make the library read beyond its buff
     constexpr size_t kBlocks = 32 * 4;
     checkRefused(fileOf(rules, std::vector<uint16_t>(3 * kBlocks, 0xff00), kBlocks));
 }
-
-namespace {
-
-// Returns values in OpenEXR's Huffman coding: the first and the last symbol, and bits as digits, with spaces.
-Bytes huffmanOf(uint32_t first, uint32_t last, std::string code, std::string values) {
-    std::erase(code, ' ');
-    std::erase(values, ' ');
-    const uint32_t numbers[] = {first, last, 0, uint32_t(values.size()), 0};
-    Bytes packed(sizeof numbers);
-    std::memcpy(packed.data(), numbers, sizeof numbers);
-    for (const std::string& bits : {code, values})
-        for (size_t i = 0; i < bits.size(); i += 8)
-            packed.push_back(std::byte(std::stoi((bits.substr(i, 8) + "0000000").substr(0, 8), nullptr, 2)));
-    return packed;
-}
-
-// Returns the values, or nothing unless there are `count`.
-std::vector<uint16_t> decoded(const Bytes& packed, uint64_t count) {
-    std::vector<uint16_t> values;
-    const bool isWhole = decodeExrHuffman(packed, count, [&](uint16_t value) { values.push_back(value); });
-    return isWhole ? values : std::vector<uint16_t>();
-}
-
-} // namespace
 
 TEST_CASE("image file: OpenEXR's Huffman coding gives its values, or is refused") {
     // Codes of 1, 2 and 2 bits for the symbols 5, 6 and 7: 1, 00 and 01. The last one repeats, 3 times here.
@@ -234,14 +254,28 @@ TEST_CASE("image file: OpenEXR's Huffman coding gives its values, or is refused"
     const std::vector<uint16_t> none;
     CHECK(decoded(huffmanOf(5, 7, code, values), 4) == none);
     CHECK(decoded(huffmanOf(5, 7, code, values), 6) == none);
-    CHECK(decoded(huffmanOf(5, 7, code, "01 00000011"), 3) == none);            // nothing to repeat
-    CHECK(decoded(huffmanOf(5, 7, code, "1 01 000"), 1) == none);               // repeated how often?
-    CHECK(decoded(huffmanOf(5, 7, code, "1 0"), 2) == none);                    // half a code
-    CHECK(decoded(huffmanOf(5, 7, "000001 000010 000000", values), 5) == none); // 01 is no code
+    CHECK(decoded(huffmanOf(5, 7, code, "01 00000011"), 3) == none);         // nothing to repeat
+    CHECK(decoded(huffmanOf(5, 7, code, "1 01 000"), 1) == none);            // repeated how often?
+    CHECK(decoded(huffmanOf(5, 7, code, "1 0"), 2) == none);                 // half a code
+    CHECK(decoded(huffmanOf(5, 7, code, "1 01 00000000 00"), 2) == none);    // repeated 0 times
+    CHECK(decoded(huffmanOf(5, 7, "000001 000010 000000", "1"), 1) == none); // 01 is no code
+    CHECK(decoded(huffmanOf(5, 6, "000010 000010", "00"), 1) == none);       // nor are 10 and 11
+    CHECK(decoded(huffmanOf(5, 8, "000001 000010 000010 000010", "1 01 01"), 3) == none); // 01 is two
+    CHECK(decoded(huffmanOf(5, 8, "000001 000001 000001 000001", "1 1 1"), 3) == none);   // 1 is several
+    CHECK(decoded(huffmanOf(5, 7, code, "1"), 1) == none);                                // 6 does not occur
     // Symbols without a code that go on beyond the last symbol.
-    CHECK(decoded(huffmanOf(5, 7, "000001 111100", "0"), 1) == none);
-    CHECK(decoded(huffmanOf(5, 7, "000001 111111", "0"), 1) == none);
-    CHECK(decoded(huffmanOf(5, 7, "000001 111111", ""), 0) == none); // how many more?
+    CHECK(decoded(huffmanOf(5, 8, "000001 000001 111100", "0"), 1) == none);
+    CHECK(decoded(huffmanOf(5, 8, "000001 000001 111111 00000000", "0"), 1) == none);
+    CHECK(decoded(huffmanOf(5, 8, "000001 000001 111111", ""), 0) == none); // how many more?
+    // Codes of 1, 2, 3 bits and so on, the last one twice; 52 is the longest that both decoders read alike.
+    const auto ladder = [](int longest) {
+        std::string lengths;
+        for (int i = 1; i <= longest + 1; i++)
+            lengths += std::bitset<6>(uint64_t(std::min(i, longest))).to_string();
+        return huffmanOf(0, uint32_t(longest), lengths, std::string(64, '1'));
+    };
+    CHECK(decoded(ladder(52), 64) == std::vector<uint16_t>(64, 0));
+    CHECK(decoded(ladder(53), 64) == none);
     // All values of 16 bits and one that repeats are as many symbols as there are.
     std::string sparse = "000001"; // of the symbol 4; 65,531 have none
     for (int i = 0; i < 251; i++) sparse += "111111 11111111";
@@ -251,6 +285,42 @@ TEST_CASE("image file: OpenEXR's Huffman coding gives its values, or is refused"
     const Bytes whole = huffmanOf(5, 7, code, values);
     for (size_t size = 0; size < whole.size(); size++)
         CHECK(decoded(Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)), 5) == none);
+}
+
+// The library takes seconds for a table of many codes before it finds that values lack.
+TEST_CASE("image file: a PIZ chunk of more codes than values is refused") {
+    const Bytes file = written(headerOf(20, 2, Imf::PIZ_COMPRESSION), {{"Y", Imf::FLOAT}});
+    const auto chunkOf = [&](const Bytes& values) {
+        std::string chunk("\xff\x1f\0\0", 4); // no bit map: all values are zero
+        const auto size = int32_t(values.size());
+        chunk.append(reinterpret_cast<const char*>(&size), sizeof size);
+        chunk.append(reinterpret_cast<const char*>(values.data()), values.size());
+        return withChunk(file, chunk);
+    };
+    // 80 values: a zero, and 79 times again.
+    std::string of16, of32;
+    for (int i = 0; i < 16; i++) of16 += "000100";
+    for (int i = 0; i < 32; i++) of32 += "000101";
+    const Bytes fewCodes = chunkOf(huffmanOf(0, 15, of16, "0000 1111 01001111"));
+    CHECK(decodeImage(fewCodes, "zeros.exr").image.at(19, 1).x == 0);
+    checkRefused(chunkOf(huffmanOf(0, 31, of32, "00000 11111 01001111")));
+    for (const size_t size : {0, 3, 7}) checkRefused(withChunk(file, std::string(size, '\0')));
+}
+
+TEST_CASE("image file: OpenEXR tiles that overlap are refused") {
+    Imf::Header header = headerOf(20, 4, Imf::NO_COMPRESSION);
+    header.setTileDescription(Imf::TileDescription(16, 4));
+    Bytes file = written(header, {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF}});
+    CHECK(decodeImage(file, "tiles.exr").image.width == 20);
+    const size_t table = checkExrHeader(file, "file");
+    std::array<uint64_t, 2> tiles;
+    std::memcpy(tiles.data(), &file[table], sizeof tiles);
+    // The second tile, which is smaller, among the pixels of the first.
+    std::copy(file.begin() + std::ptrdiff_t(tiles[1]), file.end(),
+              file.begin() + std::ptrdiff_t(tiles[0]) + 40);
+    tiles[1] = tiles[0] + 40;
+    std::memcpy(&file[table], tiles.data(), sizeof tiles);
+    CHECK_THROWS_WITH_AS(decodeImage(file, "tiles.exr"), doctest::Contains("tiles overlap"), Error);
 }
 
 } // namespace relume
