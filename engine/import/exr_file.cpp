@@ -4,6 +4,7 @@
 #include "engine/import/exr_check.h"
 #include "engine/import/image_codecs.h"
 
+#include <OpenEXR/IexErrnoExc.h>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
@@ -218,7 +219,7 @@ ImageFile decodeExr(std::span<const std::byte> bytes, const std::string& name) t
     throw Error(fmt::format("{}: damaged OpenEXR file: {}; get the file again", name, failure.what()));
 }
 
-std::vector<std::byte> encodeExr(const Image& image) {
+std::vector<std::byte> encodeExr(const Image& image) try {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer source;
@@ -235,6 +236,8 @@ std::vector<std::byte> encodeExr(const Image& image) {
         file.writePixels(image.height);
     }
     return std::move(writer.bytes);
+} catch (const Iex::ErrnoExc&) { // what the library says of its own streams in memory when one cannot grow
+    throw std::bad_alloc();
 }
 
 } // namespace relume

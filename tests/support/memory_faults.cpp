@@ -4,9 +4,12 @@
 //                            own code, not in its libraries'; 0: none. stderr says that it fails, and in the
 //                            end how many there were
 // RELUME_FAULT_MEMORY_BYTES  counts allocations of at least so many bytes alone
+// RELUME_FAULT_MEMORY_PLACES if 1, of allocations that the same stack of calls led to only the first counts,
+//                            and a driver's not at all
 #include "tests/support/faults.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
@@ -44,14 +47,33 @@ Range programRange() {
     return range;
 }
 
+// The addresses that the calls which led to an allocation return to, the innermost first; of deep stacks 64.
+struct CallStack {
+    CallStack() : count(size_t(backtrace(frames, int(std::size(frames))))) {}
+
+    void* frames[64];
+    size_t count;
+};
+
+// Returns whether a stack is new in this process, for up to 65,536 of them. They are told apart by hashes.
+bool isNew(const CallStack& stack) {
+    static std::array<std::atomic<uint64_t>, 1 << 16> seen{};
+    uint64_t hash = 14695981039346656037u; // FNV-1a
+    for (size_t i = 0; i < stack.count; i++)
+        hash = (hash ^ reinterpret_cast<uintptr_t>(stack.frames[i])) * 1099511628211u;
+    for (size_t place = hash % seen.size();; place = (place + 1) % seen.size()) {
+        uint64_t found = 0;
+        if (seen[place].compare_exchange_strong(found, hash)) return true;
+        if (found == hash) return false;
+    }
+}
+
 // Returns whether it is a driver that allocates, by a function of the standard library's that the program
 // has, too.
-bool isCalledByDriver() {
-    void* frames[64];
-    const int count = backtrace(frames, int(std::size(frames)));
-    for (int i = 0; i < count; i++) {
+bool isDrivers(const CallStack& stack) {
+    for (size_t i = 0; i < stack.count; i++) {
         Dl_info info{};
-        if (!dladdr(frames[i], &info) || !info.dli_fname) continue;
+        if (!dladdr(stack.frames[i], &info) || !info.dli_fname) continue;
         for (const char* library : {"/libvulkan", "/libVkLayer", "/libLLVM"})
             if (std::strstr(info.dli_fname, library)) return true;
     }
@@ -66,7 +88,13 @@ bool fails(size_t bytes, const void* caller) {
     static const long chosen = number("RELUME_FAULT_MEMORY_CALL");
     const auto address = reinterpret_cast<uintptr_t>(caller);
     if (!isCounted || bytes < least || address < program.first || address >= program.end) return false;
-    if (++gAllocations != chosen || isCalledByDriver()) return false;
+    static const bool countsPlaces = number("RELUME_FAULT_MEMORY_PLACES") != 0;
+    if (countsPlaces) {
+        const CallStack stack;
+        if (!isNew(stack) || isDrivers(stack) || ++gAllocations != chosen) return false;
+    } else if (++gAllocations != chosen || isDrivers(CallStack())) {
+        return false;
+    }
     std::fprintf(stderr, "faults: an allocation of %zu bytes fails\n", bytes);
     return true;
 }

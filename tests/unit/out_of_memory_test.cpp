@@ -76,7 +76,7 @@ namespace {
 struct Reading {
     const char* name;
     std::function<void()> read;
-    long allocations = 1 << 20; // of which each fails
+    bool isLeaky = false; // the library itself loses memory
 };
 
 std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
@@ -88,11 +88,12 @@ std::vector<Reading> readings() {
                              ply = samplePly(makeSphere(0), PlySample::LittleEndian);
     static const Texture texture{2, 3, {1, 2, 3, 4, 5, 0xff000000}, true};
     static const std::string png = samplePng(texture), jpeg = sampleJpeg(texture);
-    static const Bytes exr = [] {
-        Image image(4, 3);
-        image.pixels.assign(12, vec4(1));
-        return encodeExr(image);
+    static const Image image = [] {
+        Image ones(4, 3);
+        ones.pixels.assign(12, vec4(1));
+        return ones;
     }();
+    static const Bytes exr = encodeExr(image);
     static const std::string radiance =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + std::string(8, '\x42');
     static const CheckpointSample checkpoint(TransportLayout::Bases);
@@ -118,15 +119,15 @@ std::vector<Reading> readings() {
                            "a.png");
              }},
             {"JPEG", [] { decodeTexture(bytesOf(jpeg), "a.jpg", true); }},
-            // The library itself leaks attributes of a header when memory runs out among them.
-            {"OpenEXR", [] { decodeImage(exr, "a.exr"); }, 2},
+            {"OpenEXR", [] { decodeImage(exr, "a.exr"); }, true},
+            {"OpenEXR, written", [] { encodeExr(image); }, true},
             {"Radiance", [] { decodeImage(bytesOf(radiance), "a.hdr"); }}};
 }
 
 // Reads until nothing fails; gives how many allocations failed before, one in each reading.
 size_t failEach(const Reading& reading) {
     reading.read(); // what is made once is not the reader's to free
-    for (long count = 0; count < reading.allocations; count++) {
+    for (long count = 0;; count++) {
         const long before = blocksHeld;
         hasFailed = false;
         bool isSaid = false;
@@ -142,9 +143,8 @@ size_t failEach(const Reading& reading) {
         CAPTURE(count);
         if (!hasFailed) return size_t(count);
         CHECK(isSaid);
-        REQUIRE_EQ(after, before);
+        if (!reading.isLeaky) REQUIRE_EQ(after, before);
     }
-    return size_t(reading.allocations);
 }
 
 } // namespace
