@@ -27,7 +27,7 @@ void checkExrChunks(std::span<const std::byte> bytes, size_t headerBytes, const 
 bool isDwaOf(std::span<const std::byte> packed, const Imf::ChannelList& channels, const Imath::Box2i& box);
 
 // Decodes values in OpenEXR's Huffman coding, which `take` gets one by one. Returns whether there are
-// `count`.
+// `count`, in a code that the library reads as this does, and soon.
 bool decodeExrHuffman(std::span<const std::byte> packed, uint64_t count,
                       const std::function<void(uint16_t)>& take);
 

@@ -43,7 +43,7 @@ class BitReader {
 // one in the order of their symbols, and shorter codes are above longer ones.
 class CanonicalCode {
   public:
-    static constexpr size_t kLongest = 52; // of which double precision, in the library, has all
+    static constexpr size_t kLongest = 52; // bits, which the library's double precision holds
 
     void add(uint32_t symbol, size_t length) {
         mSymbols[length].push_back(symbol);
@@ -120,8 +120,8 @@ bool decodeExrHuffman(Bytes packed, uint64_t count, const std::function<void(uin
     const Bytes rest = packed.subspan(sizeof numbers);
     BitReader codeReader(rest, 8 * rest.size());
     const std::optional<CanonicalCode> code = readCode(codeReader, first, last);
-    // All symbols occur, but the one that repeats; for more of them the library takes a time that is
-    // quadratic.
+    // Every symbol with a code occurs, but for the one that repeats. For many that do not, the library would
+    // take quadratic time.
     if (!code || code->count() > size_t(valueBits) + 1) return false;
     BitReader bits(rest.subspan(codeReader.bytesRead()), valueBits);
     uint64_t taken = 0;
