@@ -12,6 +12,20 @@
 
 namespace relume::test {
 
+// Writes channels in tiles where the header describes them, otherwise in lines.
+inline void writePlanes(const std::filesystem::path& path, const Imf::Header& header,
+                        const Imf::FrameBuffer& source) {
+    if (header.hasTileDescription()) {
+        Imf::TiledOutputFile file(path.c_str(), header);
+        file.setFrameBuffer(source);
+        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    } else {
+        Imf::OutputFile file(path.c_str(), header);
+        file.setFrameBuffer(source);
+        file.writePixels(header.dataWindow().size().y + 1);
+    }
+}
+
 // Writes half-float channels, each the column number plus ten times the row plus its place in `names`.
 inline void writeHalves(const std::filesystem::path& path, Imf::Header header,
                         const std::vector<const char*>& names) {
@@ -27,15 +41,7 @@ inline void writeHalves(const std::filesystem::path& path, Imf::Header header,
         source.insert(names[n], Imf::Slice::Make(Imf::HALF, planes[n].data(), window, sizeof(half),
                                                  sizeof(half) * width));
     }
-    if (header.hasTileDescription()) {
-        Imf::TiledOutputFile file(path.c_str(), header);
-        file.setFrameBuffer(source);
-        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
-    } else {
-        Imf::OutputFile file(path.c_str(), header);
-        file.setFrameBuffer(source);
-        file.writePixels(int(height));
-    }
+    writePlanes(path, header, source);
 }
 
 } // namespace relume::test

@@ -4,14 +4,9 @@
 #include "engine/base/file.h"
 #include "engine/import/exr_check.h"
 #include "engine/import/image_codecs.h"
+#include "tests/support/exr_sample.h"
 #include "tests/support/temporary_folder.h"
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfTileDescription.h>
-#include <OpenEXR/ImfTiledOutputFile.h>
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -54,15 +49,7 @@ Bytes written(Imf::Header header, const Channels& channels) {
         const size_t bytes = type == Imf::HALF ? 2 : 4;
         source.insert(name, Imf::Slice::Make(type, base, window, bytes, bytes * width));
     }
-    if (header.hasTileDescription()) {
-        Imf::TiledOutputFile file(path.c_str(), header);
-        file.setFrameBuffer(source);
-        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
-    } else {
-        Imf::OutputFile file(path.c_str(), header);
-        file.setFrameBuffer(source);
-        file.writePixels(window.size().y + 1);
-    }
+    test::writePlanes(path, header, source);
     return readFile(path);
 }
 
