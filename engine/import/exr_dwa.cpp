@@ -78,8 +78,8 @@ class BlockCounter {
     int mFilled = 0;
 };
 
-// Returns whether there are `count` values, and they fill `blocks` blocks, or more: what is no number is
-// written as a value, and read as zeros.
+// Returns whether there are `count` values, and they fill at least `blocks` blocks: a NaN is written as a
+// value, and read as zeros.
 bool fillBlocks(Bytes packed, uint64_t compression, uint64_t count, uint64_t blocks) {
     enum { Huffman, Deflate };
     BlockCounter counter;

@@ -70,7 +70,7 @@ bool isNew(const CallStack& stack) {
 
 // Returns whether it is a driver that allocates, by a function of the standard library's that the program
 // has, too.
-bool isDrivers(const CallStack& stack) {
+bool isByDriver(const CallStack& stack) {
     for (size_t i = 0; i < stack.count; i++) {
         Dl_info info{};
         if (!dladdr(stack.frames[i], &info) || !info.dli_fname) continue;
@@ -91,8 +91,8 @@ bool fails(size_t bytes, const void* caller) {
     static const bool countsPlaces = number("RELUME_FAULT_MEMORY_PLACES") != 0;
     if (countsPlaces) {
         const CallStack stack;
-        if (!isNew(stack) || isDrivers(stack) || ++gAllocations != chosen) return false;
-    } else if (++gAllocations != chosen || isDrivers(CallStack())) {
+        if (!isNew(stack) || isByDriver(stack) || ++gAllocations != chosen) return false;
+    } else if (++gAllocations != chosen || isByDriver(CallStack())) {
         return false;
     }
     std::fprintf(stderr, "faults: an allocation of %zu bytes fails\n", bytes);
