@@ -52,8 +52,8 @@ void run(const VerifyArguments& arguments) {
                            {"transport_error", found.transportError},
                            {"bounce_error", asset.bounces > 0 ? Json(found.bounceError) : Json()},
                            {"layout_error", found.layoutError},
-                           {"wavelet_error", found.waveletError},
-                           {"quantization_error", found.quantizationError},
+                           {"wavelet_error", found.rows ? Json(found.rows->wavelet) : Json()},
+                           {"quantization_error", found.rows ? Json(found.rows->quantization) : Json()},
                            {"brdf_error", found.brdfError},
                            {"relight_bits", found.relightBits},
                            {"total_error", found.totalError}};
@@ -72,10 +72,10 @@ void run(const VerifyArguments& arguments) {
                        found.bounceError);
         fmt::print("layout error         {:.4f}    all that is lost by how transport is kept\n",
                    found.layoutError);
-        if (found.waveletError > 0 || found.quantizationError > 0) { // of rows
-            fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n", found.waveletError,
-                       asset.coefficients);
-            fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.quantizationError);
+        if (found.rows) {
+            fmt::print("wavelet error        {:.4f}    lost by keeping {} coefficients\n",
+                       found.rows->wavelet, asset.coefficients);
+            fmt::print("quantization error   {:.5f}   of the coefficients kept\n", found.rows->quantization);
         }
         fmt::print("BRDF error           {:.4f}    cos-weighted RMS of the terms\n", found.brdfError);
         fmt::print("relight bits         {}         vertices that differ between device and CPU\n",

@@ -5,7 +5,15 @@
 #include "engine/transport/asset.h"
 #include "engine/vk/device.h"
 
+#include <optional>
+
 namespace relume {
+
+// Relative errors of rows, of all that were sampled, as below.
+struct RowErrors {
+    double wavelet = 0;      // lost by keeping N
+    double quantization = 0; // against the coefficients that they keep
+};
 
 // Relative errors are sqrt(Σ|a - b|² / Σ|b|²) over all sampled vertices and terms, where b is the CPU's.
 struct Verification {
@@ -13,9 +21,8 @@ struct Verification {
     double visibilityMismatch = 0; // share of texels above the horizon: device against Embree
     double transportError = 0;     // all coefficients: device against CPU twin, given the device's visibility
     double layoutError = 0;        // stored transport against all coefficients
-    double waveletError = 0;       // of rows: lost by keeping N
-    double quantizationError = 0;  // of rows: against the coefficients that they keep
     double bounceError = 0;        // of bounced rows, if light bounces: against the twin of the last bounce
+    std::optional<RowErrors> rows; // unless all sampled sets have bases
     double brdfError = 0;     // cosine-weighted relative RMS of the K terms, mean over samples' materials
     uint64_t relightBits = 0; // number of vertices, of all, whose K-tuple differs between device and CPU
     double totalError = 0;    // stored transport against uncompressed transport with Embree's visibility
