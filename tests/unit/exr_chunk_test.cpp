@@ -21,7 +21,14 @@ namespace relume {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-using Channels = std::vector<std::pair<const char*, Imf::PixelType>>;
+
+struct NamedChannel {
+    const char* name;
+    Imf::PixelType type;
+    int sampling = 1; // a value for so many columns and rows
+};
+
+using Channels = std::vector<NamedChannel>;
 
 constexpr size_t kSizesBytes = 11 * sizeof(uint64_t);
 
@@ -41,13 +48,13 @@ Bytes written(Imf::Header header, const Channels& channels) {
     }
     const std::vector<half> halves(floats.begin(), floats.end());
     Imf::FrameBuffer source;
-    for (const auto& [name, type] : channels) {
-        header.channels().insert(name, Imf::Channel(type));
+    for (const auto& [name, type, sampling] : channels) {
+        header.channels().insert(name, Imf::Channel(type, sampling, sampling));
         const void* const base = type == Imf::HALF    ? static_cast<const void*>(halves.data())
                                  : type == Imf::FLOAT ? static_cast<const void*>(floats.data())
                                                       : static_cast<const void*>(numbers.data());
         const size_t bytes = type == Imf::HALF ? 2 : 4;
-        source.insert(name, Imf::Slice::Make(type, base, window, bytes, bytes * width));
+        source.insert(name, Imf::Slice::Make(type, base, window, bytes, bytes * width, sampling, sampling));
     }
     test::writePlanes(path, header, source);
     return readFile(path);
@@ -142,18 +149,22 @@ TEST_CASE("image file: DWAA and DWAB are read with all channels that the library
                           {"A", Imf::HALF},      {"Z", Imf::FLOAT},      {"id", Imf::UINT},
                           {"left.R", Imf::HALF}, {"left.A", Imf::FLOAT}, {"left.RY", Imf::HALF},
                           {"mask.A", Imf::UINT}, {"Y.", Imf::HALF}},
-                   luminance = {{"Y", Imf::HALF}, {"A", Imf::FLOAT}};
+                   luminance = {{"Y", Imf::HALF}, {"A", Imf::FLOAT}},
+                   subsampled = {{"R", Imf::HALF},           {"G", Imf::HALF},         {"B", Imf::HALF},
+                                 {"left.BY", Imf::FLOAT, 2}, {"left.A", Imf::HALF, 5}, {"Z", Imf::UINT, 10}};
     const Image whole =
         decodeImage(written(headerOf(70, 300, Imf::NO_COMPRESSION), colors), "whole.exr").image;
-    for (const auto compression : {Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION})
-        for (const bool isTiled : {false, true})
-            for (const Channels& channels : {colors, all, luminance}) {
-                Imf::Header header = headerOf(70, 300, compression);
-                if (isTiled) header.setTileDescription(Imf::TileDescription(32, 44));
-                const Image image = decodeImage(written(header, channels), "lossy.exr").image;
-                CHECK(image.at(0, 0).x == doctest::Approx(whole.at(0, 0).x).epsilon(0.05));
-                CHECK(image.at(69, 299).y == doctest::Approx(whole.at(69, 299).y).epsilon(0.05));
-            }
+    const auto check = [&](const Imf::Header& header, const Channels& channels) {
+        const Image image = decodeImage(written(header, channels), "lossy.exr").image;
+        CHECK(image.at(0, 0).x == doctest::Approx(whole.at(0, 0).x).epsilon(0.05));
+        CHECK(image.at(69, 299).y == doctest::Approx(whole.at(69, 299).y).epsilon(0.05));
+    };
+    for (const auto compression : {Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+        Imf::Header header = headerOf(70, 300, compression);
+        for (const Channels& channels : {colors, all, luminance, subsampled}) check(header, channels);
+        header.setTileDescription(Imf::TileDescription(32, 44));
+        for (const Channels& channels : {colors, all, luminance}) check(header, channels);
+    }
 }
 
 TEST_CASE("image file: a DWAA chunk of other sizes or rules than its channels need is refused") {
