@@ -2,6 +2,7 @@
 #include "engine/import/image_file.h"
 #include "engine/import/texture_file.h"
 #include "engine/scene/texture.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/run_relume.h"
 
 #include <algorithm>
@@ -112,7 +113,7 @@ TEST_CASE("cli: a picture has no background, or an even one") {
              {"-o x.png --exposure bright", "--exposure"},
              {"-o x.png --exposure 101", "--exposure"}})
         for (const char* command : {"render", "reference"}) {
-            CAPTURE(options);
+            CAPTURE_BINDING(options);
             const Outcome outcome = runRelume(bakes(), std::string(command) + " a.relume " + options);
             CHECK_EQ(outcome.exitCode, 2);
             CHECK_MESSAGE(says(outcome.err, part), outcome.err);

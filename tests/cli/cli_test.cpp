@@ -1,4 +1,5 @@
 // The program as its users meet it: exit codes, streams, files.
+#include "tests/support/capture_binding.h"
 #include "tests/support/run_relume.h"
 #include "tests/support/validation.h"
 
@@ -91,7 +92,7 @@ TEST_CASE("cli: usage errors are 2, and name the option and what it takes") {
              {"reference x.relume -o x.png --samples 16", "--samples"},
              {"render x.relume -o x.png --timings x.txt", ".json (for trace viewers) or .csv"},
              {"reference x.relume -o x.exr --rays 3", "--rays"}}) {
-        CAPTURE(arguments);
+        CAPTURE_BINDING(arguments);
         const Outcome outcome = runRelume(folder, arguments);
         CHECK_EQ(outcome.exitCode, 2);
         CHECK(says(outcome.err, part));
@@ -339,7 +340,7 @@ TEST_CASE("cli: bench bake prints every path's figures as JSON") {
     for (const auto& [path, throughput] :
          {std::pair("cpu", "rays_per_second"), std::pair("raster", "triangles_per_second"),
           std::pair("traced", "rays_per_second")}) {
-        CAPTURE(path);
+        CAPTURE_BINDING(path);
         const auto& figures = found["paths"][path];
         CHECK_GT(figures["ms_per_vertex"], 0);
         CHECK_GT(figures["ratio_to_cpu"], 0);

@@ -1,4 +1,5 @@
 // A bake that is killed, stopped, starved of disk, memory or threads: it goes on, to the same bytes.
+#include "tests/support/capture_binding.h"
 #include "tests/support/run_relume.h"
 
 #include <chrono>
@@ -235,7 +236,7 @@ TEST_CASE("durable bake: batches, threads and a device out of memory do not show
                                         "RELUME_FAULT_VULKAN_FUNCTION=vkQueueSubmit2 "
                                         "RELUME_FAULT_VULKAN_CALL=9",
               "instead of 64"}}) {
-        CAPTURE(arguments);
+        CAPTURE_BINDING(arguments);
         const BakeFolder folder;
         const Outcome bake = runRelume(folder, kTriangleBake + arguments, environment);
         CAPTURE(bake.err);

@@ -1,4 +1,5 @@
 // Bakes that refine their meshes: by themselves, in shards, previewed, rebaked.
+#include "tests/support/capture_binding.h"
 #include "tests/support/run_relume.h"
 
 #include <doctest/doctest.h>
@@ -76,7 +77,7 @@ TEST_CASE("refine: a ground whose tessellation is given starts with it") {
     CHECK_EQ(folder.info("option.relume")["refinement"]["start_vertices"], 3 + 6 * 6);
     for (const auto& [ground, vertices] :
          {std::pair(R"({"tessellation": 6})", 3 + 7 * 7), std::pair("true", 292)}) {
-        CAPTURE(ground);
+        CAPTURE_BINDING(ground);
         folder.write("scene.json", std::string(R"({"parts": [{"mesh": "mesh.obj", "material": "clay"}], )") +
                                        R"("ground": )" + ground + "}");
         REQUIRE_EQ(folder.bake("-o scene.relume", "scene.json").exitCode, 0);

@@ -1,5 +1,6 @@
 // Surroundings that no program chooses: others that bake or draw at the same time, folders that cannot be
 // written, and names of files that are any bytes.
+#include "tests/support/capture_binding.h"
 #include "tests/support/run_relume.h"
 
 #include <array>
@@ -181,8 +182,8 @@ TEST_CASE("surroundings: a file that cannot be opened or read to its end is an e
                                                             {"room.exr", draw + "-e room.exr"},
                                                             {"lamp.json", draw + "--light lamp.json"}};
     for (const auto& [file, command] : readings) {
-        CAPTURE(command);
-        CAPTURE(file);
+        CAPTURE_BINDING(command);
+        CAPTURE_BINDING(file);
         const std::string output = command.starts_with("bake") ? "out.relume" : "out.png";
         int call = 1;
         for (;; call++) {

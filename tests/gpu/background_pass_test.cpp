@@ -1,6 +1,7 @@
 // What is seen behind the object, held against its CPU twin.
 #include "engine/render/background_pass.h"
 #include "engine/vk/upload.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/test_device.h"
 
 #include <cmath>
@@ -73,7 +74,7 @@ TEST_CASE("background pass: draws what its CPU twin draws") {
     std::vector<Image> seen;
     for (const auto& [name, light] : lights())
         for (const float deviation : {0.0f, 0.15f}) {
-            CAPTURE(name);
+            CAPTURE_BINDING(name);
             CAPTURE(deviation);
             const vk::Image source = upload(device, view);
             pass.setLight(light, deviation);

@@ -6,6 +6,7 @@
 #include "precompute/bake/bake.h"
 #include "precompute/bake/preview.h"
 #include "precompute/twins/transport_twin.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_device.h"
 
@@ -171,7 +172,7 @@ TEST_CASE("preview: a bake that was stopped goes on from it, with previews or wi
     const TestDevice device;
     for (const auto& [layout, again] :
          {std::pair(TransportLayout::Rows, true), std::pair(TransportLayout::Bases, false)}) {
-        CAPTURE(layoutName(layout));
+        CAPTURE_BINDING(layoutName(layout));
         const BakeOptions options = smallOptions(layout);
         const std::vector<std::byte> whole = encodeAsset(bake(device, knotOnGround(), options));
         const TemporaryFolder folder;

@@ -25,8 +25,7 @@ class HostView {
   public:
     HostView(const vk::Device& device, const Asset& asset, const LightVector& light,
              const Appearance& appearance)
-        : mAsset(asset), mLight(light), mAppearance(appearance),
-          mEdgeWeight(roundsFinely(device) ? 0.02f : 0.16f),
+        : mAsset(asset), mAppearance(appearance), mEdgeWeight(roundsFinely(device) ? 0.02f : 0.16f),
           mTracer(std::array{&asset.parts[0].mesh, &asset.parts[1].mesh}) {
         for (size_t i = 0; i < asset.parts.size(); i++)
             mTuples.push_back(relight(rowsOf(setOf(i).transport), light));
@@ -181,7 +180,6 @@ class HostView {
     }
 
     const Asset& mAsset;
-    const LightVector& mLight;
     const Appearance& mAppearance;
     float mEdgeWeight; // barycentric weight up to which a pixel is too near an edge to be steady
     RayTracer mTracer;

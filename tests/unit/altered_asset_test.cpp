@@ -7,6 +7,7 @@
 #include "tests/support/failure.h"
 #include "tests/support/old_sample.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <functional>
 
@@ -137,12 +138,12 @@ TEST_CASE("asset file: transport in clusters, and in layouts to come, is refused
             return out.take();
         };
         const std::vector<std::byte> rows = textOf("rows"), name = textOf(layout);
-        const auto found = std::ranges::search(meta, rows);
-        REQUIRE(!found.empty());
+        const auto found = std::search(meta.begin(), meta.end(), rows.begin(), rows.end());
+        REQUIRE(found != meta.end());
         std::vector<std::byte>& raw = chunks[0].raw;
-        raw.assign(meta.begin(), found.begin());
+        raw.assign(meta.begin(), found);
         raw.insert(raw.end(), name.begin(), name.end());
-        raw.insert(raw.end(), found.end(), meta.end());
+        raw.insert(raw.end(), found + std::ptrdiff_t(rows.size()), meta.end());
         return fileOf(chunks);
     };
     const auto refusal = [](const auto& read) -> std::string {
@@ -240,7 +241,8 @@ TEST_CASE("asset file: META of the version before must have every member, of its
         return failureOf([&] { updateAsset(file, "old"); });
     };
     const OrderedJson whole = OrderedJson::parse(oldMeta(sampleAsset(), entries));
-    for (const auto& [member, value] : whole.items()) {
+    for (const auto& item : whole.items()) {
+        const std::string& member = item.key();
         CAPTURE(member);
         CHECK(says(refusal([&](OrderedJson& meta) { meta.erase(member); }), "expected a member \"" + member));
         for (const OrderedJson& other : {OrderedJson("text"), OrderedJson::array({1})})
@@ -324,9 +326,9 @@ TEST_CASE("asset file: META of any other length or with unknown words is refused
     const auto replaces = [&](const std::string& from, const std::string& to) {
         return refusal([&](std::vector<std::byte>& raw) {
             const auto bytes = std::as_bytes(std::span(from));
-            const auto found = std::ranges::search(raw, bytes);
-            REQUIRE_FALSE(found.empty());
-            std::ranges::copy(std::as_bytes(std::span(to)), found.begin());
+            const auto found = std::search(raw.begin(), raw.end(), bytes.begin(), bytes.end());
+            REQUIRE(found != raw.end());
+            std::ranges::copy(std::as_bytes(std::span(to)), found);
         });
     };
     CHECK(replaces("polar-sine", "mercator!!").find("mapping") != std::string::npos);

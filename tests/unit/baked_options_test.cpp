@@ -5,6 +5,7 @@
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/material_list.h"
 #include "tests/support/asset_sample.h"
+#include "tests/support/capture_binding.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -119,8 +120,8 @@ TEST_CASE("baked options: others are refused") {
                                                              {"refinement", refined(0.01, 0.01, 0.5)},
                                                              {"refinement", refined(0.01, 0.01, 1)},
                                                              {"more", 1}}) {
-        CAPTURE(key);
-        CAPTURE(value.dump());
+        CAPTURE_BINDING(key);
+        CAPTURE_BINDING(value.dump());
         CHECK_THROWS_AS(optionsOf(change(key, value)), Error);
     }
     Asset asset = assetOf({});

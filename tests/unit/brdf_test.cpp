@@ -2,6 +2,7 @@
 #include "engine/base/error.h"
 #include "precompute/brdf/brdf.h"
 #include "precompute/brdf/model_list.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/failure.h"
 
 #include <array>
@@ -205,7 +206,7 @@ TEST_CASE("brdf: the base color's part is at most all, and alone scales with the
         const vec3 a = direction(std::acos(1 - uniform(random)), 2 * kPi * uniform(random));
         const vec3 b = direction(std::acos(1 - uniform(random)), 2 * kPi * uniform(random));
         for (const auto& [material, halved] : pairs) {
-            CAPTURE(material);
+            CAPTURE_BINDING(material);
             const auto whole = makeBrdf(material), half = makeBrdf(halved);
             const vec3 base = whole->evaluateBase(a, b), rest = whole->evaluate(a, b) - base;
             const vec3 baseOfHalf = half->evaluateBase(a, b), restOfHalf = half->evaluate(a, b) - baseOfHalf;

@@ -2,6 +2,7 @@
 #include "apps/relume/command_files.h"
 
 #include "engine/base/error.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
@@ -68,7 +69,7 @@ TEST_CASE("command files: two outputs that are one file are refused, there or no
                                         {"new.txt", "here/sub/../new.txt"},
                                         {"link.txt", "in.txt"},
                                         {"sub/new.txt", "here/sub/new.txt"}}) {
-        CAPTURE(second);
+        CAPTURE_BINDING(second);
         CommandFiles files;
         files.addOutput("--output", folder.path() / first);
         CHECK_FALSE(isRefused(files, "--output"));

@@ -3,6 +3,7 @@
 
 #include "engine/base/error.h"
 #include "engine/vk/device.h"
+#include "tests/support/capture_binding.h"
 
 #include <doctest/doctest.h>
 
@@ -43,7 +44,7 @@ TEST_CASE("features: the one that is off is named") {
         {"multiDrawIndirect", &features.chain.features.multiDrawIndirect},
         {"drawIndirectFirstInstance", &features.chain.features.drawIndirectFirstInstance}};
     for (const auto& [name, feature] : needed) {
-        CAPTURE(name);
+        CAPTURE_BINDING(name);
         *feature = VK_FALSE;
         CHECK(missingFeature(created).find(name) != std::string::npos);
         *feature = VK_TRUE;

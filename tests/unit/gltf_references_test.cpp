@@ -1,5 +1,6 @@
 // Tests glTF documents that refer to what is not there.
 #include "engine/import/mesh_file.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/failure.h"
 #include "tests/support/mesh_samples.h"
 
@@ -64,7 +65,7 @@ TEST_CASE("glTF: references beyond what there is, and views that do not hold wha
             {R"({"buffer":0,"byteOffset":0,)", R"({"byteOffset":0,)", "is not valid glTF"},
             {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":0})", "expected VEC2"}}) {
         const std::string failure = fails(from, to);
-        CAPTURE(to);
+        CAPTURE_BINDING(to);
         CAPTURE(failure);
         CHECK(says(failure, said));
     }

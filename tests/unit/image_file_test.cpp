@@ -2,6 +2,7 @@
 #include "engine/base/file.h"
 #include "engine/import/exr_check.h"
 #include "engine/import/image_codecs.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/exr_sample.h"
 #include "tests/support/temporary_folder.h"
 
@@ -240,7 +241,7 @@ TEST_CASE("image file: an OpenEXR chunk that unpacks to less than its pixels is 
                                                   {Imf::DWAA_COMPRESSION, ""},
                                                   {Imf::DWAB_COMPRESSION, ""}}) {
             CAPTURE(isTiled);
-            CAPTURE(int(compression));
+            CAPTURE_BINDING(int(compression));
             Imf::Header header(20, 18);
             header.compression() = compression;
             if (isTiled) header.setTileDescription(Imf::TileDescription(16, 4));

@@ -1,6 +1,7 @@
 // Tests reading kept visibility block by block, and files that only claim to have it.
 #include "engine/base/error.h"
 #include "engine/transport/kept_visibility.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/kept_sample.h"
 #include "tests/support/temporary_folder.h"
 
@@ -67,7 +68,7 @@ TEST_CASE("kept visibility: missing, cut, padded or foreign chunks are refused")
              {"of another run", [&](auto& chunks) { lastOf(chunks).run++; }},
              {"cut", [&](auto& chunks) { lastOf(chunks).raw.pop_back(); }},
              {"padded", [&](auto& chunks) { lastOf(chunks).raw.push_back(std::byte(0)); }}}) {
-        CAPTURE(what);
+        CAPTURE_BINDING(what);
         const TemporaryFolder folder;
         const auto path = writeKept(folder, edit);
         CHECK_THROWS_AS(

@@ -1,5 +1,6 @@
 // What keys, drags and clicks do to what is looked at.
 #include "apps/viewer/controls.h"
+#include "tests/support/capture_binding.h"
 
 #include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
@@ -175,7 +176,7 @@ TEST_CASE("controls: keys") {
                                                 {GLFW_KEY_Q, Command::None},
                                                 {GLFW_KEY_Z, Command::None}};
     for (const auto& [code, command] : commands) {
-        CAPTURE(code);
+        CAPTURE_BINDING(code);
         CHECK_EQ(hand.key(code), command);
     }
     CHECK_EQ(hand.key(GLFW_KEY_F12, kControl), Command::Record);

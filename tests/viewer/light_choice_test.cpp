@@ -5,6 +5,7 @@
 #include "engine/import/image_file.h"
 #include "engine/import/light_file.h"
 #include "engine/light/sun_position.h"
+#include "tests/support/capture_binding.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
@@ -161,7 +162,7 @@ TEST_CASE("light choice: the sun is where clock and place put it") {
                                     {60, "2026-03-01"},
                                     {172, "2026-06-21"},
                                     {365, "2026-12-31"}}) {
-        CAPTURE(date);
+        CAPTURE_BINDING(date);
         const SunPosition sun = sunPosition(parseMoment(std::string(date) + "T09:30:00Z"), 48, 0);
         const SunPlace place = sunPlaceOf({.dayOfYear = day, .hour = 9.5f, .latitude = 48});
         CHECK(place.elevation == doctest::Approx(sun.elevation).epsilon(1e-5));

@@ -1,4 +1,5 @@
 // An .exr of the window has the bytes that `relume render` draws with the command that is told beside it.
+#include "tests/support/capture_binding.h"
 #include "tests/support/viewer_session.h"
 #include "tests/support/window_image.h"
 
@@ -89,8 +90,8 @@ TEST_CASE("viewer: whatever the light and the material are, `relume render` draw
     std::map<std::string, std::string> seen; // no two look the same
     for (const Look& look : looks()) {
         checkIsRendered(session, outcome.err, look.name + ".exr");
-        const auto [other, isNew] = seen.emplace(session.bytes(look.name + ".exr"), look.name);
-        CHECK_MESSAGE(isNew, look.name << " looks as " << other->second);
+        const auto added = seen.emplace(session.bytes(look.name + ".exr"), look.name);
+        CHECK_MESSAGE(added.second, look.name << " looks as " << added.first->second);
     }
     // A light file only where options do not say it.
     for (const char* name : {"plain", "blend", "terms", "rotation", "threshold"})
@@ -260,7 +261,7 @@ TEST_CASE("cli: sessions are data: keys of a look alone, and options that are gi
         {{{"tone", "sepia"}}, "\"tone\""},
     };
     for (const auto& [more, why] : refused) {
-        CAPTURE(more.dump());
+        CAPTURE_BINDING(more.dump());
         const Outcome outcome = render(more, "-o data.png");
         CHECK_EQ(outcome.exitCode, 1);
         CHECK(says(outcome.err, "data.json"));

@@ -1,6 +1,7 @@
 // Settings by name, from scripts and from the last time.
 #include "apps/viewer/settings.h"
 
+#include "tests/support/capture_binding.h"
 #include "tests/support/failure.h"
 
 #include <doctest/doctest.h>
@@ -37,7 +38,7 @@ TEST_CASE("settings: what is kept is the same the next time") {
                           {"background-blur", 2.5}, {"ground-style", "fade"}, {"samples", 8}};
     const json before = rememberedSettings(state);
     for (const auto& [name, value] : changed.items()) {
-        CAPTURE(name);
+        CAPTURE_BINDING(name);
         CHECK_NE(before.at(name), value);
         applySetting(state, name, value, nullptr);
     }
@@ -158,7 +159,8 @@ TEST_CASE("settings: say what they expected") {
     for (const auto& [name, value, words] : wrong) {
         const std::string failure = settingFailure(name, value);
         CAPTURE(failure);
-        CHECK_MESSAGE(says(failure, words), words);
+        CAPTURE_BINDING(words);
+        CHECK(says(failure, words));
     }
     SceneState state = freshState();
     CHECK_THROWS_WITH_AS(applySetting(state, "azimuth", 3, nullptr),

@@ -1,5 +1,6 @@
 // Surroundings that the viewer does not choose: calls of Vulkan that fail, folders that cannot be written,
 // and a full disk.
+#include "tests/support/capture_binding.h"
 #include "tests/support/viewer_session.h"
 
 #include <chrono>
@@ -200,7 +201,7 @@ TEST_CASE(
                                                                {".session.json", {{"key", "ctrl+S"}}}};
     int first = 0;
     for (const auto& [output, step] : outputs) {
-        CAPTURE(output);
+        CAPTURE_BINDING(output);
         first++; // each output begins with another write
         const bool isNamed = output[0] != '.';
         int call = faultStride(first);

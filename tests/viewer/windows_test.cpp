@@ -1,4 +1,5 @@
 // Windows and marks over the view, modes of inspection, the focus: what they change, and what they do not.
+#include "tests/support/capture_binding.h"
 #include "tests/support/viewer_session.h"
 #include "tests/support/window_image.h"
 
@@ -41,7 +42,7 @@ TEST_CASE("viewer: why and the light vector are asked for, and leave the view as
     REQUIRE_EQ(outcome.exitCode, 0);
     CHECK(isQuiet(outcome.err));
     for (const auto& [name, step] : asked) {
-        CAPTURE(name);
+        CAPTURE_BINDING(name);
         CHECK(session.bytes(name + ".exr") == session.bytes("nothing.exr"));
     }
     // Times and notices in the panels are never the same.
@@ -51,11 +52,11 @@ TEST_CASE("viewer: why and the light vector are asked for, and leave the view as
                                windowImage(session.path(std::string(b) + ".png")));
     };
     for (const char* name : {"why", "why-ground", "light", "help", "no-panels"}) {
-        CAPTURE(name);
+        CAPTURE_BINDING(name);
         CHECK_GT(differing(name, "nothing"), kSmallest);
     }
     for (const char* name : {"why-beside", "no-light", "no-help"}) {
-        CAPTURE(name);
+        CAPTURE_BINDING(name);
         CHECK_LT(differing(name, "nothing"), kSmallest);
     }
 }
