@@ -35,7 +35,7 @@ std::vector<GltfPart> decodeBrushed(const std::string& material, const std::stri
     glb.materials = "[" + material + "," + material + "]";
     auto [text, buffer] = glb.content();
     Json json = Json::parse(text);
-    json["nodes"] = {Json::parse(node)};
+    json["nodes"] = Json::array({Json::parse(node)});
     json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", 12 * 16}});
     json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
                                  {"componentType", 5126},

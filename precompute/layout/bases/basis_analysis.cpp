@@ -125,24 +125,24 @@ BasisAnalysis analyze(const ClusterMatrix& matrix) {
     analysis.importance = matrix.importance;
     analysis.columns = matrix.columns;
     analysis.energy = matrix.energy;
+    analysis.vectorEnergy.resize(Eigen::Index(matrix.kinds()), 0);
+    if (values.size() == 0) return analysis; // there are no rows to point to
     std::vector<KindRows> kinds;
     for (Eigen::Index kind = 0; kind < Eigen::Index(matrix.kinds()); kind++)
         kinds.push_back(rowsOfKind(matrix, kind));
-    if (values.size() > 0) {
-        const bool isWide = values.rows() < values.cols();
-        const Eigen::Index size = std::min(values.rows(), values.cols());
-        Eigen::MatrixXf gram = Eigen::MatrixXf::Zero(size, size);
-        if (isWide)
-            gram.selfadjointView<Eigen::Lower>().rankUpdate(values);
-        else
-            for (const KindRows& rows : kinds) addGram(rows, gram);
-        const LeadingEigenvectors leading =
-            leadingEigenvectors(gram, std::min(size, mostVectors(matrix.kinds())));
-        analysis.vectors = leading.vectors;
-        if (isWide)
-            analysis.vectors =
-                values.transpose() * leading.vectors * leading.values.cwiseSqrt().cwiseInverse().asDiagonal();
-    }
+    const bool isWide = values.rows() < values.cols();
+    const Eigen::Index size = std::min(values.rows(), values.cols());
+    Eigen::MatrixXf gram = Eigen::MatrixXf::Zero(size, size);
+    if (isWide)
+        gram.selfadjointView<Eigen::Lower>().rankUpdate(values);
+    else
+        for (const KindRows& rows : kinds) addGram(rows, gram);
+    const LeadingEigenvectors leading =
+        leadingEigenvectors(gram, std::min(size, mostVectors(matrix.kinds())));
+    analysis.vectors = leading.vectors;
+    if (isWide)
+        analysis.vectors =
+            values.transpose() * leading.vectors * leading.values.cwiseSqrt().cwiseInverse().asDiagonal();
     analysis.vectorEnergy.resize(Eigen::Index(matrix.kinds()), analysis.vectors.cols());
     for (size_t kind = 0; kind < kinds.size(); kind++) {
         const Eigen::MatrixXf own = analysis.vectors(kinds[kind].columns, Eigen::all);
