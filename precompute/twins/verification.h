@@ -9,7 +9,7 @@
 
 namespace relume {
 
-// Relative errors of rows, of all that were sampled, as below.
+// Relative errors of the rows that were sampled, computed as those of Verification.
 struct RowErrors {
     double wavelet = 0;      // lost by keeping N
     double quantization = 0; // against the coefficients that they keep

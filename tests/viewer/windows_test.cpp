@@ -52,11 +52,11 @@ TEST_CASE("viewer: why and the light vector are asked for, and leave the view as
                                windowImage(session.path(std::string(b) + ".png")));
     };
     for (const char* name : {"why", "why-ground", "light", "help", "no-panels"}) {
-        CAPTURE_BINDING(name);
+        CAPTURE(name);
         CHECK_GT(differing(name, "nothing"), kSmallest);
     }
     for (const char* name : {"why-beside", "no-light", "no-help"}) {
-        CAPTURE_BINDING(name);
+        CAPTURE(name);
         CHECK_LT(differing(name, "nothing"), kSmallest);
     }
 }
